@@ -1,6 +1,6 @@
 import { createRequire } from 'node:module';
 import type { Page } from '@playwright/test';
-import type { OperatorPage } from './operator-page.ts';
+import type { Grip } from './operator-page.ts';
 
 const require = createRequire(import.meta.url);
 
@@ -24,8 +24,12 @@ declare global {
   interface Window {
     IWER: { XRDevice: new (config: unknown) => EmulatedDevice; metaQuest3: unknown };
     emulatedHeadset: EmulatedDevice;
+    thawHeadset?: () => void;
   }
 }
+
+/** Without a GPU, two large eyes take longer to draw than a grip may go unread. */
+export const headsetViewport = { width: 480, height: 270 };
 
 export type Hand = 'left' | 'right';
 
@@ -63,16 +67,41 @@ export class Headset {
     ] as const);
   }
 
-  /** The right hand, which holds the grip: it grips anew where the robot waits for that, as the keys do. */
-  gripOf(operator: OperatorPage): Pick<OperatorPage, 'gripAnew'> {
+  /**
+   * Stops the headset's frames, as a hung compositor does, with the hands where they are. The page's timers go on.
+   *
+   * @returns when the page was last given a frame, ms since it loaded
+   */
+  async freeze(): Promise<number> {
+    return this.#page.evaluate(
+      () =>
+        new Promise<number>((resolve) => {
+          const request = window.requestAnimationFrame;
+          const held: FrameRequestCallback[] = [];
+          window.thawHeadset = () => {
+            window.requestAnimationFrame = request;
+            for (const callback of held) request.call(window, callback);
+          };
+          // In the frame in which it is called: the page has just read its devices for the last time.
+          request.call(window, () => {
+            window.requestAnimationFrame = (callback) => held.push(callback);
+            setTimeout(() => resolve(performance.now()));
+          });
+        }),
+    );
+  }
+
+  /** The squeeze button of a hand. */
+  grip(hand: Hand): Grip {
     return {
-      gripAnew: async () => {
-        if ((await operator.state()).drive !== 'watchdog') return;
-        await this.button('right', 'squeeze', 0);
-        await operator.expectState('drive', 'idle');
-        await this.button('right', 'squeeze', 1);
-      },
+      hold: () => this.button(hand, 'squeeze', 1),
+      release: () => this.button(hand, 'squeeze', 0),
     };
+  }
+
+  /** Lets the frames go on. */
+  async thaw(): Promise<void> {
+    await this.#page.evaluate(() => window.thawHeadset?.());
   }
 
   /** @param value 0 released … 1 held */

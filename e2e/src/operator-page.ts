@@ -52,10 +52,16 @@ const FORWARD = 'w';
 const RELEASE_ESTOP = 'r';
 type Key = typeof DEAD_MAN | typeof FORWARD | typeof RELEASE_ESTOP;
 
+/** A dead-man grip in a test's hand. */
+export interface Grip {
+  hold(): Promise<void>;
+  release(): Promise<void>;
+}
+
 /** The operator's page as a test uses it: real keys and buttons, and `window.farpoint` to inspect it. */
 export class OperatorPage {
   readonly page: BrowserPage;
-  #holding = false;
+  #grip: Grip | null = null;
 
   private constructor(page: BrowserPage) {
     this.page = page;
@@ -130,11 +136,7 @@ export class OperatorPage {
    *
    * @param driver whose keys or grip are held
    */
-  async expectMovedFrom(
-    from: { x: number; y: number },
-    least: number,
-    driver: Pick<OperatorPage, 'gripAnew'> = this,
-  ) {
+  async expectMovedFrom(from: { x: number; y: number }, least: number, driver: OperatorPage = this) {
     await expect
       .poll(
         async () => {
@@ -162,26 +164,48 @@ export class OperatorPage {
 
   /** Holds the dead-man key and drives forward until {@link releaseKeys}. The first grip requests the lease. */
   async holdForward(): Promise<void> {
-    this.#holding = true;
-    await this.page.keyboard.down(DEAD_MAN);
-    await this.page.keyboard.down(FORWARD);
+    const { keyboard } = this.page;
+    await this.hold({
+      async hold() {
+        await keyboard.down(DEAD_MAN);
+        await keyboard.down(FORWARD);
+      },
+      async release() {
+        await keyboard.up(FORWARD);
+        await keyboard.up(DEAD_MAN);
+      },
+    });
+  }
+
+  /** Holds this grip until {@link release}. */
+  async hold(grip: Grip): Promise<void> {
+    this.#grip = grip;
+    await grip.hold();
+  }
+
+  async release(): Promise<void> {
+    const grip = this.#grip;
+    this.#grip = null;
+    await grip?.release();
   }
 
   /**
-   * On a busy machine the page may pause for longer than the robot's watchdog allows, even for an instant. The robot then
-   * stops until the operator lets go and grips again, so that is what this does, as an operator would.
+   * On a busy machine the page may pause for longer than a grip or the robot's watchdog allows, even for an instant. The
+   * robot then stops until the operator lets go and grips again, so that is what this does, as an operator would.
    */
   async gripAnew(): Promise<void> {
-    if (!this.#holding || (await this.state()).drive !== 'watchdog') return;
-    await this.releaseKeys();
+    const grip = this.#grip;
+    if (grip === null) return;
+    const { drive, gripLost } = await this.state();
+    if (drive !== 'watchdog' && gripLost === null) return;
+    await this.release();
     await this.expectState('drive', 'idle');
-    await this.holdForward();
+    await this.expectState('gripLost', null);
+    await this.hold(grip);
   }
 
   async releaseKeys(): Promise<void> {
-    this.#holding = false;
-    await this.page.keyboard.up(FORWARD);
-    await this.page.keyboard.up(DEAD_MAN);
+    await this.release();
   }
 
   /** Holds the key that releases the emergency stop until the robot has released it. */

@@ -1,6 +1,6 @@
 import { writeFileSync } from 'node:fs';
 import { EmulatedLink } from '@farpoint/local-stack';
-import { Headset } from '../src/headset.ts';
+import { Headset, headsetViewport } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
@@ -9,6 +9,8 @@ const ALARMS = [
   { of: 'speed', high: { warn: 0.2 }, hysteresis: 0.05, text: 'The robot is fast' },
 ];
 const LOW = '⚠ The battery is low (15 %, limit 20 %)';
+
+test.use({ viewport: headsetViewport });
 
 test('in the headset: an alarm is on the wrist, and is of the past when the robot is not heard', async ({
   page,
@@ -40,12 +42,12 @@ test('in the headset: an alarm is on the wrist, and is of the past when the robo
 
     // A second one is counted, and is not the first: it is only a warning.
     const start = await operator.body();
-    await headset.button('right', 'squeeze', 1);
+    await operator.hold(headset.grip('right'));
     await headset.thumbstick('right', 0, -1);
-    await operator.expectMovedFrom(start, 0.3, headset.gripOf(operator));
+    await operator.expectMovedFrom(start, 0.3);
     await expect.poll(alarms).toEqual([{ text: `${LOW} (and 1 more)`, tone: 'bad' }]);
     await headset.thumbstick('right', 0, 0);
-    await headset.button('right', 'squeeze', 0);
+    await operator.release();
     await operator.expectStanding();
     await expect.poll(alarms).toEqual([{ text: LOW, tone: 'bad' }]);
 

@@ -1,7 +1,9 @@
-import { Headset } from '../src/headset.ts';
+import { Headset, headsetViewport } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
 import { differingShare, leftEye, readPicture, rightEye } from '../src/picture.ts';
 import { expect, simulatedRobot, test, twoRobots } from '../src/stack-test.ts';
+
+test.use({ viewport: headsetViewport });
 
 test('in the headset: both eyes show the room, the thumbstick drives, the world stands still', async ({
   page,
@@ -29,12 +31,12 @@ test('in the headset: both eyes show the room, the thumbstick drives, the world 
 
   const start = await operator.body();
   const drawnBefore = await operator.probe();
-  await headset.button('right', 'squeeze', 1);
+  await operator.hold(headset.grip('right'));
   await headset.thumbstick('right', 0, -1);
-  await operator.expectMovedFrom(start, 1, headset.gripOf(operator));
+  await operator.expectMovedFrom(start, 1);
   await headset.thumbstick('right', 0, 0);
   await operator.expectStanding();
-  await headset.button('right', 'squeeze', 0);
+  await operator.release();
   await operator.expectPoints(5000);
   await operator.screenshot(testInfo, 'both-eyes-after-driving');
 
@@ -49,18 +51,18 @@ test('in the headset: both eyes show the room, the thumbstick drives, the world 
   expect(Math.abs(floorAfter - floorBefore)).toBeLessThan(0.3);
 
   // Turning left increases the yaw (REP-103).
-  await headset.button('right', 'squeeze', 1);
+  await operator.hold(headset.grip('right'));
   await headset.thumbstick('right', -1, 0);
   await expect
     .poll(
       async () => {
-        await headset.gripOf(operator).gripAnew();
+        await operator.gripAnew();
         return (await operator.body()).yaw - end.yaw;
       },
       { message: 'yaw' },
     )
     .toBeGreaterThan(0.3);
-  await headset.button('right', 'squeeze', 0);
+  await operator.release();
   await operator.expectStanding();
 });
 

@@ -72,8 +72,8 @@ test('in the headset: three videos beside the wrist, one enlarged by the trigger
   // The grip and the thumbstick drive as ever.
   await operator.releaseEstop();
   const start = await operator.body();
-  await headset.button('right', 'squeeze', 1);
+  await operator.hold(headset.grip('right'));
   await headset.thumbstick('right', 0, -1);
-  await operator.expectMovedFrom(start, 0.3, headset.gripOf(operator));
-  await headset.button('right', 'squeeze', 0);
+  await operator.expectMovedFrom(start, 0.3);
+  await operator.release();
 });

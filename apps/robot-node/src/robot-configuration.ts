@@ -67,6 +67,8 @@ export interface RobotOptions extends RateControlOptions {
   maxOperators: number;
   /** An operator that has not been heard from for this long is gone, ms. */
   silenceMs: number;
+  /** A driver whose page has said nothing for this long loses the lease, ms. */
+  leaseSilenceMs: number;
   connectTimeoutMs: number;
   /** In addition to those from the signaling service. */
   iceServers: IceServer[];

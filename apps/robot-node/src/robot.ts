@@ -47,6 +47,7 @@ export class Robot {
   /** `null` if the wheels are not simulated. */
   readonly base: BaseThread | null;
   readonly drive: DriveStation;
+  readonly sink: VelocitySink;
   readonly signaling: SignalingClient;
   readonly counters = new RobotCounters();
   /** The interface to the reference system's operators; `null` if it is not enabled. */
@@ -65,7 +66,6 @@ export class Robot {
   readonly #logs: MeasurementLogs;
   readonly #estop: EstopJournal;
   readonly #host: RobotSessionHost;
-  readonly #sink: VelocitySink;
   readonly #sendLoop = new SendLoop(monotonicMs, threadCpuMs);
   readonly #paths: PathKeeper;
   readonly #board: TelemetryBoard;
@@ -80,12 +80,11 @@ export class Robot {
   private constructor(parts: RobotParts, options: RobotOptions, log: Logger) {
     const { captures, base, sink, recording, videos, grants, robotKey, audit } = parts;
     this.recording = recording;
-    this.#options = options;
-    this.#log = log;
+    [this.#options, this.#log] = [options, log];
     const capture = captures[0] as Capture;
     this.#board = openBoard(options, capture, recording, log);
     this.#logs = new MeasurementLogs(options);
-    this.#sink = sink;
+    this.sink = sink;
     this.base = base;
     const { guard, estop } = openGuard(options, log, audit);
     this.#estop = estop;
@@ -96,6 +95,7 @@ export class Robot {
         recording?.velocity(twist);
       },
       monotonicMs,
+      () => sink.fault ?? null,
     );
     this.#host = new RobotSessionHost({
       ...{ drive: this.drive, estop: this.#estop, counters: this.counters, recording, audit, log },
@@ -191,7 +191,7 @@ export class Robot {
     this.#paths = new PathKeeper({
       ...{ operators: this.operators, drive: this.drive, signaling: this.signaling },
       ...{ counters: this.counters, log, now: monotonicMs },
-      limits: silenceLimits(options.silenceMs),
+      limits: silenceLimits(options.silenceMs, options.leaseSilenceMs),
       leaseChanged: () => this.#host.leaseChanged('expired'),
     });
     this.signaling.onMessage = (message) => this.sessions.onSignaling(message);
@@ -247,14 +247,14 @@ export class Robot {
   async close(): Promise<void> {
     if (!this.#failed) this.#estop.end();
     this.drive.guard.latchEstop('robot');
-    this.drive.apply();
+    this.drive.halt();
     clearInterval(this.#ticking);
     const reported = this.#reports.close();
     this.sessions.close();
     this.reference?.close();
     const broadcastClosed = this.broadcast?.close();
     this.drive.close();
-    await this.#sink.close();
+    await this.sink.close();
     await this.base?.close();
     this.#sendLoop.close();
     await this.signaling.close();

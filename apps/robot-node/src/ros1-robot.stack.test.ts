@@ -151,16 +151,30 @@ describe.skipIf(python === null)(
       await client.until(() => client.frames.size > before + 5);
     });
 
-    it('tells operators whether any node subscribes to the velocity', async () => {
+    it('refuses motion while no node subscribes to the velocity, and says so', async () => {
       const { client } = operator;
       const wheels = () => client.readings.get('/cmd_vel');
       await client.until(() => wheels()?.level === 'ok');
       expect(wheels()).toMatchObject({ label: 'Wheels', values: [['', '/cmd_vel: 1 listening']] });
       await base.kill();
       await client.until(() => wheels()?.level === 'warn');
-      expect(wheels()?.values).toEqual([['', '/cmd_vel: nobody listens']]);
+      expect(wheels()?.values).toEqual([['', '/cmd_vel: nobody listens to the velocities']]);
+      const health = async () =>
+        (await fetch(`${stack.robotAdminUrl(ROBOT)}/healthz`)).json() as Promise<unknown>;
+      const lease = await client.takeLease();
+      client.drive(lease, 0.25);
+      await client.message('rejected', ({ reason }) => reason === 'no-wheels');
+      expect(await health()).toMatchObject({
+        status: 'failing',
+        checks: { wheels: { ok: false, detail: { fault: 'no-listener' } } },
+      });
       base = await peers.startNode('velocity', 'base');
       await client.until(() => wheels()?.level === 'ok');
+      expect(await health()).toMatchObject({ status: 'ok' });
+      // The hand that held on must let go before the wheels move.
+      client.drive(lease, 0.25);
+      await client.message('rejected', ({ reason }) => reason === 'let-go-first');
+      expect(base.heard).toEqual([]);
     });
 
     it('publishes zero when it is asked to end', async () => {
@@ -174,6 +188,8 @@ describe.skipIf(python === null)(
       await operator.close();
       await stack.restartRobot(ROBOT);
       operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+      const { client } = operator;
+      await client.until(() => client.readings.get('/cmd_vel')?.level === 'ok');
       await drive(await operator.client.takeLease());
       await stack.robot(ROBOT).kill();
       await until(() => silentFor() > 500);

@@ -35,6 +35,8 @@ export async function run(): Promise<void> {
     const robot = await Robot.start(robotOptions, log, audit.audit).catch(async (error: unknown) => {
       throw (await import('./doctor/start-failure.ts')).startFailure(robotOptions, error);
     });
+    // Before anything else is closed, however the run ends.
+    shutdown.signal.addEventListener('abort', () => robot.drive.halt());
     shutdown.onClose('robot', () => robot.close());
     shutdown.onClose('systemd', () => systemd?.stopping());
     robot.onFailure = (error) => {
@@ -49,10 +51,15 @@ export async function run(): Promise<void> {
         };
         robot.sessions.reloadGrants().then(() => audit.reloaded(null), failed);
       });
-    }
+    } else process.on('SIGHUP', () => shutdown.handleSignal('SIGHUP'));
     registerRobotMetrics(metrics, robot);
     // Connected operators go on without signaling, so its loss is not a failure of the robot.
     health.add('signaling', () => ({ ok: true, detail: { registered: robot.signaling.registered } }));
+    const { sink } = robot;
+    health.add('wheels', () => ({
+      ok: sink.fault == null,
+      detail: { sink: sink.kind, ...(sink.fault == null ? {} : { fault: sink.fault }) },
+    }));
     health.add('operators', () => ({ ok: true, detail: { connected: robot.operators.size } }));
     const { recording } = robot;
     // A robot drives without viewers.

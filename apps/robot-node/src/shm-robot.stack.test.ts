@@ -71,4 +71,46 @@ describe.skipIf(!isAvailable())('robot process in shared memory (needs the addon
     await stack.robot(ROBOT).stop();
     expect(speed()).toBe(0);
   });
+
+  it('refuses motion when the program that reads the velocities has answered and stops', {
+    timeout: 30_000,
+  }, async () => {
+    await operator.close();
+    await stack.restartRobot(ROBOT);
+    operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+    const { client } = operator;
+    const lease = await client.takeLease();
+    const base = new ReferenceControlReader(folder, { answers: true });
+    const answering = setInterval(() => {
+      const block = base.read();
+      if (block !== null) base.answer(block.counter);
+    }, 20);
+    const healthy = async () => (await fetch(`${stack.robotAdminUrl(ROBOT)}/healthz`)).ok;
+    client.drive(lease, 0);
+    await driveUntil(lease, 0.25, () => speed() === 0.25);
+    expect(await healthy()).toBe(true);
+    const driving = setInterval(() => client.drive(lease, 0.25), 20);
+    await until(() => speed() === 0.25);
+    // Whatever moves the wheels is killed.
+    clearInterval(answering);
+    await client.message('rejected', ({ reason }) => reason === 'no-wheels');
+    expect([speed(), await healthy()]).toEqual([0, false]);
+    await client.until(() => client.readings.get('shared_control')?.level === 'error');
+    clearInterval(driving);
+    base.close();
+    await stack.robot(ROBOT).stop();
+  });
+
+  it('writes zero and ends in order when its terminal hangs up', { timeout: 30_000 }, async () => {
+    await operator.close();
+    await stack.restartRobot(ROBOT);
+    operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+    const lease = await operator.client.takeLease();
+    operator.client.drive(lease, 0);
+    await driveUntil(lease, 0.25, () => speed() === 0.25);
+    const robot = stack.robot(ROBOT);
+    robot.signal('SIGHUP');
+    expect(await robot.exited).toMatchObject({ code: 0 });
+    expect(speed()).toBe(0);
+  });
 });

@@ -16,7 +16,7 @@ import { CloudAppearance } from './state/cloud-appearance.ts';
 import type { Notices } from './state/notices.ts';
 import { PageState } from './state/page-state.ts';
 import { PageStatistics, type PageStats } from './status/page-stats.ts';
-import { failureWords, leavingWords, rejectionWords, wordsOfLoss } from './status/words.ts';
+import { failureWords, gripLossWords, leavingWords, rejectionWords, wordsOfLoss } from './status/words.ts';
 import { loadAppearance, storeAppearance } from './stored-appearance.ts';
 import { PresentedInstant } from './telemetry/presented-instant.ts';
 import { TelemetryRecorder } from './telemetry/recorder.ts';
@@ -130,6 +130,7 @@ export class App {
       ...{ renderer, world, client: held, first: this.cloud, sensors, pointScale },
     });
     this.vr = new VrSession(renderer);
+    this.vr.onHidden = () => this.#inputs.releaseAll();
     this.#access = new AccessUi({
       ...{ access, knownRobots, client: this.client, link: this.state.link },
       signIn: new SignIn(tabStorage(), origin),
@@ -150,7 +151,7 @@ export class App {
       tell: ({ text, tone }) => notices.tell(text, tone),
     });
     const readHeadset = () => {
-      this.#inputs.readHeadset(vr.inputSources);
+      this.#inputs.readHeadset(vr.inputSources, (source) => vr.tracks(source));
       this.#pictures?.update();
     };
     this.frames = new FrameLoop({
@@ -177,7 +178,7 @@ export class App {
     if (this.settings.robot !== null) this.client.choose(this.settings.robot);
     this.#show();
     setInterval(() => {
-      this.#inputs.poll();
+      this.#inputs.poll(performance.now());
       const away = this.#handsAway();
       this.#estop.tick(performance.now(), away);
       this.client.driver.suspended = away || this.state.driving.role.value === 'watch';
@@ -274,6 +275,7 @@ export class App {
       notices.tell(rejectionWords[reason], 'warning');
     });
     client.on('otherDrives', () => notices.tell(rejectionWords['not-lease-holder'], 'warning'));
+    client.on('gripLost', (loss) => notices.tell(gripLossWords[loss], 'warning'));
     client.on('robotFault', (message) => notices.tell(`The robot reports: ${message}`, 'warning'));
     client.on('failed', ({ detail }) => {
       console.error('cloud worker:', detail);

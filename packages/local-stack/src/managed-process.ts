@@ -115,6 +115,11 @@ export class ManagedProcess {
     return exit;
   }
 
+  /** Sends it a signal; see {@link exited} for how it ends. */
+  signal(signal: NodeJS.Signals): void {
+    this.#child.kill(signal);
+  }
+
   /** Kills it at once, as a crash or a power cut would. */
   async kill(): Promise<Exit> {
     this.#killGroup();

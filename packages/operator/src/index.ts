@@ -80,6 +80,7 @@ export {
 export type { CompositorStats, SourceFigures, SourceState } from './compositor/compositor-statistics.ts';
 export { activeInput, type DriveInput, type PressedButtons } from './drive/drive-input.ts';
 export type { Driver } from './drive/driver.ts';
+export { type GripLoss, READING_HOLDS_MS } from './drive/grips.ts';
 export { robotAfter } from './drive/robot-switch.ts';
 export { type DriveWish, toTwist } from './drive/velocity-mapping.ts';
 export { LatencyError, type LatencyProbe, type LatencyReport } from './latency/latency-probe.ts';

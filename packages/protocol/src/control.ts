@@ -122,6 +122,7 @@ export const commandRejections = [
   'not-lease-holder', // another operator drives, or nobody has requested the lease
   'dead-man-released', // motion requested without the grip
   'let-go-first', // motion with a grip that was held while no command got through for too long
+  'no-wheels', // nothing that moves the wheels takes the robot's velocities
   'estop-latched', // the emergency stop must be released first
   'rate-limited', // more commands per second than the robot reads
 ] as const;

@@ -560,7 +560,7 @@ robot_session.good({"type": "lease", "holder": "other"}, "lease held by another"
 robot_session.good({"type": "lease", "holder": "nobody"}, "lease free")
 rejected = robot_session.good({"type": "rejected", "sequence": 17, "reason": "out-of-range",
                                "detail": "twist.linear.x 3.2 m/s is beyond \u00b11 m/s", "count": 1})
-for reason in ["malformed", "stale", "repeated", "not-permitted", "not-lease-holder", "dead-man-released", "let-go-first", "estop-latched", "rate-limited"]:
+for reason in ["malformed", "stale", "repeated", "not-permitted", "not-lease-holder", "dead-man-released", "let-go-first", "no-wheels", "estop-latched", "rate-limited"]:
     robot_session.good({"type": "rejected", "reason": reason, "detail": "", "count": 40}, "rejected: " + reason)
 estop = robot_session.good({"type": "estop", "latched": True, "by": "operator"})
 robot_session.good({"type": "estop", "latched": True, "by": "robot"}, "estop by the robot")

@@ -284,3 +284,37 @@ describe('a grip held through silence', () => {
     expect(at(gate, 3001)).toBe('let-go-first');
   });
 });
+
+describe('wheels that are away', () => {
+  const away = { ...open, wheelsFault: 'nobody listens' };
+  const at = (
+    gate: CommandGate,
+    ms: number,
+    x: number,
+    context = open as typeof open & { wheelsFault?: string },
+  ) => reasonOf(gate.check('a', command({ sequence: ms + 1, timeMs: ms }, x, 0), ms, context));
+
+  test('motion is refused, and says why; zero passes', () => {
+    const gate = new CommandGate(defaultDriveLimits);
+    expect(at(gate, 0, 0, away)).toBe('accepted');
+    const refused = gate.check('a', command({ sequence: 9, timeMs: 9 }, 0.5, 0), 9, away);
+    expect(refused).toEqual({ accepted: false, reason: 'no-wheels', detail: 'nobody listens' });
+  });
+
+  test('a hand that held on must let go before the wheels that return move', () => {
+    const gate = new CommandGate(defaultDriveLimits);
+    expect(at(gate, 0, 0.5, away)).toBe('no-wheels');
+    expect([at(gate, 20, 0.5), at(gate, 40, 0), at(gate, 60, 0.5)]).toEqual([
+      'let-go-first',
+      'accepted',
+      'accepted',
+    ]);
+  });
+
+  test('a hand that was moving when they went must let go, even if no command came meanwhile', () => {
+    const gate = new CommandGate(defaultDriveLimits);
+    expect(at(gate, 0, 0.5)).toBe('accepted');
+    gate.requireLetGo();
+    expect(at(gate, 20, 0.5)).toBe('let-go-first');
+  });
+});

@@ -25,6 +25,8 @@ export interface GateContext {
   holdsLease: boolean;
   /** Called once for each fresh command: returns the emergency stop's answer to this request (estop.ts). */
   meetEstop: (motion: boolean) => EstopAnswer;
+  /** Why nothing takes the robot's velocities; `null` or undefined if something does. */
+  wheelsFault?: string | null;
 }
 
 export interface CommandGateOptions {
@@ -45,6 +47,8 @@ interface OperatorState {
   lastSequence: number | null;
   /** When motion was last accepted; `null` once the hand has let go. */
   movedMs: number | null;
+  /** The hand held on while the wheels were away, and has not let go since. */
+  mustLetGo: boolean;
 }
 
 /**
@@ -57,7 +61,7 @@ const TOLERANCE = 1e-6;
 
 /**
  * Judges each command of each operator by itself, in this order: rate, lease, sequence, age, emergency stop, dead-man
- * grip, a grip held through silence, range. Each operator has state of its own: a broken or hostile clock or counter
+ * grip, wheels that are away, a grip held through silence, range. Each operator has state of its own: a broken or hostile clock or counter
  * spoils only its own commands.
  */
 export class CommandGate {
@@ -91,12 +95,16 @@ export class CommandGate {
     // this one is refused (because the grip was released, for example).
     operator.lastSequence = command.sequence;
     const motion = !isZeroTwist(command.twist);
-    if (!motion || !command.deadMan) operator.movedMs = null;
+    if (!motion || !command.deadMan) {
+      operator.movedMs = null;
+      operator.mustLetGo = false;
+    }
     const estop = context.meetEstop(motion);
     if (motion) {
       const refusal =
         estopRefusal(estop) ??
         (command.deadMan ? null : rejected('dead-man-released', 'motion without the dead-man grip')) ??
+        withoutWheels(operator, context.wheelsFault ?? null) ??
         this.#heldThroughSilence(operator, nowMs) ??
         this.#outOfRange(command.twist);
       if (refusal !== null) return refusal;
@@ -123,6 +131,11 @@ export class CommandGate {
     this.#operator(operatorId).delay.observe(sentMs, nowMs);
   }
 
+  /** Whoever is moving the robot now must let go before it moves again. */
+  requireLetGo(): void {
+    for (const operator of this.#operators.values()) operator.mustLetGo ||= operator.movedMs !== null;
+  }
+
   forget(operatorId: string): void {
     this.#operators.delete(operatorId);
   }
@@ -138,6 +151,7 @@ export class CommandGate {
         delay: new QueueingDelay(this.#delayWindowMs),
         lastSequence: null,
         movedMs: null,
+        mustLetGo: false,
       };
     } else {
       this.#operators.delete(operatorId);
@@ -191,6 +205,16 @@ function estopRefusal(estop: EstopAnswer): RejectedCommand | null {
       ? 'the emergency stop is latched'
       : 'the emergency stop was released with the stick held: let go of it once',
   );
+}
+
+/** A hand that kept holding while the wheels were away must not move them by itself when they return. */
+function withoutWheels(operator: OperatorState, fault: string | null): RejectedCommand | null {
+  if (fault !== null) {
+    operator.mustLetGo = true;
+    return rejected('no-wheels', fault.slice(0, 199));
+  }
+  if (!operator.mustLetGo) return null;
+  return rejected('let-go-first', 'held while the wheels took no velocities: let go of it once');
 }
 
 function rejected(reason: CommandRejection, detail: string): RejectedCommand {

@@ -262,3 +262,20 @@ describe('a supervisor', () => {
     expect(send(30, 0.5)).toMatchObject({ accepted: true });
   });
 });
+
+test('stops at once when nothing takes its velocities any more, and moves again only for a hand that let go', () => {
+  const { guard, send } = driven();
+  let fault: string | null = null;
+  guard.watchWheels(() => fault);
+  send(1000, 0.5);
+  fault = 'nobody listens';
+  expect(isZeroTwist(guard.velocityAt(1001))).toBe(true);
+  expect(guard.state(1001)).toBe('idle');
+  expect(send(1020, 0.5)).toMatchObject({ reason: 'no-wheels', detail: 'nobody listens' });
+  fault = null;
+  expect(isZeroTwist(guard.velocityAt(1030))).toBe(true);
+  expect(send(1040, 0.5)).toMatchObject({ reason: 'let-go-first' });
+  send(1060, 0);
+  send(1080, 0.5);
+  expect(guard.velocityAt(1081).linear.x).toBe(0.5);
+});

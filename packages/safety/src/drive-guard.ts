@@ -33,7 +33,9 @@ export interface DriveGuardOptions extends LeaseOptions, CommandGateOptions {
  * - it is zero `watchdogMs` after the last accepted command, while the emergency stop is latched, and while nobody
  *   holds the lease;
  * - it follows the commands of the lease holder and of nobody else;
- * - a request from before an emergency stop, a change of the lease or a released grip never takes effect again.
+ * - it is zero while nothing takes it ({@link DriveGuard.watchWheels});
+ * - a request from before an emergency stop, a change of the lease, a fault of the wheels or a released grip never
+ *   takes effect again.
  */
 export class DriveGuard {
   readonly #limits: Readonly<DriveLimits>;
@@ -43,6 +45,8 @@ export class DriveGuard {
   readonly #estopRelease: EstopReleasePolicy;
   readonly #watchdog: Watchdog;
   #wish: Twist = zeroTwist();
+  #askWheels: () => string | null = () => null;
+  #hadWheels = true;
 
   constructor(options: DriveGuardOptions) {
     this.#limits = Object.freeze({ ...options.limits });
@@ -63,9 +67,11 @@ export class DriveGuard {
    * `nextDeadlineMs` changes with every call.
    */
   onCommand(operatorId: string, command: Command, nowMs: number): CommandVerdict {
+    const wheelsFault = this.#lookAtWheels();
     const verdict = this.#gate.check(operatorId, command, nowMs, {
       holdsLease: this.#leases.holds(operatorId, command.lease),
       meetEstop: (motion) => this.#estop.meet(motion, nowMs),
+      wheelsFault,
     });
     if (verdict.accepted) {
       this.#wish = verdict.twist;
@@ -92,8 +98,20 @@ export class DriveGuard {
     this.#gate.observeClock(operatorId, sentMs, nowMs);
   }
 
+  /**
+   * From now on motion is refused while nothing takes the velocities. A hand that held on meanwhile must let go once
+   * before they move anything again.
+   *
+   * @param fault asked at each command and velocity: why nothing takes them, for people, under 200 characters; `null`
+   * if something does
+   */
+  watchWheels(fault: () => string | null): void {
+    this.#askWheels = fault;
+  }
+
   /** The velocity to apply now, as a copy. */
   velocityAt(nowMs: number): Twist {
+    this.#lookAtWheels();
     const moving = this.#leases.holder !== null && !this.#estop.latched && !this.#watchdog.expired(nowMs);
     return moving ? copyTwist(this.#wish) : zeroTwist();
   }
@@ -182,6 +200,16 @@ export class DriveGuard {
   /** Whose emergency stop must outlive a restart: an operator's comes before the robot's. `null` while it is released. */
   get estopKeptFor(): EstopSource | null {
     return this.#estop.ofOperator ? 'operator' : this.#estop.by;
+  }
+
+  #lookAtWheels(): string | null {
+    const fault = this.#askWheels();
+    if (fault !== null && this.#hadWheels) {
+      this.#halt();
+      this.#gate.requireLetGo();
+    }
+    this.#hadWheels = fault === null;
+    return fault;
   }
 
   #halt(): void {

@@ -46,7 +46,8 @@ export class Shutdown {
     for (const signal of SIGNALS) process.on(signal, () => this.handleSignal(signal));
   }
 
-  handleSignal(signal: (typeof SIGNALS)[number]): void {
+  /** For SIGINT and SIGTERM, and for others that end a program. */
+  handleSignal(signal: NodeJS.Signals): void {
     if (this.#ending === null) {
       void this.end(`received ${signal}`);
     } else {

@@ -61,6 +61,17 @@ describe('DriveStation', () => {
     drive.close();
   });
 
+  it('moves nothing once halted, whatever the guard lets through', () => {
+    const { guard, drive, command, now, speeds } = station();
+    guard.onCommand('op', command(0, 0.5), now());
+    drive.apply();
+    drive.halt();
+    guard.onCommand('op', command(1, 0.5), now());
+    drive.apply();
+    expect(speeds()).toEqual([0.5, 0, 0]);
+    drive.close();
+  });
+
   it('sends nothing once closed', () => {
     const { guard, drive, applied, command, now } = station();
     guard.onCommand('op', command(0, 0.5), now());

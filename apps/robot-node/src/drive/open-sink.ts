@@ -9,7 +9,14 @@ export type SinkOptions =
   /** The simulated base if there is one; otherwise nothing moves. */
   | { kind: 'base' }
   /** The reference system's command block in shared memory. */
-  | { kind: 'shm'; folder: string; owner?: TrustedOwner | undefined; mode: number; silenceMs: number }
+  | {
+      kind: 'shm';
+      folder: string;
+      owner?: TrustedOwner | undefined;
+      mode: number;
+      silenceMs: number;
+      readerRequired?: boolean;
+    }
   /** A topic of a ROS graph. */
   | ({ kind: 'ros' } & RosDriveOptions);
 
@@ -19,7 +26,7 @@ export function openSink(options: SinkOptions, base: VelocitySink | null, log: L
     case 'base':
       return base ?? { kind: 'none', apply: () => undefined, close: () => undefined };
     case 'shm':
-      return new SharedMemorySink(new ReferenceControlWriter(options), log);
+      return new SharedMemorySink(new ReferenceControlWriter(options), log, options.readerRequired);
     case 'ros':
       return new RosSink(options, log);
   }

@@ -10,6 +10,12 @@ export interface RosDriveOptions {
   silenceMs: number;
 }
 
+/** What the thread starts with. */
+export interface RosDriveSetup extends RosDriveOptions {
+  /** The memory of its signs of life (sink-beat.ts). */
+  beat: SharedArrayBuffer;
+}
+
 export type RosDriveRequest = { type: 'twist'; twist: Twist; hold: boolean } | { type: 'close' };
 
 export type RosDriveReport =

@@ -6,14 +6,16 @@ import { parentPort, workerData } from 'node:worker_threads';
 import { monotonicMs } from '../clock.ts';
 import { openGraph } from '../ros/open-graph.ts';
 import { wallNs } from '../ros/wall-clock.ts';
-import type { RosDriveOptions, RosDriveReport, RosDriveRequest } from './ros-drive-messages.ts';
+import type { RosDriveReport, RosDriveRequest, RosDriveSetup } from './ros-drive-messages.ts';
 import { RosVelocity } from './ros-velocity.ts';
+import { SinkBeat } from './sink-beat.ts';
 
 const TICK_MS = 10;
 
 const port = parentPort;
 if (port === null) throw new Error('ros-drive-worker.ts runs as a worker only');
-const options = workerData as RosDriveOptions;
+const options = workerData as RosDriveSetup;
+const beat = new SinkBeat(options.beat);
 const send = (report: RosDriveReport) => port.postMessage(report);
 
 try {
@@ -29,6 +31,7 @@ try {
   let listeners: number | null = null;
   const ticking = setInterval(() => {
     velocity.tick();
+    beat.beat(monotonicMs());
     if (velocity.subscribers === listeners) return;
     listeners = velocity.subscribers;
     send({ type: 'listeners', count: listeners });

@@ -56,6 +56,12 @@ export const limitsOptions = optionGroup('limits', {
     schema: schema.number({ min: 1, max: 300 }),
     default: 60,
     argument: 'SECONDS',
-    help: 'an operator who has been silent for this long is disconnected; after 5 s of silence another may drive',
+    help: 'an operator who has been silent for this long is disconnected',
+  }),
+  leaseSilenceS: defineOption({
+    schema: schema.number({ min: 0.5, max: 60 }),
+    default: 3,
+    argument: 'SECONDS',
+    help: 'a driver whose page has sent nothing for this long loses control, and another may drive',
   }),
 });

@@ -62,7 +62,13 @@ describe('robot options', () => {
       source: { kind: 'shm', layout: 'reference', folder: '/x', waitMs: 10_000 },
       framesPerSecond: 30,
     });
-    expect(options.sink).toEqual({ kind: 'shm', folder: '/x', mode: 0o600, silenceMs: 150 });
+    expect(options.sink).toEqual({
+      kind: 'shm',
+      folder: '/x',
+      mode: 0o600,
+      silenceMs: 150,
+      readerRequired: false,
+    });
     expect(robot('--sink', 'shm', '--shm-access', 'group').sink).toMatchObject({ mode: 0o660 });
     expect(robot().sink).toEqual({ kind: 'base' });
   });

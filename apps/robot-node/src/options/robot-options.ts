@@ -90,6 +90,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     broadcast,
     maxOperators: values.maxOperators,
     silenceMs: values.silenceS * 1000,
+    leaseSilenceMs: values.leaseSilenceS * 1000,
     connectTimeoutMs: 20_000,
     iceServers: values.iceServers,
     icePolicy: values.icePolicy,
@@ -251,6 +252,7 @@ function toSink(values: RobotOptionValues): SinkOptions {
     owner: values.shmOwner ?? undefined,
     mode: values.shmAccess === 'group' ? 0o660 : 0o600,
     silenceMs: values.watchdogMs,
+    readerRequired: values.shmReader === 'required',
   };
 }
 

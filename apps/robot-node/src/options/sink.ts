@@ -17,4 +17,10 @@ export const sinkOptions = optionGroup('sink', {
     argument: 'WHO',
     help: 'who may read and write the files that --sink shm creates: owner (0600), or group (0660)',
   }),
+  shmReader: defineOption({
+    schema: schema.choice(['auto', 'required']),
+    default: 'auto',
+    argument: 'WHEN',
+    help: 'when motion needs a program that reads the velocities and answers: auto (once it has answered), or required (always)',
+  }),
 });

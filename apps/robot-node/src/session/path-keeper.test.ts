@@ -1,6 +1,7 @@
 import type { RobotToService } from '@farpoint/protocol';
 import { silentLogger } from '@farpoint/service';
 import { expect, it } from 'vitest';
+import type { DriveStation } from '../drive/drive-station.ts';
 import { ReasonCounts } from '../telemetry/robot-counters.ts';
 import { type KeptOperator, PathKeeper } from './path-keeper.ts';
 import { RestartPolicy } from './restart-policy.ts';
@@ -12,7 +13,20 @@ function setUp(connected = true) {
   const sent: RobotToService[] = [];
   const done: string[] = [];
   const resumeKey = new ResumeKey();
+  const drive = {
+    guard: {
+      releaseLease: (id: string) => {
+        const held = leased === id;
+        leased = held ? null : leased;
+        return held;
+      },
+    },
+    apply: () => done.push('apply'),
+  };
+  let leased: string | null = 'op';
+  const messages = { id: 'op', heardMs: 1000 };
   const operator = {
+    ...{ messages, sender: {}, tick: () => undefined },
     ...{ resumeKey, restarts: new RestartPolicy(), heardMs: 0 },
     peer: {
       connected,
@@ -27,8 +41,8 @@ function setUp(connected = true) {
   const counters = { iceRestarts: 0, resumesRefused: new ReasonCounts() };
   const keeper = new PathKeeper({
     operators: new Map([['s', operator]]),
-    limits: silenceLimits(60_000),
-    drive: undefined as never,
+    limits: silenceLimits(60_000, 3000),
+    drive: drive as unknown as DriveStation,
     signaling: {
       send: (message) => {
         sent.push(message);
@@ -36,7 +50,7 @@ function setUp(connected = true) {
       },
       check: () => undefined,
     },
-    leaseChanged: () => undefined,
+    leaseChanged: () => done.push('lease changed'),
     counters,
     log: silentLogger(),
     now: () => nowMs,
@@ -49,8 +63,34 @@ function setUp(connected = true) {
   const pass = (ms: number) => {
     nowMs += ms;
   };
-  return { resume, pass, done, counters, key: resumeKey.text };
+  /** The page says something; without it, only ICE or RTCP is heard. */
+  const hear = (page: boolean) => {
+    Object.assign(operator, { heardMs: nowMs });
+    if (page) messages.heardMs = nowMs;
+  };
+  return { resume, pass, hear, keeper, done, counters, key: resumeKey.text };
 }
+
+it('releases the lease of a page that is frozen while ICE and RTCP go on', () => {
+  const { keeper, hear, pass, done } = setUp();
+  for (let i = 0; i < 100; i++) {
+    pass(100);
+    hear(true);
+    keeper.tick();
+  }
+  expect(done).toEqual([]);
+  for (let i = 0; i < 30; i++) {
+    pass(100);
+    hear(false);
+    keeper.tick();
+  }
+  expect(done).toEqual([]);
+  pass(1);
+  hear(false);
+  keeper.tick();
+  keeper.tick();
+  expect(done).toEqual(['apply', 'lease changed']);
+});
 
 it('restarts ICE for an operator with the right key, and repeats its claim in the offer', async () => {
   const { resume, done, key, counters } = setUp();

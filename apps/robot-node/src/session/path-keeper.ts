@@ -47,13 +47,15 @@ export class PathKeeper {
       if (operator.sender === null) continue;
       const silentMs = now() - operator.heardMs;
       operator.quiet = silentMs > limits.streamMs;
+      const { messages } = operator;
+      if (now() - messages.heardMs > limits.leaseMs && drive.guard.releaseLease(messages.id)) {
+        drive.apply();
+        leaseChanged();
+      }
       const step = silenceStep(silentMs, limits);
       if (step === 'none') continue;
       signaling.check();
-      if (step === 'release-lease' && drive.guard.releaseLease(operator.messages.id)) {
-        drive.apply();
-        leaseChanged();
-      } else if (step === 'end') {
+      if (step === 'end') {
         operator.peer.close('silent', `nothing heard for ${limits.sessionMs / 1000} s`);
       }
     }

@@ -1,6 +1,5 @@
 /** An operator for tests: a werift peer that answers the robot's offer as a browser would. */
 import {
-  type Command,
   channels,
   type Diagnostics,
   decodeJson,

@@ -60,19 +60,31 @@ describe('toTwist', () => {
 describe('KeyboardInput', () => {
   test('drives while Space or Shift is held', () => {
     const keys = new KeyboardInput();
-    expect(keys.key('KeyW', true)).toBe(true);
+    expect(keys.key('KeyW', true, 0)).toBe(true);
     expect(keys.held).toBe(false);
-    keys.key('Space', true);
-    keys.key('ArrowLeft', true);
+    keys.key('Space', true, 0);
+    keys.key('ArrowLeft', true, 0);
     expect(keys.held).toBe(true);
     expect(keys.wish).toEqual({ forward: 1, left: 1 });
-    keys.key('KeyS', true);
+    keys.key('KeyS', true, 0);
     expect(keys.wish.forward).toBe(0);
     keys.releaseAll();
     expect(keys.held).toBe(false);
     expect(keys.wish).toEqual({ forward: 0, left: 0 });
-    expect(keys.key('KeyQ', true)).toBe(false);
+    expect(keys.key('KeyQ', true, 0)).toBe(false);
   });
+});
+
+test('a keyboard is read while the page runs, at a new grip and when it opens', () => {
+  const keys = new KeyboardInput();
+  keys.key('Space', true, 10);
+  keys.key('Space', true, 20);
+  keys.key('KeyW', true, 30);
+  expect(keys.readMs).toBe(10);
+  keys.runs(40);
+  expect(keys.readMs).toBe(40);
+  keys.key('Space', false, 50);
+  expect(keys.readMs).toBe(50);
 });
 
 const button = (value: number) => ({ pressed: value > 0.5, value });
@@ -85,23 +97,34 @@ describe('GamepadInput', () => {
 
   test('drives with the stick that is deflected more, while a shoulder button is held', () => {
     const input = new GamepadInput();
-    input.read(pad([0, 0, 1, -1], [5]));
+    input.read(pad([0, 0, 1, -1], [5]), 0);
     expect(input.held).toBe(true);
     expect(input.wish).toEqual({ forward: 1, left: -1 });
-    input.read(pad([0, 1, 0, 0], []));
+    input.read(pad([0, 1, 0, 0], []), 0);
     expect(input.held).toBe(false);
     expect(input.wish.forward).toBe(-1);
-    input.read(null);
+    input.read(null, 0);
     expect(input.wish).toEqual({ forward: 0, left: 0 });
+  });
+
+  test('after a release a shoulder button drives only once it has been opened', () => {
+    const input = new GamepadInput();
+    const held = (down: number[]) => {
+      input.read(pad([], down), 0);
+      return input.held;
+    };
+    expect(held([5])).toBe(true);
+    input.release();
+    expect([held([5]), held([]), held([5])]).toEqual([false, false, true]);
   });
 
   test('reports each button once per press', () => {
     const input = new GamepadInput();
-    expect(input.read(pad([], [1])).estop).toBe(true);
-    expect(input.read(pad([], [1])).estop).toBe(false);
-    expect(input.read(pad([], [0]))).toMatchObject({ estop: false, latencyTest: true, nextRobot: false });
-    expect(input.read(pad([], [9])).nextRobot).toBe(true);
-    expect(input.read(pad([], [9])).nextRobot).toBe(false);
+    expect(input.read(pad([], [1]), 0).estop).toBe(true);
+    expect(input.read(pad([], [1]), 0).estop).toBe(false);
+    expect(input.read(pad([], [0]), 0)).toMatchObject({ estop: false, latencyTest: true, nextRobot: false });
+    expect(input.read(pad([], [9]), 0).nextRobot).toBe(true);
+    expect(input.read(pad([], [9]), 0).nextRobot).toBe(false);
   });
 
   test('reports Y for as long as it is held, and never reports B', () => {
@@ -111,14 +134,15 @@ describe('GamepadInput', () => {
       [[3, 1], true],
       [[1], false],
     ] as const) {
-      expect(input.read(pad([], [...down])).releaseHeld).toBe(held);
-      expect(input.read(pad([], [...down])).releaseHeld).toBe(held);
+      expect(input.read(pad([], [...down]), 0).releaseHeld).toBe(held);
+      expect(input.read(pad([], [...down]), 0).releaseHeld).toBe(held);
     }
-    expect(input.read(null).releaseHeld).toBe(false);
+    expect(input.read(null, 0).releaseHeld).toBe(false);
   });
 });
 
 describe('HeadsetInput', () => {
+  const tracked = () => true;
   const controller = (
     handedness: string,
     squeeze: number,
@@ -135,43 +159,70 @@ describe('HeadsetInput', () => {
 
   test('drives with the hand that squeezes; pushing the stick forward reads −1', () => {
     const input = new HeadsetInput();
-    input.read([controller('left', 0, 0, 1), controller('right', 1, -1, -1)]);
+    input.read([controller('left', 0, 0, 1), controller('right', 1, -1, -1)], 0, tracked);
     expect(input.held).toBe(true);
     expect(input.wish).toEqual({ forward: 1, left: 1 });
   });
 
   test('keeps driving with the hand that squeezed first', () => {
     const input = new HeadsetInput();
-    input.read([controller('left', 0, 0, 0), controller('right', 1, 0, -1)]);
-    input.read([controller('left', 1, 0, 1), controller('right', 1, 0, -1)]);
+    input.read([controller('left', 0, 0, 0), controller('right', 1, 0, -1)], 0, tracked);
+    input.read([controller('left', 1, 0, 1), controller('right', 1, 0, -1)], 0, tracked);
     expect(input.wish.forward).toBe(1);
-    input.read([controller('left', 1, 0, 1), controller('right', 0, 0, -1)]);
+    input.read([controller('left', 1, 0, 1), controller('right', 0, 0, -1)], 0, tracked);
     expect(input.wish.forward).toBe(-1);
+  });
+
+  test('is not read while the driving hand is not tracked', () => {
+    const input = new HeadsetInput();
+    const fist = [controller('right', 1, 0, -1)];
+    input.read(fist, 10, () => true);
+    input.read(fist, 20, () => false);
+    expect([input.held, input.readMs]).toEqual([true, 10]);
+    input.read(fist, 30, () => true);
+    expect(input.readMs).toBe(30);
+    // An open hand needs no tracking.
+    input.read([controller('right', 0, 0, 0)], 40, () => false);
+    expect([input.held, input.readMs]).toEqual([false, 40]);
+  });
+
+  test('after a release a fist drives only once it has been opened', () => {
+    const input = new HeadsetInput();
+    const fist = [controller('right', 1, 0, -1)];
+    input.read(fist, 10, tracked);
+    input.release();
+    input.read(fist, 20, tracked);
+    expect([input.held, input.wish.forward]).toEqual([false, 0]);
+    input.read([controller('right', 0, 0, -1)], 30, tracked);
+    input.read(fist, 40, tracked);
+    expect([input.held, input.wish.forward]).toEqual([true, 1]);
   });
 
   test('treats null axes and sources without a gamepad as centred', () => {
     const input = new HeadsetInput();
-    input.read([
-      { handedness: 'none' },
-      { handedness: 'none', gamepad: null },
-      controller('left', 1, null, null),
-    ]);
+    input.read(
+      [{ handedness: 'none' }, { handedness: 'none', gamepad: null }, controller('left', 1, null, null)],
+      0,
+      tracked,
+    );
     expect(input.held).toBe(true);
     expect(input.wish).toEqual({ forward: 0, left: 0 });
   });
 
   test('pressing a stick switches to the next robot, once per press and never while a hand drives', () => {
     const input = new HeadsetInput();
-    expect(input.read([controller('left', 0, 0, 0, 3)]).nextRobot).toBe(true);
-    expect(input.read([controller('left', 0, 0, 0, 3)]).nextRobot).toBe(false);
-    input.read([controller('left', 0, 0, 0)]);
-    expect(input.read([controller('left', 0, 0, 0, 3), controller('right', 1, 0, -1)]).nextRobot).toBe(false);
-    expect(input.read([controller('left', 0, 0, 0, 3)]).nextRobot).toBe(false);
+    expect(input.read([controller('left', 0, 0, 0, 3)], 0, tracked).nextRobot).toBe(true);
+    expect(input.read([controller('left', 0, 0, 0, 3)], 0, tracked).nextRobot).toBe(false);
+    input.read([controller('left', 0, 0, 0)], 0, tracked);
+    expect(
+      input.read([controller('left', 0, 0, 0, 3), controller('right', 1, 0, -1)], 0, tracked).nextRobot,
+    ).toBe(false);
+    expect(input.read([controller('left', 0, 0, 0, 3)], 0, tracked).nextRobot).toBe(false);
   });
 
   test('counts the trigger as release only while the grip is open: a clenched fist holds both', () => {
     const input = new HeadsetInput();
-    const held = (...sources: ReturnType<typeof controller>[]) => input.read(sources).releaseHeld;
+    const held = (...sources: ReturnType<typeof controller>[]) => input.read(sources, 0, tracked).releaseHeld;
     expect(held(controller('left', 0, 0, 0, 0))).toBe(true);
     expect(held(controller('left', 1, 0, 0, 0))).toBe(false);
     expect(held(controller('left', 0, 0, 0, 0), controller('right', 1, 0, 0))).toBe(false);
@@ -182,7 +233,7 @@ describe('HeadsetInput', () => {
   test('speaks by the trigger of the other hand while one drives', () => {
     const input = new HeadsetInput();
     const talks = (...sources: ReturnType<typeof controller>[]) => {
-      input.read(sources);
+      input.read(sources, 0, tracked);
       return input.talks;
     };
     expect(talks(controller('left', 0, 0, 0, 0), controller('right', 1, 0, 0))).toBe(true);
@@ -196,17 +247,17 @@ describe('HeadsetInput', () => {
 
   test('A or X starts a latency test, B or Y the emergency stop, once per press', () => {
     const input = new HeadsetInput();
-    expect(input.read([controller('right', 0, 0, 0, 4)])).toMatchObject({
+    expect(input.read([controller('right', 0, 0, 0, 4)], 0, tracked)).toMatchObject({
       estop: false,
       latencyTest: true,
       nextRobot: false,
     });
-    expect(input.read([controller('right', 0, 0, 0, 5)])).toMatchObject({
+    expect(input.read([controller('right', 0, 0, 0, 5)], 0, tracked)).toMatchObject({
       estop: true,
       latencyTest: false,
       nextRobot: false,
     });
-    expect(input.read([controller('right', 0, 0, 0, 5)])).toMatchObject({
+    expect(input.read([controller('right', 0, 0, 0, 5)], 0, tracked)).toMatchObject({
       estop: false,
       latencyTest: false,
       nextRobot: false,
@@ -215,7 +266,12 @@ describe('HeadsetInput', () => {
 });
 
 test('lets one device drive at a time: the one that started', () => {
-  const device = (held: boolean) => ({ name: 'touch' as const, held, wish: { forward: 0, left: 0 } });
+  const device = (held: boolean) => ({
+    name: 'touch' as const,
+    held,
+    wish: { forward: 0, left: 0 },
+    readMs: 0,
+  });
   const [a, b] = [device(true), device(true)];
   expect(activeInput([a, b], null)).toBe(a);
   expect(activeInput([a, b], b)).toBe(b);

@@ -20,15 +20,19 @@ export class GamepadInput implements DriveInput {
   readonly name = 'gamepad';
   readonly wish: DriveWish = { forward: 0, left: 0 };
   held = false;
+  readMs = Number.NEGATIVE_INFINITY;
+  #mustOpen = false;
   #estop = false;
   #latency = false;
   #next = false;
 
   /**
    * @param pad the gamepad's current state, or `null` if it is disconnected
+   * @param nowMs `performance.now()`
    * @returns the buttons that were pressed since the last call, or are held
    */
-  read(pad: GamepadState | null): PressedButtons {
+  read(pad: GamepadState | null, nowMs: number): PressedButtons {
+    this.readMs = nowMs;
     const estop = pad?.buttons[ESTOP_BUTTON]?.pressed === true;
     const latency = pad?.buttons[LATENCY_BUTTON]?.pressed === true;
     const next = pad?.buttons[NEXT_ROBOT_BUTTON]?.pressed === true;
@@ -41,11 +45,21 @@ export class GamepadInput implements DriveInput {
     this.#estop = estop;
     this.#latency = latency;
     this.#next = next;
-    this.held = pad !== null && GRIP_BUTTONS.some((index) => (pad.buttons[index]?.value ?? 0) > 0.5);
+    const grips = pad !== null && GRIP_BUTTONS.some((index) => (pad.buttons[index]?.value ?? 0) > 0.5);
+    this.#mustOpen &&= grips;
+    this.held = grips && !this.#mustOpen;
     const [x, y] = pad === null ? [0, 0] : strongerStick(pad.axes);
     this.wish.forward = -shapeAxis(y, DEFAULT_STICK_RESPONSE) + 0;
     this.wish.left = -shapeAxis(x, DEFAULT_STICK_RESPONSE) + 0;
     return pressed;
+  }
+
+  /** The hand counts as open until a reading has found it open. */
+  release(): void {
+    this.#mustOpen = true;
+    this.held = false;
+    this.wish.forward = 0;
+    this.wish.left = 0;
   }
 }
 

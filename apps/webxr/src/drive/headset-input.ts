@@ -19,20 +19,35 @@ export interface XrController {
   gamepad?: GamepadState | null | undefined;
 }
 
+/** What an XR frame tells of a controller. */
+export type Tracks<Source> = (source: Source) => boolean;
+
 export class HeadsetInput implements DriveInput {
   readonly name = 'headset';
   readonly wish: DriveWish = { forward: 0, left: 0 };
   held = false;
   /** Whether the operator speaks: one hand drives, and the other pulls its trigger. */
   talks = false;
+  readMs = Number.NEGATIVE_INFINITY;
+  #mustOpen = false;
   #hand: string | null = null;
   #estop = false;
   #latency = false;
   #stickPress = false;
 
-  /** @returns the buttons that were pressed since the last call, or are held */
-  read(sources: Iterable<XrController>): PressedButtons {
-    let driving: XrController | null = null;
+  /**
+   * @param sources the controllers in this XR frame
+   * @param nowMs `performance.now()`
+   * @param tracks whether the headset knows where it and this controller are. What an untracked controller reports may
+   * be its last state from before it fell asleep, so this does not count as a reading of a hand that drives.
+   * @returns the buttons that were pressed since the last call, or are held
+   */
+  read<Source extends XrController>(
+    sources: Iterable<Source>,
+    nowMs: number,
+    tracks: Tracks<Source>,
+  ): PressedButtons {
+    let driving: Source | null = null;
     let estop = false;
     let latency = false;
     let stickPress = false;
@@ -47,6 +62,9 @@ export class HeadsetInput implements DriveInput {
       if ((buttons[SQUEEZE]?.value ?? 0) <= 0.5) continue;
       if (driving === null || source.handedness === this.#hand) driving = source;
     }
+    this.#mustOpen &&= driving !== null;
+    if (this.#mustOpen) driving = null;
+    if (driving === null || tracks(driving)) this.readMs = nowMs;
     this.talks = driving !== null && pullsOther(sources, driving);
     this.held = driving !== null;
     this.#hand = driving?.handedness ?? null;
@@ -68,7 +86,9 @@ export class HeadsetInput implements DriveInput {
     return pressed;
   }
 
+  /** The hands count as open until a reading has found them open. */
   release(): void {
+    this.#mustOpen = true;
     this.held = false;
     this.talks = false;
     this.wish.forward = 0;

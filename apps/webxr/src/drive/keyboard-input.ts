@@ -11,17 +11,26 @@ const KEYS: ReadonlySet<string> = new Set([...GRIPS, ...FORWARD, ...BACK, ...LEF
 export class KeyboardInput implements DriveInput {
   readonly name = 'keyboard';
   readonly wish: DriveWish = { forward: 0, left: 0 };
+  readMs = Number.NEGATIVE_INFINITY;
   readonly #down = new Set<string>();
 
   get held(): boolean {
     return this.#any(GRIPS);
   }
 
-  /** @param code KeyboardEvent.code @returns whether this input uses the key */
-  key(code: string, down: boolean): boolean {
+  /** Keys stay down between events for as long as the page runs: call this regularly while it does. */
+  runs(nowMs: number): void {
+    this.readMs = nowMs;
+  }
+
+  /** @param code KeyboardEvent.code @param nowMs of now, not of the event @returns whether this input uses the key */
+  key(code: string, down: boolean, nowMs: number): boolean {
     if (!KEYS.has(code)) return false;
+    const wasHeld = this.held;
     if (down) this.#down.add(code);
     else this.#down.delete(code);
+    // A new grip and an open one are news of the hand. A repeated key says nothing about the time before it.
+    if (!wasHeld || !this.held) this.readMs = nowMs;
     this.wish.forward = Number(this.#any(FORWARD)) - Number(this.#any(BACK));
     this.wish.left = Number(this.#any(LEFT)) - Number(this.#any(RIGHT));
     return true;

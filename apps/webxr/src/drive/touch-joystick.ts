@@ -9,6 +9,7 @@ export class TouchJoystick implements DriveInput {
   readonly name = 'touch';
   readonly wish: DriveWish = { forward: 0, left: 0 };
   held = false;
+  readMs = Number.NEGATIVE_INFINITY;
   readonly #base: HTMLElement;
   readonly #knob: HTMLElement;
   readonly #onChange: () => void;
@@ -22,15 +23,23 @@ export class TouchJoystick implements DriveInput {
       if (this.#pointer !== null) return;
       this.#pointer = event.pointerId;
       base.setPointerCapture(event.pointerId);
+      this.readMs = performance.now();
       this.held = true;
       this.#move(event);
     });
     base.addEventListener('pointermove', (event) => this.#move(event));
     for (const end of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) {
       base.addEventListener(end, (event) => {
-        if (event.pointerId === this.#pointer) this.release();
+        if (event.pointerId !== this.#pointer) return;
+        this.readMs = performance.now();
+        this.release();
       });
     }
+  }
+
+  /** A finger stays down between events for as long as the page runs: call this regularly while it does. */
+  runs(nowMs: number): void {
+    this.readMs = nowMs;
   }
 
   release(): void {

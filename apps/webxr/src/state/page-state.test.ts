@@ -38,6 +38,7 @@ class Client {
     holder: 'nobody' as LeaseState['holder'],
     stream: { held: false },
     input: null as { name: string } | null,
+    lost: null,
   };
   heardAtMs = 0;
   readonly watched: (readonly number[])[] = [];

@@ -2,6 +2,7 @@
 
 import {
   finalLosses,
+  type GripLoss,
   type SessionLoss,
   type SessionPhase,
   type SignalingState,
@@ -45,8 +46,16 @@ export const rejectionWords: Record<CommandRejection, string> = {
   'not-lease-holder': 'Someone else is driving this robot. Press Take over to drive it yourself.',
   'dead-man-released': 'The robot moves only while you hold the grip.',
   'let-go-first': 'Commands did not get through while you held the grip. Let go of it, then drive.',
+  'no-wheels': 'The robot’s wheels take no commands. The reading “Wheels” says why.',
   'estop-latched': 'The emergency stop is on. Release it, let go of the grip, then drive.',
   'rate-limited': 'The robot receives more commands than it accepts.',
+};
+
+export const gripLossWords: Record<GripLoss, string> = {
+  'late-reading': 'The grip was not read in time, so the robot stops. Let go of it, then drive.',
+  'hands-away': 'The page or the headset was left with the grip held. Let go of it, then drive.',
+  'path-lost': 'The connection was lost while you held the grip. Let go of it, then drive.',
+  'let-go': 'The robot was let go of. Let go of the grip, too, before you drive again.',
 };
 
 export const signalingWords: Record<SignalingState, Words> = {
@@ -89,12 +98,16 @@ export interface DrivingFacts {
   role: Role | null;
   /** The device that this operator drives with; `null` while no grip is held. */
   device: string | null;
+  /** Why a grip that is held does not drive; `null` if there is none. */
+  gripLost: GripLoss | null;
 }
 
 /** Who drives. */
-export function holderWords({ holder, driver, role, device }: DrivingFacts): Words {
+export function holderWords({ holder, driver, role, device, gripLost }: DrivingFacts): Words {
   if (holder === 'other') return { text: `${driver ?? 'Someone else'} is driving`, tone: 'warning' };
   if (role === 'watch') return { text: 'Nobody is driving. Your grant lets you watch', tone: 'neutral' };
+  if (gripLost !== null && device === null)
+    return { text: 'Let go of the grip, then drive', tone: 'warning' };
   if (holder === 'nobody') return { text: 'Nobody is driving', tone: 'neutral' };
   return { text: device === null ? 'You have control' : `You are driving (${device})`, tone: 'good' };
 }

@@ -3,6 +3,7 @@
  * per second. It can do nothing that the page's own controls cannot do.
  */
 import type {
+  GripLoss,
   LatencyResult,
   LeaseState,
   RobotListing,
@@ -37,6 +38,8 @@ export interface PageState {
   /** Whether commands are being sent, and from which device. */
   driving: boolean;
   input: string | null;
+  /** Why a grip that is held does not drive. */
+  gripLost: GripLoss | null;
   vr: boolean;
 }
 

@@ -53,6 +53,7 @@ export function installTestApi(app: App): void {
             : { linear: telemetry.twist.linear.x, angular: telemetry.twist.angular.z },
         driving: driver.stream.held && driver.holder === 'you',
         input: driver.input?.name ?? null,
+        gripLost: driver.lost,
         vr: app.vr.active.value,
       };
     },

@@ -1,7 +1,7 @@
 /** Every input device of the page. Held inputs count as released when the page no longer receives their events. */
 import type { DriveInput, PressedButtons } from '@farpoint/operator';
 import { GamepadInput } from '../drive/gamepad-input.ts';
-import { HeadsetInput, type XrController } from '../drive/headset-input.ts';
+import { HeadsetInput, type Tracks, type XrController } from '../drive/headset-input.ts';
 import { KeyboardInput } from '../drive/keyboard-input.ts';
 import type { ReleaseControl } from '../drive/release-hold.ts';
 import { TouchJoystick } from '../drive/touch-joystick.ts';
@@ -72,6 +72,7 @@ export class OperatorInputs {
     this.#keyboard.releaseAll();
     this.#touch.release();
     this.#headset.release();
+    this.#gamepad.release();
     for (const control of ['key', 'pointer', 'headset'] as const) {
       this.#port.onRelease(control, false);
       this.#port.onTalk(control, false);
@@ -79,17 +80,22 @@ export class OperatorInputs {
     this.#port.onChange();
   }
 
-  /** Polls the gamepads, which send no events. */
-  poll(): void {
+  /**
+   * Polls the gamepads, which send no events. Keys and fingers that are down stay so while this is called: a page that
+   * hangs does not hear that they were let go.
+   */
+  poll(nowMs: number): void {
+    this.#keyboard.runs(nowMs);
+    this.#touch.runs(nowMs);
     const pads = navigator.getGamepads?.() ?? [];
     const pad = pads.find((candidate) => candidate?.mapping === 'standard') ?? null;
-    this.#buttons(this.#gamepad.read(pad), 'gamepad');
+    this.#buttons(this.#gamepad.read(pad, nowMs), 'gamepad');
   }
 
   /** Call this before each display frame in VR. */
-  readHeadset(sources: Iterable<XrController>): void {
+  readHeadset<Source extends XrController>(sources: Iterable<Source>, tracks: Tracks<Source>): void {
     const wasHeld = this.#headset.held;
-    this.#buttons(this.#headset.read(sources), 'headset');
+    this.#buttons(this.#headset.read(sources, performance.now(), tracks), 'headset');
     this.#port.onTalk('headset', this.#headset.talks);
     if (wasHeld !== this.#headset.held) this.#port.onChange();
   }
@@ -110,7 +116,7 @@ export class OperatorInputs {
     if (!down) {
       if (event.code === RELEASE_KEY || event.code === 'Enter') this.#port.onRelease('key', false);
       if (event.code === TALK_KEY) this.#port.onTalk('key', false);
-      if (!this.#keyboard.key(event.code, false)) return;
+      if (!this.#keyboard.key(event.code, false, performance.now())) return;
       if (driving) event.preventDefault();
       this.#port.onChange();
       return;
@@ -123,7 +129,7 @@ export class OperatorInputs {
     // They move a panel that has the focus, unless somebody drives.
     if (isPanelKey(event) && !this.#keyboard.held) return;
     // Space would press a focused button. Driving takes precedence while there is a robot.
-    if (driving && this.#keyboard.key(event.code, true)) {
+    if (driving && this.#keyboard.key(event.code, true, performance.now())) {
       event.preventDefault();
       if (!event.repeat) this.#port.onChange();
       return;

@@ -7,12 +7,17 @@ export class VrSession {
   readonly active = signal(false);
   /** Why VR is unavailable; `null` if it is available, `undefined` until that is known. */
   readonly unavailable = signal<string | null | undefined>(undefined);
+  /** Called when the headset is taken off, or covers the picture with a menu of its own. */
+  onHidden: (() => void) | null = null;
   readonly #renderer: WebGLRenderer;
 
   constructor(renderer: WebGLRenderer) {
     this.#renderer = renderer;
     renderer.xr.addEventListener('sessionstart', () => {
       this.active.value = true;
+      renderer.xr.getSession()?.addEventListener('visibilitychange', () => {
+        if (this.hidden) this.onHidden?.();
+      });
     });
     renderer.xr.addEventListener('sessionend', () => {
       this.active.value = false;
@@ -36,6 +41,17 @@ export class VrSession {
 
   get inputSources(): Iterable<XRInputSource> {
     return this.#renderer.xr.getSession()?.inputSources ?? [];
+  }
+
+  /**
+   * Whether the headset knows, in this XR frame, where it and this controller are. An emulated position suffices: a
+   * headset without positional tracking has no other, and no position of a hand drives.
+   */
+  tracks({ gripSpace, targetRaySpace }: XRInputSource): boolean {
+    const { xr } = this.#renderer;
+    const [frame, space] = [xr.getFrame(), xr.getReferenceSpace()];
+    if (frame == null || space === null || frame.getViewerPose(space) == null) return false;
+    return frame.getPose(gripSpace ?? targetRaySpace, space) != null;
   }
 
   /** Whether the headset is not worn or its system menu is open. */

@@ -70,6 +70,7 @@ export class RobotClient {
       sendCommand: (command) => this.link.sendCommand(command),
       sendSession: (message) => this.link.sendSession(message),
       onOtherDrives: () => this.#emitter.emit('otherDrives', undefined),
+      onGripLost: (loss) => this.#emitter.emit('gripLost', loss),
     });
     this.stops = new StopDelivery(this.link, (status) => this.#emitter.emit('stop', status));
     this.latency = new LatencyProbe(this.link, this.driver, (result) => {
@@ -145,7 +146,8 @@ export class RobotClient {
 
   /**
    * Moves the robot. Call it again at least every 200 ms while the operator holds on: a wish that is not renewed
-   * expires, and the robot stops. The first call requests the lease if nobody drives.
+   * expires, and the robot stops. The first call requests the lease if nobody drives. A wish that outlives a session or
+   * a lost path moves nothing until it has expired once.
    */
   drive(wish: DriveWish): void {
     const nowMs = performance.now();

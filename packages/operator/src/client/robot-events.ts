@@ -18,6 +18,7 @@ import type {
   Welcome,
 } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
+import type { GripLoss } from '../drive/grips.ts';
 import type { LatencyResult } from '../latency/latency-test.ts';
 import type { Picture } from '../pictures/picture-feed.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
@@ -62,6 +63,8 @@ export interface RobotEvents {
   stop: StopStatus;
   /** The grip was pressed, but another operator drives. */
   otherDrives: undefined;
+  /** A grip that was held counts as released until it has been opened. */
+  gripLost: GripLoss;
   /** Pose, velocity, drive state, battery; 20 times a second. */
   telemetry: Telemetry;
   /** A reading of one of the robot's sensors or topics. */

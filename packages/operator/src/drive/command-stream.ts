@@ -18,6 +18,7 @@ export class CommandStream {
   #sequence = 0;
   #wish: DriveWish = { ...REST };
   #held = false;
+  #readMs: number | null = null;
   #stopsLeft = 0;
   #restsLeft = 0;
   #nextMs = 0;
@@ -53,8 +54,13 @@ export class CommandStream {
     return this.#held;
   }
 
-  /** Sets the state of the operator's hand. A change of the grip takes effect at the next {@link tick}, at any rate. */
-  set(held: boolean, wish: DriveWish): void {
+  /**
+   * Sets the state of the operator's hand. A change of the grip takes effect at the next {@link tick}, at any rate.
+   *
+   * @param readMs when the device was read, which becomes the commands' time; `null`: at the tick
+   */
+  set(held: boolean, wish: DriveWish, readMs: number | null = null): void {
+    this.#readMs = readMs;
     this.#wish.forward = wish.forward;
     this.#wish.left = wish.left;
     if (held === this.#held) return;
@@ -101,7 +107,8 @@ export class CommandStream {
     return {
       type: 'command',
       sequence: this.#sequence,
-      timeMs: nowMs,
+      // The robot judges a command's age: repeating an old reading must not make it young.
+      timeMs: this.#held && this.#readMs !== null ? Math.min(this.#readMs, nowMs) : nowMs,
       lease,
       deadMan: this.#held,
       twist: this.#held && this.#restsLeft === 0 ? toTwist(this.#wish, limits) : zeroTwist(),

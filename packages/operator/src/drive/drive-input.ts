@@ -9,6 +9,13 @@ export interface DriveInput {
   readonly held: boolean;
   /** The wished motion, with dead zone and curve applied. */
   readonly wish: Readonly<DriveWish>;
+  /**
+   * When the state above was last known to be the hand's, ms (`performance.now()`): when the device was polled, or, for
+   * a device that reports by events, when the page last ran. A grip whose device is not read for 100 ms counts as
+   * released, and drives again only after a reading has found it open. `null` only for an input that lets go by
+   * itself when nobody renews it.
+   */
+  readonly readMs: number | null;
 }
 
 /** Buttons besides the grip: those pressed since the device was last read, and one that is held. */
@@ -23,8 +30,20 @@ export interface PressedButtons {
   readonly releaseHeld: boolean;
 }
 
-/** The first device whose grip is held drives; the others are ignored until it is released. */
-export function activeInput(inputs: readonly DriveInput[], before: DriveInput | null): DriveInput | null {
-  if (before?.held === true && inputs.includes(before)) return before;
-  return inputs.find((input) => input.held) ?? null;
+/**
+ * The first device whose grip is held drives; the others are ignored until it is released.
+ *
+ * @param holds whether a device's grip counts as held
+ */
+export function activeInput(
+  inputs: readonly DriveInput[],
+  before: DriveInput | null,
+  holds: (input: DriveInput) => boolean = isHeld,
+): DriveInput | null {
+  if (before !== null && holds(before) && inputs.includes(before)) return before;
+  return inputs.find(holds) ?? null;
+}
+
+function isHeld({ held }: DriveInput): boolean {
+  return held;
 }

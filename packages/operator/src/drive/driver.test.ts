@@ -1,6 +1,8 @@
 import type { Command, OperatorSessionMessage } from '@farpoint/protocol';
 import { describe, expect, test } from 'vitest';
+import type { DriveInput } from './drive-input.ts';
 import { Driver } from './driver.ts';
+import type { GripLoss } from './grips.ts';
 import { WishInput } from './wish-input.ts';
 
 function bench() {
@@ -105,6 +107,45 @@ describe('Driver', () => {
     expect(commands.filter(({ deadMan }) => deadMan).map(({ twist }) => twist.linear.x)).toEqual([
       0, 0, 1, 1,
     ]);
+  });
+
+  test('a headset whose frames stop with the grip held stops the robot, and its commands never look young', () => {
+    const commands: Command[] = [];
+    const losses: GripLoss[] = [];
+    const headset = { name: 'headset', held: true, wish: { forward: 1, left: 0 }, readMs: 0 };
+    const driver = new Driver([headset as DriveInput], {
+      sendCommand: (command) => commands.push(command),
+      sendSession: () => {},
+      onOtherDrives: () => {},
+      onGripLost: (loss) => losses.push(loss),
+    });
+    driver.onLimits({ maxLinear: 1, maxAngular: 1, watchdogMs: 150, maxCommandsPerSecond: 100 });
+    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    const ticks = (fromMs: number, toMs: number, reads: boolean) => {
+      for (let now = fromMs; now < toMs; now += 25) {
+        // The last frame comes 14 ms before the tick.
+        if (reads) headset.readMs = now - 14;
+        driver.tick(now);
+      }
+      return commands.splice(0);
+    };
+    for (const { timeMs, twist } of ticks(1000, 2000, true)) {
+      expect((timeMs - 1000 + 14) % 25).toBe(0);
+      expect(twist.linear.x).toBe(1);
+    }
+    const frozen = ticks(2000, 7000, false);
+    const moving = frozen.filter(({ twist }) => twist.linear.x !== 0);
+    expect(moving.map(({ timeMs }) => timeMs)).toEqual(moving.map(() => headset.readMs));
+    expect(moving.length).toBeLessThanOrEqual(4);
+    expect(frozen.slice(moving.length).map(({ deadMan }) => deadMan)).toEqual([false, false, false, false]);
+    expect([losses, driver.lost, driver.input]).toEqual([['late-reading'], 'late-reading', null]);
+    // The frames come back and the fist is still closed.
+    expect(ticks(7000, 9000, true)).toEqual([]);
+    headset.held = false;
+    ticks(9000, 9025, true);
+    headset.held = true;
+    expect(ticks(9025, 9100, true).map(({ twist }) => twist.linear.x)).toEqual([1, 1, 1]);
+    expect(driver.lost).toBe(null);
   });
 
   test('nothing is sent once another operator holds the lease', () => {

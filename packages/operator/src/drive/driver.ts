@@ -2,6 +2,7 @@
 import type { Command, DriveLimits, LeaseState, OperatorSessionMessage } from '@farpoint/protocol';
 import { CommandStream } from './command-stream.ts';
 import { activeInput, type DriveInput } from './drive-input.ts';
+import { type GripLoss, Grips } from './grips.ts';
 import { REST } from './velocity-mapping.ts';
 
 export interface DriverPort {
@@ -9,6 +10,8 @@ export interface DriverPort {
   sendSession(message: OperatorSessionMessage): void;
   /** The grip was pressed, but somebody else drives. */
   onOtherDrives(): void;
+  /** A grip that was held counts as released until it has been opened. */
+  onGripLost?(loss: GripLoss): void;
 }
 
 /** While the grip is held and nobody drives, the lease is requested at this interval. */
@@ -28,7 +31,8 @@ export class Driver {
   #nextLeaseRequestMs = 0;
   #suspended = false;
   #toldOther = false;
-  #mustOpen = false;
+  readonly #grips = new Grips();
+  readonly #holds = (input: DriveInput) => this.#grips.holds(input);
 
   /**
    * @param inputs devices that may drive; more can be added
@@ -49,6 +53,15 @@ export class Driver {
     return this.#input;
   }
 
+  /** Why a grip that is held does not drive; `null` if there is none. It drives once it has been opened. */
+  get lost(): GripLoss | null {
+    for (const input of this.#inputs) {
+      const loss = input.held ? this.#grips.lossOf(input) : null;
+      if (loss !== null) return loss;
+    }
+    return null;
+  }
+
   /** Who holds the lease, by the robot's latest message. */
   get holder(): LeaseState['holder'] {
     return this.#holder;
@@ -57,6 +70,7 @@ export class Driver {
   /** A session begins or ends: all grips count as released. */
   reset(): void {
     this.stream.reset();
+    this.#grips.lose(this.#inputs, 'let-go');
     this.#holder = 'nobody';
     this.#input = null;
     this.#toldOther = false;
@@ -73,7 +87,10 @@ export class Driver {
     this.stream.setLease(lease.holder === 'you' ? (lease.lease ?? null) : null);
   }
 
-  /** Whether the page is hidden or has lost the focus: all grips then count as released. */
+  /**
+   * Whether the page is hidden or has lost the focus: all grips then count as released, and those that stay held do so
+   * until they have been opened.
+   */
   set suspended(suspended: boolean) {
     this.#suspended = suspended;
   }
@@ -93,13 +110,13 @@ export class Driver {
   }
 
   /**
-   * Stops and releases the lease. All grips count as released until no grip is held: a grip that is still held must not
-   * move the next robot.
+   * Stops and releases the lease. Each grip that is held counts as released until it has been opened: it must not move
+   * the next robot.
    *
    * @param nowMs `performance.now()`
    */
   letGo(nowMs: number): void {
-    this.#mustOpen = true;
+    this.#grips.lose(this.#inputs, 'let-go');
     this.tick(nowMs);
     if (this.#holder === 'you') this.releaseLease();
     // The robot would reject zero commands that arrive after the release.
@@ -107,27 +124,29 @@ export class Driver {
   }
 
   /**
-   * The path to the robot is lost or restored. All grips count as released until no grip is held: the robot must not
-   * start to move because a grip was held during the outage.
+   * The path to the robot is lost or restored. Each grip that is held counts as released until it has been opened: the
+   * robot must not start to move because a grip was held during the outage.
    *
    * @param nowMs `performance.now()`
    */
   onPath(nowMs: number): void {
-    this.#mustOpen = true;
+    this.#grips.lose(this.#inputs, 'path-lost');
     this.stream.restFirst();
     this.tick(nowMs);
   }
 
   /**
-   * Reads the devices and sends what is due. Call it at the stream's rate, and at once when a grip or stick changes.
+   * Takes the devices' states and sends what is due. Call it at the stream's rate, and at once when a grip or stick
+   * changes. A pause of more than 100 ms between two readings of a device makes its grip count as released.
    *
    * @param nowMs `performance.now()`
    */
   tick(nowMs: number): void {
-    if (this.#mustOpen) this.#mustOpen = this.#inputs.some((input) => input.held);
-    this.#input = this.#suspended || this.#mustOpen ? null : activeInput(this.#inputs, this.#input);
+    const lost = this.#grips.update(this.#inputs, nowMs, this.#suspended);
+    if (lost !== null) this.#port.onGripLost?.(lost);
+    this.#input = activeInput(this.#inputs, this.#input, this.#holds);
     const held = this.#input !== null;
-    this.stream.set(held, this.#input?.wish ?? REST);
+    this.stream.set(held, this.#input?.wish ?? REST, this.#input?.readMs ?? null);
     if (held && this.#holder !== 'you') this.#ask(nowMs);
     if (!held) this.#toldOther = false;
     const command = this.stream.tick(nowMs);

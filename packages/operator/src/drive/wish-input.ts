@@ -8,6 +8,8 @@ export const WISH_HOLDS_MS = 200;
 export class WishInput implements DriveInput {
   readonly name = 'script';
   readonly wish: DriveWish = { forward: 0, left: 0 };
+  /** A wish expires by itself. */
+  readonly readMs = null;
   held = false;
   #renewedMs = 0;
 

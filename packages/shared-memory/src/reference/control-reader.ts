@@ -1,7 +1,7 @@
 import type { Twist } from '@farpoint/protocol';
 import { SharedMemoryError } from '../errors.ts';
 import { MappedFile } from '../mapped-file.ts';
-import { BUSY_BYTES, CONTROL_BYTES, referenceFiles } from './layout.ts';
+import { BUSY_BYTES, CONTROL_BYTES, ECHO_OFFSET, referenceFiles } from './layout.ts';
 
 export interface ControlBlock {
   counter: number;
@@ -14,12 +14,15 @@ export class ReferenceControlReader implements Disposable {
   readonly #busy: MappedFile;
   readonly #bytes = new Uint8Array(CONTROL_BYTES);
 
-  /** @throws {SharedMemoryError} */
-  constructor(folder?: string) {
+  /**
+   * @param options.answers whether {@link answer} will be called, which needs a file that this process may write
+   * @throws {SharedMemoryError}
+   */
+  constructor(folder?: string, options: { answers?: boolean } = {}) {
     const paths = referenceFiles(folder);
     this.#block = MappedFile.open(paths.control, { bytes: CONTROL_BYTES });
     try {
-      this.#busy = MappedFile.open(paths.busy, { bytes: BUSY_BYTES });
+      this.#busy = MappedFile.open(paths.busy, { bytes: BUSY_BYTES, writable: options.answers === true });
     } catch (error) {
       this.#block.close();
       throw error;
@@ -56,6 +59,16 @@ export class ReferenceControlReader implements Disposable {
         angular: { x: value(3), y: value(4), z: value(5) },
       },
     };
+  }
+
+  /**
+   * Tells the robot that the wheels have been given the velocity with this counter. A robot that was answered once stops
+   * when the answers end.
+   *
+   * @throws {SharedMemoryError} `truncated`
+   */
+  answer(counter: number): void {
+    this.#busy.store8(ECHO_OFFSET, counter & 0xff);
   }
 
   close(): void {

@@ -1,7 +1,7 @@
 import type { Twist } from '@farpoint/protocol';
 import { type Addon, type ControlHandle, loadAddon } from '../addon.ts';
 import { MappedFile, type TrustedOwner, translated } from '../mapped-file.ts';
-import { BUSY_BYTES, CONTROL_BYTES, referenceFiles } from './layout.ts';
+import { BUSY_BYTES, CONTROL_BYTES, ECHO_OFFSET, referenceFiles } from './layout.ts';
 
 export interface ControlWriterOptions {
   folder?: string | undefined;
@@ -45,6 +45,15 @@ export class ReferenceControlWriter implements Disposable {
     } catch (error) {
       throw translated(error, this.#files.block.path, CONTROL_BYTES);
     }
+  }
+
+  /**
+   * The lowest byte of the counter that the reader has acted on, if it is a reader that answers; 0 before the first.
+   *
+   * @throws {SharedMemoryError} `truncated`
+   */
+  readerEcho(): number {
+    return this.#files?.busy.load8(ECHO_OFFSET) ?? 0;
   }
 
   /** How often silence has set the velocity to zero. */

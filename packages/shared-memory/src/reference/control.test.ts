@@ -72,6 +72,17 @@ describe.skipIf(ADDON_SUITE.skip)(`command block (${ADDON_SUITE.note})`, () => {
     expect(reader().read()).toEqual({ counter, twist: twistOf(linear, angular) });
   });
 
+  it('carries the reader’s answer in a byte that writing leaves alone', () => {
+    const write = writer();
+    expect(write.readerEcho()).toBe(0);
+    const read = new ReferenceControlReader(folder, { answers: true });
+    open.push(read);
+    read.answer(0x1ff);
+    write.write(forward);
+    expect(write.readerEcho()).toBe(0xff);
+    expect([...readFileSync(files.busy)]).toEqual([0, 0xff, 0, 0, 0]);
+  });
+
   it('carries any velocity, its counter growing by one', () => {
     const value = fc.double({ noNaN: true, noDefaultInfinity: true });
     const [write, read] = [writer(), reader()];

@@ -20,8 +20,12 @@ export const BITRATE_OFFSET = 2;
 
 /** `shared_control`: counter (i32), then linear x, y, z and angular x, y, z (f64). */
 export const CONTROL_BYTES = 52;
-/** `semaphore_ros_read`: byte 0 is 1 while the block is written. */
+/**
+ * `semaphore_ros_read`: byte 0 is 1 while the block is written. In byte 1, which the reference system leaves alone, a
+ * reader repeats the lowest byte of the counter that it has acted on.
+ */
 export const BUSY_BYTES = 5;
+export const ECHO_OFFSET = 1;
 
 export interface ReferenceFiles {
   cloud: string;

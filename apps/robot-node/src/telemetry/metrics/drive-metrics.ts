@@ -2,10 +2,19 @@ import type { PulledMetrics } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
 
 /** Metrics of commands and the guard's verdicts. */
-export function addDriveMetrics(metrics: PulledMetrics, { counters, base }: Robot): void {
+export function addDriveMetrics(metrics: PulledMetrics, robot: Robot): void {
+  const { counters, base } = robot;
   metrics.sum('commands_accepted', 'Drive commands accepted', () => counters.commandsAccepted);
   metrics.sums('commands_rejected', 'Drive commands refused, by reason', 'reason', () =>
     counters.commandsRejected.entries(),
+  );
+  metrics.gauge('wheels_present', '1 while something takes the velocities, otherwise 0', () =>
+    robot.sink.fault == null ? 1 : 0,
+  );
+  metrics.sum(
+    'sink_restarts',
+    'Restarts of the thread that publishes velocities',
+    () => robot.sink.restarts ?? 0,
   );
   metrics.sum(
     'watchdog_thread_stops',

@@ -1,0 +1,83 @@
+/** A headset that hangs with the grip held: nothing reads the hand any more, so it counts as open. */
+import { Headset, headsetViewport } from '../src/headset.ts';
+import { OperatorPage } from '../src/operator-page.ts';
+import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+
+/** Since when what holds now has held, ms since the page loaded; `null` while it does not. */
+interface StopTimes {
+  letGoMs: number | null;
+  toldMs: number | null;
+  standsMs: number | null;
+}
+
+test.use({ viewport: headsetViewport });
+
+test('in the headset: frames that stop with the grip held stop the robot until the grip is opened', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const stack = await startStack({ robots: [simulatedRobot] });
+  const headset = await Headset.wear(page);
+  const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
+  await operator.expectPoints();
+  await page.getByRole('button', { name: /VR/ }).click();
+  await operator.expectState('vr', true);
+  await operator.expectPoints();
+
+  const drive = () =>
+    expect
+      .poll(
+        async () => {
+          await operator.gripAnew();
+          const { driving, velocity } = await operator.state();
+          return driving && (velocity?.linear ?? 0) > 0.1;
+        },
+        { message: 'driving', intervals: [100] },
+      )
+      .toBe(true);
+  await headset.thumbstick('right', 0, -1);
+  await operator.hold(headset.grip('right'));
+  await drive();
+
+  await page.evaluate(() => {
+    const stop: StopTimes = { letGoMs: null, toldMs: null, standsMs: null };
+    window.stopTimes = stop;
+    setInterval(() => {
+      const now = performance.now();
+      const { driving, drive, velocity } = window.farpoint.state();
+      stop.letGoMs = driving ? null : (stop.letGoMs ?? now);
+      stop.toldMs = drive === 'driving' ? null : (stop.toldMs ?? now);
+      stop.standsMs = velocity?.linear === 0 ? (stop.standsMs ?? now) : null;
+    }, 5);
+  });
+  const frozenMs = await headset.freeze();
+  await operator.expectStanding();
+  await operator.expectState('gripLost', 'late-reading');
+  const { letGoMs, toldMs, standsMs } = await page.evaluate(() => window.stopTimes);
+  const after = (ms: number | null) => ((ms ?? Number.NaN) - frozenMs).toFixed(0);
+  console.log(
+    `after the headset's last frame the hand counts as open in ${after(letGoMs)} ms; the page hears that the robot ` +
+      `brakes in ${after(toldMs)} ms, and that it stands in ${after(standsMs)} ms`,
+  );
+  await operator.screenshot(testInfo, 'frozen');
+
+  // The frames come back, the hand still holds on: the robot keeps standing while they are read.
+  const stood = await operator.body();
+  await headset.thaw();
+  await operator.expectFrames(20);
+  const { driving, gripLost } = await operator.state();
+  expect({ driving, gripLost }).toEqual({ driving: false, gripLost: 'late-reading' });
+  const later = await operator.body();
+  expect(Math.hypot(later.x - stood.x, later.y - stood.y)).toBeLessThan(0.01);
+
+  // A fresh grip drives.
+  await drive();
+  await operator.release();
+  await operator.expectStanding();
+});
+
+declare global {
+  interface Window {
+    stopTimes: StopTimes;
+  }
+}

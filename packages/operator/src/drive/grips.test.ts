@@ -1,0 +1,131 @@
+import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
+import type { DriveInput } from './drive-input.ts';
+import { type GripLoss, Grips, READING_HOLDS_MS } from './grips.ts';
+
+class Device implements DriveInput {
+  readonly name = 'headset';
+  readonly wish = { forward: 1, left: 0 };
+  held = false;
+  readMs: number | null = 0;
+
+  read(held: boolean, nowMs: number): void {
+    this.held = held;
+    this.readMs = nowMs;
+  }
+}
+
+function bench() {
+  const device = new Device();
+  const grips = new Grips();
+  const update = (nowMs: number, away = false) => grips.update([device], nowMs, away);
+  return { device, grips, update };
+}
+
+describe('Grips', () => {
+  test('a grip holds while its device is read', () => {
+    const { device, grips, update } = bench();
+    for (let nowMs = 0; nowMs <= 1000; nowMs += READING_HOLDS_MS) {
+      device.read(true, nowMs);
+      expect(update(nowMs)).toBe(null);
+      expect(grips.holds(device)).toBe(true);
+    }
+  });
+
+  test('a grip that is not read is lost, and holds again only after a reading has found it open', () => {
+    const { device, grips, update } = bench();
+    device.read(true, 0);
+    expect([update(0), update(READING_HOLDS_MS)]).toEqual([null, null]);
+    expect(grips.holds(device)).toBe(true);
+    expect(update(READING_HOLDS_MS + 1)).toBe('late-reading');
+    expect([grips.holds(device), grips.lossOf(device)]).toEqual([false, 'late-reading']);
+    device.read(true, 200);
+    expect([update(200), grips.holds(device)]).toEqual([null, false]);
+    device.read(false, 210);
+    update(210);
+    device.read(true, 220);
+    expect([update(220), grips.holds(device)]).toEqual([null, true]);
+  });
+
+  test('an open grip that was not read proves nothing', () => {
+    const { device, grips, update } = bench();
+    device.read(true, 0);
+    update(0);
+    update(500);
+    device.held = false;
+    update(525);
+    device.held = true;
+    device.readMs = 550;
+    update(550);
+    expect(grips.holds(device)).toBe(false);
+  });
+
+  test('a reading after a hang is fresh, but the hand was not watched meanwhile', () => {
+    const { device, grips, update } = bench();
+    device.read(true, 0);
+    update(0);
+    device.read(true, READING_HOLDS_MS + 1);
+    expect(update(READING_HOLDS_MS + 1)).toBe('late-reading');
+    expect(grips.holds(device)).toBe(false);
+  });
+
+  test('a grip pressed during a hang holds: it is a new one', () => {
+    const { device, grips, update } = bench();
+    device.read(false, 0);
+    update(0);
+    device.read(true, 5000);
+    expect([update(5000), grips.holds(device)]).toEqual([null, true]);
+  });
+
+  test('a grip that is held while the hands are away does not drive when they return', () => {
+    const { device, grips, update } = bench();
+    device.read(true, 0);
+    expect(update(0, true)).toBe(null);
+    device.read(true, 25);
+    update(25);
+    expect(grips.lossOf(device)).toBe('hands-away');
+  });
+
+  test('an input that lets go by itself is never late', () => {
+    const { device, grips, update } = bench();
+    device.readMs = null;
+    device.held = true;
+    update(0);
+    update(10_000);
+    expect(grips.holds(device)).toBe(true);
+    grips.lose([device], 'path-lost');
+    update(10_025);
+    expect(grips.lossOf(device)).toBe('path-lost');
+  });
+
+  test('for any readings, ticks and losses: what holds was read within the time, and opened since its loss', () => {
+    const step = fc.record({
+      ms: fc.nat(160),
+      reading: fc.option(fc.record({ held: fc.boolean(), ageMs: fc.nat(150) })),
+      away: fc.boolean(),
+      loss: fc.option(fc.constantFrom<GripLoss>('path-lost', 'let-go'), { freq: 8 }),
+    });
+    fc.assert(
+      fc.property(fc.array(step, { maxLength: 80 }), (steps) => {
+        const { device, grips, update } = bench();
+        let nowMs = 0;
+        let mustOpen = false;
+        for (const { ms, reading, away, loss } of steps) {
+          nowMs += ms;
+          const { held: wasHeld, readMs: before } = device;
+          if (reading !== null) device.read(reading.held, Math.max(before ?? 0, nowMs - reading.ageMs));
+          const ageMs = nowMs - (device.readMs ?? 0);
+          const gapMs = (device.readMs ?? 0) - (before ?? 0);
+          if (loss !== null) grips.lose([device], loss);
+          update(nowMs, away);
+          const isFresh = ageMs <= READING_HOLDS_MS;
+          if (!device.held) mustOpen = (mustOpen || (loss !== null && wasHeld)) && !isFresh;
+          else if (away || loss !== null || !isFresh || (wasHeld && gapMs > READING_HOLDS_MS))
+            mustOpen = true;
+          expect(grips.holds(device)).toBe(device.held && !mustOpen);
+        }
+      }),
+      { seed: 19 },
+    );
+  });
+});

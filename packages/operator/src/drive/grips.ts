@@ -1,0 +1,82 @@
+/** Decides which dead-man grips count as held. Pure: time is an argument. */
+import type { DriveInput } from './drive-input.ts';
+
+/** A grip counts as held only while its device is read at least this often, ms. */
+export const READING_HOLDS_MS = 100;
+
+/** Why a grip that is held does not drive until it has been opened. */
+export type GripLoss =
+  | 'late-reading' // its device was not read for too long: the page or the headset hung, or tracking was lost
+  | 'hands-away' // the page was hidden or lost the focus, or the headset was taken off
+  | 'path-lost' // the path to the robot was lost or restored
+  | 'let-go'; // the page let go: the session ended, or another robot was chosen
+
+interface Reading {
+  readMs: number | null;
+  held: boolean;
+  loss: GripLoss | null;
+}
+
+/**
+ * A hand whose device is not read may have let go long ago. Its grip then counts as released, and drives again only
+ * after a reading has found it open. The same holds for grips that were held while nobody could watch the robot.
+ */
+export class Grips {
+  readonly #readings = new Map<DriveInput, Reading>();
+
+  /**
+   * Takes note of every device's state. Call it at each tick, before {@link holds}.
+   *
+   * @param away whether no grip may drive now
+   * @returns why a grip that had been held until now was lost; `null` if none was
+   */
+  update(inputs: readonly DriveInput[], nowMs: number, away: boolean): GripLoss | null {
+    let lost: GripLoss | null = null;
+    for (const input of inputs) {
+      const before = this.#of(input);
+      const { readMs, held } = input;
+      const isLate = readMs !== null && !(Math.abs(nowMs - readMs) <= READING_HOLDS_MS);
+      // Devices are read before ticks: after a hang the first reading is fresh again, but the hand was unwatched.
+      const hasGap =
+        readMs !== null && before.readMs !== null && !(readMs - before.readMs <= READING_HOLDS_MS);
+      let { loss } = before;
+      if (!held && !isLate) loss = null;
+      else if (held && loss === null) {
+        if (away) loss = 'hands-away';
+        else if (isLate || (before.held && hasGap)) loss = 'late-reading';
+        if (before.held) lost ??= loss;
+      }
+      before.loss = loss;
+      before.readMs = readMs;
+      before.held = held;
+    }
+    return lost;
+  }
+
+  /** Every grip that is held now counts as released until it has been opened. */
+  lose(inputs: readonly DriveInput[], loss: GripLoss): void {
+    for (const input of inputs) {
+      const reading = this.#of(input);
+      if (input.held || reading.held) reading.loss ??= loss;
+    }
+  }
+
+  /** Whether this grip counts as held. */
+  holds(input: DriveInput): boolean {
+    return input.held && this.lossOf(input) === null;
+  }
+
+  /** Why this grip does not drive although it is held; `null` if nothing prevents it. */
+  lossOf(input: DriveInput): GripLoss | null {
+    return this.#readings.get(input)?.loss ?? null;
+  }
+
+  #of(input: DriveInput): Reading {
+    let reading = this.#readings.get(input);
+    if (reading === undefined) {
+      reading = { readMs: null, held: false, loss: null };
+      this.#readings.set(input, reading);
+    }
+    return reading;
+  }
+}
