@@ -140,7 +140,7 @@ export class OperatorPage {
     await expect
       .poll(
         async () => {
-          await driver.gripAnew();
+          await driver.gripAnew(this);
           const { x, y } = await this.body();
           return Math.hypot(x - from.x, y - from.y);
         },
@@ -192,14 +192,17 @@ export class OperatorPage {
   /**
    * On a busy machine the page may pause for longer than a grip or the robot's watchdog allows, even for an instant. The
    * robot then stops until the operator lets go and grips again, so that is what this does, as an operator would.
+   *
+   * @param watcher a page that hears the robot's state; through a bridge, another one
    */
-  async gripAnew(): Promise<void> {
+  async gripAnew(watcher: OperatorPage = this): Promise<void> {
     const grip = this.#grip;
     if (grip === null) return;
-    const { drive, gripLost } = await this.state();
+    const { drive } = await watcher.state();
+    const { gripLost } = await this.state();
     if (drive !== 'watchdog' && gripLost === null) return;
     await this.release();
-    await this.expectState('drive', 'idle');
+    await watcher.expectState('drive', 'idle');
     await this.expectState('gripLost', null);
     await this.hold(grip);
   }
