@@ -1,6 +1,18 @@
 import { chromiumLaunchOptions } from '@farpoint/local-stack';
 import { defineConfig } from '@playwright/test';
 
+// A software-rendered page shows its robot late: too late for a robot of default limits to move. Tests of those limits set
+// their own.
+for (const [name, value] of [
+  ['VIEW_SLOW_MS', '3000'],
+  ['VIEW_BRAKE_MS', '4000'],
+  ['VIEW_STALL_MS', '3000'],
+  ['BLIND_TRAVEL_M', '8'],
+  // Its camera does not see the floor before its wheels: it would set off too slowly for tests.
+  ['GUARD_UNSEEN_MPS', '10'],
+] as const)
+  process.env[`FARPOINT_ROBOT_${name}`] ??= value;
+
 export default defineConfig({
   projects: [
     { name: 'chromium', testDir: 'tests', outputDir: 'output/chromium' },

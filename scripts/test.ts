@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { CHROMIUM_REMEDY } from '@farpoint/local-stack';
 import * as dds from '../packages/dds/src/build.ts';
+import * as gpio from '../packages/gpio/src/build.ts';
 import * as sharedMemory from '../packages/shared-memory/src/build.ts';
 import * as sound from '../packages/sound/src/build.ts';
 import * as systemd from '../packages/systemd/src/build.ts';
@@ -88,6 +89,7 @@ const steps: Step[] = [
       const left: string[] = [];
       for (const [what, { buildAddon, BUILD_REMEDY }] of [
         ['shared memory', sharedMemory],
+        ['a stop by GPIO', gpio],
         ['the systemd unit', systemd],
         ['ROS 2', dds],
         ['camera video', video],

@@ -19,7 +19,7 @@ export const WASM_CRATES: readonly WasmCrate[] = [
     package: 'farpoint-codec-wasm',
     name: 'farpoint_codec',
     outDir: 'wasm-codec/pkg',
-    crates: ['point-codec', 'organised-codec', 'unorganised-codec', 'codec-wasm'],
+    crates: ['point-codec', 'obstacle-grid', 'organised-codec', 'unorganised-codec', 'codec-wasm'],
   },
   {
     package: 'farpoint-sim-camera',

@@ -1,5 +1,6 @@
 import { createRequire } from 'node:module';
 import type { Page } from '@playwright/test';
+import { freezeFrames, thawFrames } from './frames.ts';
 import type { Grip } from './operator-page.ts';
 
 const require = createRequire(import.meta.url);
@@ -24,7 +25,6 @@ declare global {
   interface Window {
     IWER: { XRDevice: new (config: unknown) => EmulatedDevice; metaQuest3: unknown };
     emulatedHeadset: EmulatedDevice;
-    thawHeadset?: () => void;
   }
 }
 
@@ -73,22 +73,7 @@ export class Headset {
    * @returns when the page was last given a frame, ms since it loaded
    */
   async freeze(): Promise<number> {
-    return this.#page.evaluate(
-      () =>
-        new Promise<number>((resolve) => {
-          const request = window.requestAnimationFrame;
-          const held: FrameRequestCallback[] = [];
-          window.thawHeadset = () => {
-            window.requestAnimationFrame = request;
-            for (const callback of held) request.call(window, callback);
-          };
-          // In the frame in which it is called: the page has just read its devices for the last time.
-          request.call(window, () => {
-            window.requestAnimationFrame = (callback) => held.push(callback);
-            setTimeout(() => resolve(performance.now()));
-          });
-        }),
-    );
+    return freezeFrames(this.#page);
   }
 
   /** The squeeze button of a hand. */
@@ -101,7 +86,7 @@ export class Headset {
 
   /** Lets the frames go on. */
   async thaw(): Promise<void> {
-    await this.#page.evaluate(() => window.thawHeadset?.());
+    await thawFrames(this.#page);
   }
 
   /** @param value 0 released … 1 held */

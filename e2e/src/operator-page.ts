@@ -144,7 +144,7 @@ export class OperatorPage {
           const { x, y } = await this.body();
           return Math.hypot(x - from.x, y - from.y);
         },
-        { message: 'metres driven' },
+        { message: 'metres driven', intervals: [100] },
       )
       .toBeGreaterThan(least);
   }

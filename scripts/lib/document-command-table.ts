@@ -70,6 +70,12 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'npx -y pnpm@12 robot --signaling wss://signal.example.org --id rover-1 --name "Rover" --token …': robot,
   'npx -y pnpm@12 robot --signaling ws://127.0.0.1:3100 --id bad --name "Behind 8 Mbit/s"': robot,
   'npx -y pnpm@12 robot --foxglove-port 8765 …': robot,
+  'npx -y pnpm@12 robot --fence-radius-m 20': robot,
+  'npx -y pnpm@12 robot --fence yard.geojson --fence-origin 48.1374,11.5755': {
+    ...{ refused: /--fence cannot be read: /, also: ALONE },
+  },
+  'rostopic pub -r 10 /stop std_msgs/Bool false': { because: 'needs a ROS installation' },
+  "ros2 topic pub -r 10 /stop std_msgs/msg/Bool 'data: false'": { because: 'needs a ROS installation' },
   'npx -y pnpm@12 robot --record session.mcap …': robot,
   'npx -y pnpm@12 robot --source recording --path drive.mcap --topic /velodyne_points …': {
     refused: /^could not start: recording: drive\.mcap does not exist$/,
@@ -241,6 +247,8 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
         'recording',
         'recording --videos 3 --seconds 40 --captured-fps 10',
         'congestion',
+        'guard',
+        'guard-runs',
         'sampling --plot FILE.svg',
       ],
     ].map((rest) => [`pnpm bench ${rest}`, MEASURES]),

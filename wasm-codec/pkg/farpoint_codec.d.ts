@@ -85,6 +85,48 @@ export class Encoder {
 }
 
 /**
+ * A cloud, or a camera's depth image, and what it says about the floor around the robot.
+ */
+export class ObstacleGrid {
+    private constructor();
+    free(): void;
+    [Symbol.dispose](): void;
+    /**
+     * The class of each cell.
+     */
+    classes_ptr(): number;
+    /**
+     * Room for clouds of `capacity` points. `undefined` where the settings are not valid.
+     */
+    static create(capacity: number, side: number, cell: number, clearance: number, height: number, drop: number, slope: number, low_ray: number, near_points: number, least_points: number, confirm: boolean): ObstacleGrid | undefined;
+    /**
+     * A float a pixel.
+     */
+    depth_ptr(): number;
+    /**
+     * Judges the first `points` points, or with `image` the image. 0, or what was wrong: 1 the pose, 2 more points than
+     * the capacity, 3 no camera was set.
+     */
+    look(image: boolean, points: number, shift_x: number, shift_y: number): number;
+    /**
+     * 4 floats a point.
+     */
+    points_ptr(): number;
+    /**
+     * The sensor's pose in the grid's frame: the rotation row by row, then the position.
+     */
+    pose_ptr(): number;
+    /**
+     * Free and occupied cells, and those without a floor.
+     */
+    report_ptr(): number;
+    /**
+     * Makes the image, for this camera; false where there is none with such numbers or more pixels than the capacity.
+     */
+    set_camera(width: number, height: number, fx: number, fy: number, cx: number, cy: number): boolean;
+}
+
+/**
  * Packets of one stream into points.
  */
 export class OrganisedDecoder {
@@ -319,6 +361,7 @@ export interface InitOutput {
     readonly memory: WebAssembly.Memory;
     readonly __wbg_decoder_free: (a: number, b: number) => void;
     readonly __wbg_encoder_free: (a: number, b: number) => void;
+    readonly __wbg_obstaclegrid_free: (a: number, b: number) => void;
     readonly __wbg_organiseddecoder_free: (a: number, b: number) => void;
     readonly __wbg_organisedencoder_free: (a: number, b: number) => void;
     readonly __wbg_unorganiseddecoder_free: (a: number, b: number) => void;
@@ -338,6 +381,14 @@ export interface InitOutput {
     readonly encoder_sample: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number, i: number, j: bigint) => number;
     readonly encoder_set_camera: (a: number, b: number, c: number, d: number, e: number, f: number, g: number) => number;
     readonly encoder_slots_ptr: (a: number) => number;
+    readonly obstaclegrid_classes_ptr: (a: number) => number;
+    readonly obstaclegrid_create: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number, i: number, j: number, k: number) => number;
+    readonly obstaclegrid_depth_ptr: (a: number) => number;
+    readonly obstaclegrid_look: (a: number, b: number, c: number, d: number, e: number) => number;
+    readonly obstaclegrid_points_ptr: (a: number) => number;
+    readonly obstaclegrid_pose_ptr: (a: number) => number;
+    readonly obstaclegrid_report_ptr: (a: number) => number;
+    readonly obstaclegrid_set_camera: (a: number, b: number, c: number, d: number, e: number, f: number, g: number) => number;
     readonly organiseddecoder_begin: (a: number) => void;
     readonly organiseddecoder_colour_ptr: (a: number) => number;
     readonly organiseddecoder_count: (a: number) => number;

@@ -194,6 +194,115 @@ export class Encoder {
 if (Symbol.dispose) Encoder.prototype[Symbol.dispose] = Encoder.prototype.free;
 
 /**
+ * A cloud, or a camera's depth image, and what it says about the floor around the robot.
+ */
+export class ObstacleGrid {
+    static __wrap(ptr) {
+        const obj = Object.create(ObstacleGrid.prototype);
+        obj.__wbg_ptr = ptr;
+        ObstacleGridFinalization.register(obj, obj.__wbg_ptr, obj);
+        return obj;
+    }
+    __destroy_into_raw() {
+        const ptr = this.__wbg_ptr;
+        this.__wbg_ptr = 0;
+        ObstacleGridFinalization.unregister(this);
+        return ptr;
+    }
+    free() {
+        const ptr = this.__destroy_into_raw();
+        wasm.__wbg_obstaclegrid_free(ptr, 0);
+    }
+    /**
+     * The class of each cell.
+     * @returns {number}
+     */
+    classes_ptr() {
+        const ret = wasm.obstaclegrid_classes_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Room for clouds of `capacity` points. `undefined` where the settings are not valid.
+     * @param {number} capacity
+     * @param {number} side
+     * @param {number} cell
+     * @param {number} clearance
+     * @param {number} height
+     * @param {number} drop
+     * @param {number} slope
+     * @param {number} low_ray
+     * @param {number} near_points
+     * @param {number} least_points
+     * @param {boolean} confirm
+     * @returns {ObstacleGrid | undefined}
+     */
+    static create(capacity, side, cell, clearance, height, drop, slope, low_ray, near_points, least_points, confirm) {
+        const ret = wasm.obstaclegrid_create(capacity, side, cell, clearance, height, drop, slope, low_ray, near_points, least_points, confirm);
+        return ret === 0 ? undefined : ObstacleGrid.__wrap(ret);
+    }
+    /**
+     * A float a pixel.
+     * @returns {number}
+     */
+    depth_ptr() {
+        const ret = wasm.obstaclegrid_depth_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Judges the first `points` points, or with `image` the image. 0, or what was wrong: 1 the pose, 2 more points than
+     * the capacity, 3 no camera was set.
+     * @param {boolean} image
+     * @param {number} points
+     * @param {number} shift_x
+     * @param {number} shift_y
+     * @returns {number}
+     */
+    look(image, points, shift_x, shift_y) {
+        const ret = wasm.obstaclegrid_look(this.__wbg_ptr, image, points, shift_x, shift_y);
+        return ret >>> 0;
+    }
+    /**
+     * 4 floats a point.
+     * @returns {number}
+     */
+    points_ptr() {
+        const ret = wasm.obstaclegrid_points_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * The sensor's pose in the grid's frame: the rotation row by row, then the position.
+     * @returns {number}
+     */
+    pose_ptr() {
+        const ret = wasm.obstaclegrid_pose_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Free and occupied cells, and those without a floor.
+     * @returns {number}
+     */
+    report_ptr() {
+        const ret = wasm.obstaclegrid_report_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Makes the image, for this camera; false where there is none with such numbers or more pixels than the capacity.
+     * @param {number} width
+     * @param {number} height
+     * @param {number} fx
+     * @param {number} fy
+     * @param {number} cx
+     * @param {number} cy
+     * @returns {boolean}
+     */
+    set_camera(width, height, fx, fy, cx, cy) {
+        const ret = wasm.obstaclegrid_set_camera(this.__wbg_ptr, width, height, fx, fy, cx, cy);
+        return ret !== 0;
+    }
+}
+if (Symbol.dispose) ObstacleGrid.prototype[Symbol.dispose] = ObstacleGrid.prototype.free;
+
+/**
  * Packets of one stream into points.
  */
 export class OrganisedDecoder {
@@ -737,6 +846,9 @@ const DecoderFinalization = (typeof FinalizationRegistry === 'undefined')
 const EncoderFinalization = (typeof FinalizationRegistry === 'undefined')
     ? { register: () => {}, unregister: () => {} }
     : new FinalizationRegistry(ptr => wasm.__wbg_encoder_free(ptr, 1));
+const ObstacleGridFinalization = (typeof FinalizationRegistry === 'undefined')
+    ? { register: () => {}, unregister: () => {} }
+    : new FinalizationRegistry(ptr => wasm.__wbg_obstaclegrid_free(ptr, 1));
 const OrganisedDecoderFinalization = (typeof FinalizationRegistry === 'undefined')
     ? { register: () => {}, unregister: () => {} }
     : new FinalizationRegistry(ptr => wasm.__wbg_organiseddecoder_free(ptr, 1));

@@ -2,6 +2,12 @@ export { CloudDecoder } from './cloud-decoder.ts';
 export { type Codec, type CodecSource, loadCodec, loadCodecSync } from './codec.ts';
 export { CodecError, type CodecErrorCode } from './errors.ts';
 export { maxPoints, type PointBudget } from './max-points.ts';
+export {
+  cellClasses,
+  ObstacleGrid,
+  type ObstacleGridSettings,
+  type SeenCells,
+} from './obstacle-grid.ts';
 export { OrganisedDecoder, type PacketFault, type PutResult } from './organised-decoder.ts';
 export {
   type GridResult,

@@ -3,13 +3,17 @@ import type { EstopReleasePolicy, TakePolicy } from '@farpoint/safety';
 import type { RobotAuditOptions } from './audit/open-robot-audit.ts';
 import type { BaseOptions } from './base/base-messages.ts';
 import type { BroadcastOptions } from './broadcast/broadcast-options.ts';
+import type { MotionLimits } from './drive/motion-limits.ts';
 import type { SinkOptions } from './drive/open-sink.ts';
 import type { StreamMode } from './encode/stream-mode.ts';
+import type { FenceOptions } from './geofence/open-geofence.ts';
+import type { ObstacleGuardConfiguration } from './obstacles/guarded-sensors.ts';
 import type { SoundOptions } from './options/sound.ts';
 import type { ConfiguredVideo } from './options/videos.ts';
 import type { PicturePolicy } from './pictures/picture-plan.ts';
 import type { CloudSensorOptions } from './sensors/cloud-sensor.ts';
 import type { SignalingOptions } from './signaling/signaling-client.ts';
+import type { RobotStopsOptions } from './stops/open-stops.ts';
 import type { AlarmRule } from './telemetry/alarms/alarm-board.ts';
 import type { LiveOptions, RecordingOptions } from './telemetry/session-recording.ts';
 import type { RateControlOptions } from './transport/make-rate-controller.ts';
@@ -40,6 +44,9 @@ export interface RobotOptions extends RateControlOptions {
   /** What moves the wheels. */
   sink: SinkOptions;
   limits: DriveLimits;
+  motion: MotionLimits;
+  /** What bounds its motion by what its clouds show. */
+  obstacleGuard: ObstacleGuardConfiguration;
   /** The numbers of its topics that are shown over time. */
   quantities: readonly Quantity[];
   /** Limits beyond which a value is an alarm. */
@@ -49,6 +56,10 @@ export interface RobotOptions extends RateControlOptions {
   estopRelease: EstopReleasePolicy;
   /** What happens when commands come again after a gap that stopped the robot. */
   afterGap: AfterGap;
+  /** Where it may go; if undefined, anywhere. */
+  fence?: FenceOptions | undefined;
+  /** The stops at the robot itself. */
+  stops: RobotStopsOptions;
   /** Where the robot remembers its emergency stop and revoked grants across restarts. */
   stateFolder: string;
   /** The reference signaling service's port for robots. Its operators are not authenticated. */

@@ -6,6 +6,8 @@ import { BaseThread } from './base/base-thread.ts';
 import type { Capture } from './capture/capture.ts';
 import { openSink } from './drive/open-sink.ts';
 import type { VelocitySink } from './drive/velocity-sink.ts';
+import { guardedSensors } from './obstacles/guarded-sensors.ts';
+import { type ObstacleStation, openObstacleGuard } from './obstacles/obstacle-station.ts';
 import type { RobotOptions } from './robot-configuration.ts';
 import { CloudSensors } from './sensors/cloud-sensors.ts';
 import { inWorld, videosInWorld } from './sensors/in-world.ts';
@@ -18,6 +20,8 @@ import type { VideoCamera } from './video/video-encoder.ts';
 export interface RobotParts {
   /** The sources of clouds, the main one first. */
   captures: readonly Capture[];
+  /** What bounds the motion by their clouds. */
+  obstacles: ObstacleStation;
   /** Simulated wheels; `null` for real ones. */
   base: BaseThread | null;
   sink: VelocitySink;
@@ -48,7 +52,8 @@ export async function openParts(options: RobotOptions, log: Logger, audit: Robot
   const base = options.base === null ? null : new BaseThread(options.base);
   let captures: Capture[] = [];
   try {
-    captures = await CloudSensors.open(inWorld(options.sensors, base), recording?.capture ?? null);
+    const { sensors, grids } = guardedSensors(inWorld(options.sensors, base), options.obstacleGuard);
+    captures = await CloudSensors.open(sensors, recording?.capture ?? null);
     captures.forEach(({ description }, i) => {
       log.info({ sensor: options.sensors[i]?.name, source: description }, 'source open');
     });
@@ -60,7 +65,8 @@ export async function openParts(options: RobotOptions, log: Logger, audit: Robot
       main === undefined ? cameras : [...cameras, ...(await openPlayedVideos(main, played, log))];
     if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond, videos);
     const sink = openSink(options.sink, base, log);
-    return { captures, base, sink, recording, videos, grants, robotKey, audit };
+    const obstacles = openObstacleGuard({ configuration: options.obstacleGuard, grids, captures }, log);
+    return { captures, obstacles, base, sink, recording, videos, grants, robotKey, audit };
   } catch (error) {
     for (const capture of captures) await capture.close();
     await base?.close();

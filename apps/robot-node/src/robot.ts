@@ -1,3 +1,4 @@
+import type { Intervention } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 import type { Logger } from '@farpoint/service';
 import type { Refusal } from '@farpoint/webrtc';
@@ -8,9 +9,9 @@ import type { Broadcast } from './broadcast/broadcast.ts';
 import { openBroadcast } from './broadcast/open-broadcast.ts';
 import type { Capture } from './capture/capture.ts';
 import { monotonicMs, threadCpuMs } from './clock.ts';
-import { DriveStation } from './drive/drive-station.ts';
+import type { DriveStation } from './drive/drive-station.ts';
 import type { EstopJournal } from './drive/estop-journal.ts';
-import { openGuard } from './drive/open-guard.ts';
+import { openDrive } from './drive/open-drive.ts';
 import type { VelocitySink } from './drive/velocity-sink.ts';
 import { openReferenceProfile } from './reference/open-reference-profile.ts';
 import type { ReferenceProfile } from './reference/reference-profile.ts';
@@ -28,6 +29,7 @@ import { welcome } from './session/welcome.ts';
 import { SignalingClient } from './signaling/signaling-client.ts';
 import { openSoundDevices } from './sound/open-sound-devices.ts';
 import { RobotSound } from './sound/robot-sound.ts';
+import { type RobotStops, startStops } from './stops/robot-stops.ts';
 import { MeasurementLogs } from './telemetry/measurement-logs.ts';
 import { openBoard } from './telemetry/open-board.ts';
 import { RobotCounters } from './telemetry/robot-counters.ts';
@@ -47,6 +49,7 @@ export class Robot {
   /** `null` if the wheels are not simulated. */
   readonly base: BaseThread | null;
   readonly drive: DriveStation;
+  readonly obstacles: RobotParts['obstacles'];
   readonly sink: VelocitySink;
   readonly signaling: SignalingClient;
   readonly counters = new RobotCounters();
@@ -55,6 +58,7 @@ export class Robot {
   readonly cameras: RobotCameras;
   readonly sound: RobotSound;
   readonly sessions: OperatorSessions;
+  readonly stops: RobotStops;
   /** What feeds viewers through a relay; `null` if it is not enabled. */
   readonly broadcast: Broadcast | null;
   /** Called if the robot cannot continue. */
@@ -78,25 +82,16 @@ export class Robot {
   #failed = false;
 
   private constructor(parts: RobotParts, options: RobotOptions, log: Logger) {
-    const { captures, base, sink, recording, videos, grants, robotKey, audit } = parts;
-    this.recording = recording;
-    [this.#options, this.#log] = [options, log];
+    const { captures, obstacles, base, sink, recording, videos, grants, robotKey, audit } = parts;
+    [this.recording, this.sink, this.base, this.#options, this.#log] = [recording, sink, base, options, log];
     const capture = captures[0] as Capture;
     this.#board = openBoard(options, capture, recording, log);
     this.#logs = new MeasurementLogs(options);
-    this.sink = sink;
-    this.base = base;
-    const { guard, estop } = openGuard(options, log, audit);
-    this.#estop = estop;
-    this.drive = new DriveStation(
-      guard,
-      (twist) => {
-        sink.apply(twist, guard.estopState().latched);
-        recording?.velocity(twist);
-      },
-      monotonicMs,
-      () => sink.fault ?? null,
-    );
+    const count = (reason: Intervention) => this.counters.interventions.add(reason);
+    const state = () => this.#state;
+    const { station, estop, status, fix } = openDrive(options, { ...parts, state, count, log });
+    [this.obstacles, this.#estop, this.drive] = [obstacles, estop, station];
+    const { guard } = station;
     this.#host = new RobotSessionHost({
       ...{ drive: this.drive, estop: this.#estop, counters: this.counters, recording, audit, log },
       commandLog: this.#logs.commands,
@@ -139,12 +134,15 @@ export class Robot {
         ended: ({ id }) => this.#host.operatorGone(id),
       },
     );
-    const stages = new StageTimer();
-    const board = this.#board;
-    const telemetry = new TelemetrySender(this.operators, guard, stages, board);
-    const addReading = (reading: TopicReading) => board.take(reading, monotonicMs());
+    const [stages, board] = [new StageTimer(), this.#board];
+    const telemetry = new TelemetrySender(this.operators, status, stages, board);
+    const addReading = (reading: TopicReading) => {
+      fix?.take(reading, monotonicMs());
+      board.take(reading, monotonicMs());
+    };
     for (const each of captures) each.onReading = addReading;
     sink.tellReadings?.(addReading);
+    this.stops = startStops(options.stops, this.#host, estop.start.heldBy, addReading, log);
     const watching = () => [...this.operators.values(), ...(this.broadcast === null ? [] : [this.broadcast])];
     this.sensors = new CloudSensors(
       options.sensors,
@@ -208,8 +206,8 @@ export class Robot {
     }
     this.#ticking = setInterval(() => this.#tick(), TICK_MS);
     this.#reports = new RobotReports({
-      ...{ operators: this.operators, counters: this.counters, telemetry, board, guard, recording, log },
-      ...{ state: () => this.#state, statisticsFile: options.statisticsFile, now: monotonicMs },
+      ...{ operators: this.operators, counters: this.counters, telemetry, board, status, recording, log },
+      ...{ state, statisticsFile: options.statisticsFile, now: monotonicMs },
     });
   }
 
@@ -259,7 +257,8 @@ export class Robot {
     this.#sendLoop.close();
     await this.signaling.close();
     await broadcastClosed;
-    for (const part of [this.cameras, this.sound, this.sensors, this.recording]) await part?.close();
+    for (const part of [this.stops, this.cameras, this.sound, this.sensors, this.recording])
+      await part?.close();
     this.#logs.write();
     await reported;
   }
@@ -288,6 +287,7 @@ export class Robot {
   }
 
   #tick(): void {
+    this.obstacles.update(this.#state, this.drive.guard.leaseHolder !== null);
     this.#paths.tick();
     this.sessions.tick();
     this.reference?.tick();

@@ -60,6 +60,11 @@ export async function run(): Promise<void> {
       ok: sink.fault == null,
       detail: { sink: sink.kind, ...(sink.fault == null ? {} : { fault: sink.fault }) },
     }));
+    if (robot.stops.states.size > 0)
+      health.add('stops', () => ({
+        ok: robot.stops.areWell,
+        detail: Object.fromEntries(robot.stops.states),
+      }));
     health.add('operators', () => ({ ok: true, detail: { connected: robot.operators.size } }));
     const { recording } = robot;
     // A robot drives without viewers.

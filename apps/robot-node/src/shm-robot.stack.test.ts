@@ -94,7 +94,8 @@ describe.skipIf(!isAvailable())('robot process in shared memory (needs the addon
     // Whatever moves the wheels is killed.
     clearInterval(answering);
     await client.message('rejected', ({ reason }) => reason === 'no-wheels');
-    expect([speed(), await healthy()]).toEqual([0, false]);
+    await until(() => speed() === 0);
+    expect(await healthy()).toBe(false);
     await client.until(() => client.readings.get('shared_control')?.level === 'error');
     clearInterval(driving);
     base.close();

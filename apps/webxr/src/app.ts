@@ -119,6 +119,7 @@ export class App {
       ...{ client: this.client, views: this.state.videos, synchronised: settings.synchronised },
       receiver,
       presented: this.presented,
+      onShown: (captureMs) => this.client.seen.onShown(captureMs),
       now: () => performance.now(),
     });
     this.recorder = new TelemetryRecorder(this.client, () => performance.now());

@@ -13,6 +13,8 @@ export interface ProcessSpec {
   /** How long that may take, ms. */
   readyTimeoutMs?: number | undefined;
   onLine?: ((name: string, line: string) => void) | undefined;
+  /** Whether it reads what {@link ManagedProcess.type} writes; otherwise its input is empty. */
+  input?: boolean | undefined;
   /** Whether it receives messages from {@link ManagedProcess.send}. */
   ipc?: boolean | undefined;
 }
@@ -42,7 +44,12 @@ export class ManagedProcess {
     this.#child = spawn(program === 'node' ? process.execPath : program, args, {
       cwd: spec.cwd,
       env: { ...process.env, ...spec.env },
-      stdio: ['ignore', 'pipe', 'pipe', ...(spec.ipc ? (['ipc'] as const) : [])],
+      stdio: [
+        spec.input === true ? 'pipe' : 'ignore',
+        'pipe',
+        'pipe',
+        ...(spec.ipc ? (['ipc'] as const) : []),
+      ],
       detached: process.platform !== 'win32',
     });
     for (const stream of [this.#child.stdout, this.#child.stderr]) {
@@ -98,6 +105,12 @@ export class ManagedProcess {
   /** Its last lines of output. */
   get output(): string {
     return this.#lines.join('\n');
+  }
+
+  /** Writes to the input of a program started with `input`. @param text `null` ends it */
+  type(text: string | null): void {
+    if (text === null) this.#child.stdin?.end();
+    else this.#child.stdin?.write(text);
   }
 
   /** Sends a message to a program started with `ipc`; messages that it cannot receive are lost. */

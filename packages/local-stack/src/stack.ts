@@ -22,6 +22,8 @@ export interface RobotSpec {
   /** More flags of the robot program, for example `['--source', 'pcd', '--path', file]`; a simulated robot if empty. */
   args?: string[];
   adminPort?: number;
+  /** Whether the program reads what `robot(id).type` writes. */
+  input?: boolean;
 }
 
 export interface StackSpec {
@@ -118,6 +120,7 @@ export class LocalStack {
       robot.adminPort ?? this.#robots.get(robot.id)?.spec.adminPort ?? (await freePorts(1))[0];
     const spec: Required<RobotSpec> = {
       reference: false,
+      input: false,
       ...robot,
       args: robot.args ?? [],
       adminPort: adminPort as number,
@@ -138,6 +141,7 @@ export class LocalStack {
       cwd: repositoryRoot,
       env: this.#spec.env,
       readyUrl: `http://127.0.0.1:${spec.adminPort}/healthz`,
+      input: spec.input,
       onLine: this.#spec.onLine,
     });
     this.#robots.set(spec.id, { spec, process: started });

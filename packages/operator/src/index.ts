@@ -82,6 +82,7 @@ export { activeInput, type DriveInput, type PressedButtons } from './drive/drive
 export type { Driver } from './drive/driver.ts';
 export { type GripLoss, READING_HOLDS_MS } from './drive/grips.ts';
 export { robotAfter } from './drive/robot-switch.ts';
+export type { SeenView } from './drive/seen-view.ts';
 export { type DriveWish, toTwist } from './drive/velocity-mapping.ts';
 export { LatencyError, type LatencyProbe, type LatencyReport } from './latency/latency-probe.ts';
 export type { LatencyFailure, LatencyResult } from './latency/latency-test.ts';

@@ -21,6 +21,11 @@ export interface Command {
   deadMan: boolean;
   /** linear.x in m/s and angular.z in rad/s of base_link; every other component is 0. */
   twist: Twist;
+  /**
+   * Capture time of the newest picture or cloud that is on the operator's screen: the robot's monotonic clock, µs, modulo
+   * 2³². Left out by operators that show nothing or do not know.
+   */
+  seenUs?: number | undefined;
   /** Requests a latency-test frame: the next captured cloud is entirely green and is announced under this number. */
   latencyTest?: number | undefined;
 }
@@ -64,6 +69,7 @@ export const commandSchema = z.strictObject({
   lease: handleSchema,
   deadMan: z.boolean(),
   twist: twistSchema,
+  seenUs: z.optional(uint32Schema),
   latencyTest: z.optional(uint32Schema),
 }) satisfies z.ZodMiniType<Command>;
 

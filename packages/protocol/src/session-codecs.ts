@@ -80,6 +80,7 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
       type: z.literal('estop'),
       latched: z.boolean(),
       by: z.optional(z.enum(['operator', 'robot'])),
+      releasedAt: z.optional(z.literal('robot')),
       latch: z.optional(uint32Schema),
       press: z.optional(uint32Schema),
     }),

@@ -118,6 +118,8 @@ export interface EstopState {
   latched: boolean;
   /** Who latched it first, if it is latched. */
   by?: 'operator' | 'robot' | undefined;
+  /** `robot`: a stop at the robot itself holds it, and it can be released only there. */
+  releasedAt?: 'robot' | undefined;
   /**
    * Number of the latest latch, 0 before the first. A press while it is latched counts as well. Left out by robots that
    * do not number them.

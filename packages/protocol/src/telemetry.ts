@@ -7,6 +7,7 @@ import { type Diagnostics, diagnosticsSchema } from './diagnostics.ts';
 import { type Pose, poseSchema, type Twist, twistSchema } from './geometry.ts';
 import { uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
+import { type MotionState, motionStateSchema } from './motion-state.ts';
 import { type Samples, samplesSchema } from './quantity.ts';
 import { type Reading, readingSchema } from './reading.ts';
 
@@ -16,7 +17,7 @@ export const driveStates = [
   'idle', // nobody holds the lease, or the holder requests no motion
   'watchdog', // no fresh command for the watchdog time: braking or standing
   'estop', // the emergency stop is latched
-  'blocked', // in contact with an obstacle
+  'blocked', // in contact with an obstacle, or held by what `motion` names
 ] as const;
 /**
  * Why the robot stands still, or that it does not.
@@ -83,6 +84,8 @@ export interface Telemetry {
   battery?: Battery | undefined;
   /** Why the robot stands still, or that it does not. */
   drive: DriveState;
+  /** What the robot makes of the driver's wish. Left out by robots that do not bound it. */
+  motion?: MotionState | undefined;
   /** How long a frame takes on the robot. */
   stages: StageTimings;
   /** What leaves the robot for this operator. */
@@ -107,6 +110,7 @@ const telemetrySchema = z.strictObject({
     z.strictObject({ voltage: nonNegative, percentage: z.number().check(z.minimum(0), z.maximum(1)) }),
   ),
   drive: z.enum(driveStates),
+  motion: z.optional(motionStateSchema),
   stages: z.strictObject({
     captureMs: nonNegative,
     sampleMs: nonNegative,

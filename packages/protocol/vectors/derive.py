@@ -502,13 +502,14 @@ control = Messages()
 command = control.good({"type": "command", "sequence": 17, "timeMs": 52311.5, "lease": "0f3a9c", "deadMan": True,
                         "twist": {"linear": vector3(0.5), "angular": vector3(0, 0, -0.25)}})
 control.good({**command, "latencyTest": 4, "sequence": 2 ** 32 - 1, "timeMs": 0}, "command with a latency test, largest sequence")
+control.good({**command, "seenUs": 2 ** 32 - 1}, "command that says what is seen")
 control.good({**command, "lease": "A-Za-z0-9_-" + "x" * 53, "deadMan": False}, "command with the longest lease")
 probe = control.good({"type": "clockProbe", "id": 3, "sentMs": 1000.25})
 report = control.good({"type": "receiverReport", "sequence": 9, "packetsReceived": 60000, "packetsLost": 12, "bytesReceived": 74640000})
 press = control.good({"type": "estop", "press": 1})
 control.good({"type": "estop", "press": 2 ** 32 - 1}, "estop: the largest number")
 control.common(command, 1024)
-control.spoil(command, ("sequence", -1), ("sequence", 2 ** 32), ("sequence", 1.5), ("sequence", "17"), ("sequence", ABSENT),
+control.spoil(command, ("seenUs", -1), ("seenUs", 2 ** 32), ("seenUs", 0.5), ("sequence", -1), ("sequence", 2 ** 32), ("sequence", 1.5), ("sequence", "17"), ("sequence", ABSENT),
               ("timeMs", -0.1), ("timeMs", None), ("timeMs", 1e300), ("lease", ""), ("lease", "x" * 65), ("lease", "a b"), ("lease", ABSENT),
               ("deadMan", 1), ("deadMan", ABSENT), ("twist", None), ("twist.linear", ABSENT), ("twist.linear.x", "0.5"),
               ("twist.linear.x", None), ("twist.angular.z", ABSENT), ("latencyTest", -1), ("latencyTest", True),
@@ -566,6 +567,7 @@ estop = robot_session.good({"type": "estop", "latched": True, "by": "operator"})
 robot_session.good({"type": "estop", "latched": True, "by": "robot"}, "estop by the robot")
 robot_session.good({"type": "estop", "latched": False}, "estop released")
 robot_session.good({"type": "estop", "latched": False, "latch": 0}, "estop that was never latched")
+held = robot_session.good({"type": "estop", "latched": True, "by": "robot", "releasedAt": "robot", "latch": 8}, "estop that is released at the robot only")
 pressed = robot_session.good({"type": "estop", "latched": True, "by": "operator", "latch": 7, "press": 2}, "estop with its number, and this operator's press")
 for after_gap in ["let-go", "resume"]:
     robot_session.good(changed(welcome, "limits.afterGap", after_gap), "welcome, after a gap: " + after_gap)
@@ -613,6 +615,7 @@ robot_session.spoil(expires, ("inS", ABSENT), ("inS", -1), ("inS", 1.5))
 robot_session.spoil(lease, ("holder", "me"), ("lease", "a b"), ("lease", 7), ("driver", ""), ("driver", "a\nb"))
 robot_session.spoil(rejected, ("reason", "because"), ("detail", "x" * 513), ("count", 0), ("sequence", -1))
 robot_session.spoil(estop, ("latched", "yes"), ("by", "me"))
+robot_session.spoil(held, ("releasedAt", "operator"), ("releasedAt", True))
 robot_session.spoil(latency, ("id", -1), ("frameNumber", 2 ** 32), ("points", -1), ("commandMs", ABSENT))
 robot_session.spoil(cloud_stream, ("format", "points64"), ("format", "draco"), ("header", ""), ("header", "a b"), ("header", "A" * 3204))
 robot_session.spoil(cloud_stream, ("sensor", 8), ("sensor", -1), ("sensor", "0"))
@@ -688,6 +691,17 @@ state = telemetry.good({
     "operators": 2})
 telemetry.good(changed(state, "battery", ABSENT), "telemetry without a battery")
 telemetry.good({**state, "ageMs": 12.5}, "telemetry: pose and twist were measured earlier")
+motion = {"factor": 0.25, "reasons": ["view-late", "blind-travel"], "mostLinear": 0.75, "viewAgeMs": 310}
+telemetry.good({**state, "motion": motion}, "telemetry: the motion is bounded")
+telemetry.good({**state, "motion": {"factor": 1, "reasons": [], "mostLinear": 0}}, "telemetry: the motion is not bounded")
+for guard in ["on", "blind", "off"]:
+    telemetry.good({**state, "motion": {**motion, "obstacleGuard": guard}}, "telemetry: obstacle guard " + guard)
+for reason in ["view-unknown", "view-late", "view-lost", "blind-travel", "obstacle-near", "obstacle", "drop-off",
+               "unseen-space", "sensor-silent", "fence-near", "fence"]:
+    telemetry.good({**state, "motion": {**motion, "reasons": [reason]}}, "telemetry: " + reason)
+telemetry.spoil({**state, "motion": motion}, ("motion.factor", 1.01), ("motion.factor", -0.1), ("motion.reasons", ["fear"], "motion.reasons.0"),
+                ("motion.reasons", ["fence"] * 12), ("motion.mostLinear", -1), ("motion.mostLinear", ABSENT), ("motion.viewAgeMs", -1),
+                ("motion.obstacleGuard", "sleeping"), ("motion.more", 1, "motion"))
 telemetry.good(changed(state, "stream.feedback", "reports"), "telemetry: the rate follows receiver reports")
 for drive in ["idle", "watchdog", "estop", "blocked"]:
     telemetry.good(changed(state, "drive", drive), "telemetry: " + drive)

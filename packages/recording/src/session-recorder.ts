@@ -94,6 +94,7 @@ export class SessionRecorder {
   static async open(options: RecorderOptions): Promise<SessionRecorder> {
     const { port1, port2 } = new MessageChannel();
     const worker = new Worker(new URL('./recorder-worker.ts', import.meta.url), {
+      name: 'recorder',
       workerData: { ...options, clouds: port2 },
       transferList: [port2],
     });

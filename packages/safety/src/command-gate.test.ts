@@ -24,6 +24,7 @@ function reasonOf(verdict: CommandVerdict): CommandRejection | 'accepted' {
 test('accepts a valid command', () => {
   expect(new CommandGate(defaultDriveLimits).check('a', command(), 0, open)).toEqual({
     accepted: true,
+    spentMs: 0,
     twist: { linear: { x: 0.5, y: 0, z: 0 }, angular: { x: 0, y: 0, z: -0.25 } },
   });
 });
@@ -314,7 +315,7 @@ describe('wheels that are away', () => {
   test('a hand that was moving when they went must let go, even if no command came meanwhile', () => {
     const gate = new CommandGate(defaultDriveLimits);
     expect(at(gate, 0, 0.5)).toBe('accepted');
-    gate.requireLetGo();
+    gate.requireLetGo('nothing moved');
     expect(at(gate, 20, 0.5)).toBe('let-go-first');
   });
 });

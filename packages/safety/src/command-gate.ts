@@ -17,7 +17,14 @@ export interface RejectedCommand {
   detail: string;
 }
 
-export type CommandVerdict = { accepted: true; twist: Twist } | RejectedCommand;
+export type CommandVerdict =
+  | {
+      accepted: true;
+      twist: Twist;
+      /** So much less than the watchdog's time it is valid, ms: it took longer than usual from the operator's hand. */
+      spentMs: number;
+    }
+  | RejectedCommand;
 
 /** What the gate must know about the rest of the robot to judge one command. */
 export interface GateContext {
@@ -47,8 +54,8 @@ interface OperatorState {
   lastSequence: number | null;
   /** When motion was last accepted; `null` once the hand has let go. */
   movedMs: number | null;
-  /** The hand held on while the wheels were away, and has not let go since. */
-  mustLetGo: boolean;
+  /** During what the hand held on, and has not let go since; `null` if it has. */
+  mustLetGo: string | null;
 }
 
 /**
@@ -58,6 +65,10 @@ interface OperatorState {
 const MAX_OPERATORS = 64;
 /** Relative tolerance: what a float32 or a decimal round trip may add to a limit. The excess is cut off. */
 const TOLERANCE = 1e-6;
+/** So much longer than usual any command may take, ms: what was read longer ago is valid for less. */
+const JITTER_MS = 30;
+/** What a hand may have held through. */
+export const WITHOUT_WHEELS = 'the wheels took no velocities';
 
 /**
  * Judges each command of each operator by itself, in this order: rate, lease, sequence, age, emergency stop, dead-man
@@ -95,9 +106,10 @@ export class CommandGate {
     // this one is refused (because the grip was released, for example).
     operator.lastSequence = command.sequence;
     const motion = !isZeroTwist(command.twist);
+    const spentMs = Math.max(0, waitedMs - JITTER_MS);
     if (!motion || !command.deadMan) {
       operator.movedMs = null;
-      operator.mustLetGo = false;
+      operator.mustLetGo = null;
     }
     const estop = context.meetEstop(motion);
     if (motion) {
@@ -108,11 +120,12 @@ export class CommandGate {
         this.#heldThroughSilence(operator, nowMs) ??
         this.#outOfRange(command.twist);
       if (refusal !== null) return refusal;
-      operator.movedMs = nowMs;
+      operator.movedMs = nowMs - spentMs;
     }
     const { maxLinear, maxAngular } = this.#limits;
     return {
       accepted: true,
+      spentMs,
       twist: {
         linear: { x: cutTo(maxLinear, command.twist.linear.x), y: 0, z: 0 },
         angular: { x: 0, y: 0, z: cutTo(maxAngular, command.twist.angular.z) },
@@ -131,9 +144,15 @@ export class CommandGate {
     this.#operator(operatorId).delay.observe(sentMs, nowMs);
   }
 
-  /** Whoever is moving the robot now must let go before it moves again. */
-  requireLetGo(): void {
-    for (const operator of this.#operators.values()) operator.mustLetGo ||= operator.movedMs !== null;
+  /** Whoever is moving the robot now must let go before it moves again. @param why completes "held while …" */
+  requireLetGo(why: string): void {
+    for (const operator of this.#operators.values())
+      if (operator.movedMs !== null) operator.mustLetGo ??= why;
+  }
+
+  /** Whether this operator's hand is still to let go, as {@link requireLetGo} demanded. */
+  awaitsLetGo(operatorId: string): boolean {
+    return (this.#operators.get(operatorId)?.mustLetGo ?? null) !== null;
   }
 
   forget(operatorId: string): void {
@@ -151,7 +170,7 @@ export class CommandGate {
         delay: new QueueingDelay(this.#delayWindowMs),
         lastSequence: null,
         movedMs: null,
-        mustLetGo: false,
+        mustLetGo: null,
       };
     } else {
       this.#operators.delete(operatorId);
@@ -210,11 +229,11 @@ function estopRefusal(estop: EstopAnswer): RejectedCommand | null {
 /** A hand that kept holding while the wheels were away must not move them by itself when they return. */
 function withoutWheels(operator: OperatorState, fault: string | null): RejectedCommand | null {
   if (fault !== null) {
-    operator.mustLetGo = true;
+    operator.mustLetGo = WITHOUT_WHEELS;
     return rejected('no-wheels', fault.slice(0, 199));
   }
-  if (!operator.mustLetGo) return null;
-  return rejected('let-go-first', 'held while the wheels took no velocities: let go of it once');
+  if (operator.mustLetGo === null) return null;
+  return rejected('let-go-first', `held while ${operator.mustLetGo}: let go of it once`);
 }
 
 function rejected(reason: CommandRejection, detail: string): RejectedCommand {

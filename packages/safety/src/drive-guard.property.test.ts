@@ -123,9 +123,9 @@ function checkAnything(letGoAfterMs: number | undefined): void {
             else {
               expect(step.deadMan && !latched).toBe(true);
               expect(nowMs - (held.get(by) ?? nowMs)).toBeLessThan(letGoAfterMs ?? 1000);
-              held.set(by, nowMs);
+              held.set(by, nowMs - verdict.spentMs);
             }
-            last = { by, atMs: nowMs, twist: verdict.twist };
+            last = { by, atMs: nowMs - verdict.spentMs, twist: verdict.twist };
           } else {
             expect(verdict.detail).not.toBe('');
             if (verdict.reason === 'dead-man-released') last = null;

@@ -1,4 +1,11 @@
-import { type Command, decodeJson, encodeJson, isZeroTwist, robotSessionCodec } from '@farpoint/protocol';
+import {
+  type Command,
+  decodeJson,
+  encodeJson,
+  isZeroTwist,
+  robotSessionCodec,
+  zeroTwist,
+} from '@farpoint/protocol';
 import { describe, expect, test } from 'vitest';
 import { DriveGuard, type DriveGuardOptions } from './drive-guard.ts';
 import { defaultDriveLimits } from './limits.ts';
@@ -278,4 +285,21 @@ test('stops at once when nothing takes its velocities any more, and moves again 
   send(1060, 0);
   send(1080, 0.5);
   expect(guard.velocityAt(1081).linear.x).toBe(0.5);
+});
+
+test('what was read a while ago moves the robot for so much less', () => {
+  const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: randomBytes() });
+  const outcome = guard.requestLease('a', false, 0);
+  const command = (sequence: number, timeMs: number): Command => ({
+    type: 'command',
+    sequence,
+    timeMs,
+    lease: outcome.granted ? outcome.lease : '',
+    deadMan: true,
+    twist: { ...zeroTwist(), linear: { x: 0.5, y: 0, z: 0 } },
+  });
+  guard.onCommand('a', command(0, 0), 1000);
+  expect(guard.onCommand('a', command(1, 20), 1120)).toMatchObject({ accepted: true, spentMs: 70 });
+  expect(guard.velocityAt(1199).linear.x).toBe(0.5);
+  expect(guard.velocityAt(1200)).toEqual(zeroTwist());
 });

@@ -1,4 +1,5 @@
 import {
+  ageOfStampMs,
   type Command,
   type DriveLimits,
   type DriveState,
@@ -13,10 +14,13 @@ import {
   type CommandGateOptions,
   type CommandVerdict,
   type RejectedCommand,
+  WITHOUT_WHEELS,
 } from './command-gate.ts';
 import { EstopLatch, type EstopSource } from './estop.ts';
 import { type EstopReleaseOutcome, type EstopReleasePolicy, releaseEstop } from './estop-release.ts';
 import { type LeaseOptions, type LeaseOutcome, LeaseTable } from './lease.ts';
+import { OperatorView } from './motion/operator-view.ts';
+import type { RobotStop } from './robot-stop.ts';
 import { Watchdog } from './watchdog.ts';
 
 export interface DriveGuardOptions extends LeaseOptions, CommandGateOptions {
@@ -38,6 +42,8 @@ export interface DriveGuardOptions extends LeaseOptions, CommandGateOptions {
  *   takes effect again.
  */
 export class DriveGuard {
+  /** How old what the driver sees is. */
+  readonly view = new OperatorView();
   readonly #limits: Readonly<DriveLimits>;
   readonly #gate: CommandGate;
   readonly #leases: LeaseTable;
@@ -47,6 +53,8 @@ export class DriveGuard {
   #wish: Twist = zeroTwist();
   #askWheels: () => string | null = () => null;
   #hadWheels = true;
+  /** Whether something other than the driver's wish has stopped the robot. */
+  #forced = false;
 
   constructor(options: DriveGuardOptions) {
     this.#limits = Object.freeze({ ...options.limits });
@@ -75,9 +83,13 @@ export class DriveGuard {
     });
     if (verdict.accepted) {
       this.#wish = verdict.twist;
-      this.#watchdog.feed(nowMs);
+      this.#forced = false;
+      const { seenUs } = command;
+      this.view.note(seenUs === undefined ? null : ageOfStampMs(seenUs, nowMs), nowMs);
+      // What was read a while ago is valid for so much less.
+      this.#watchdog.feed(nowMs - verdict.spentMs);
       if (!isZeroTwist(verdict.twist)) this.#leases.noteMotion(nowMs);
-      return { accepted: true, twist: copyTwist(verdict.twist) };
+      return { ...verdict, twist: copyTwist(verdict.twist) };
     }
     // The gate gives this reason only for the holder's latest request: the grip was released, so stop now, not in 150
     // ms.
@@ -98,6 +110,11 @@ export class DriveGuard {
     this.#gate.observeClock(operatorId, sentMs, nowMs);
   }
 
+  /** A picture or cloud was sent to the operator. */
+  onViewSent(operatorId: string, nowMs: number): void {
+    if (this.#leases.holder === operatorId) this.view.sent(nowMs);
+  }
+
   /**
    * From now on motion is refused while nothing takes the velocities. A hand that held on meanwhile must let go once
    * before they move anything again.
@@ -109,11 +126,33 @@ export class DriveGuard {
     this.#askWheels = fault;
   }
 
-  /** The velocity to apply now, as a copy. */
+  /**
+   * Whoever moves the robot now must let go once before it moves again.
+   *
+   * @param why for people, completes "held while …", under 100 characters
+   */
+  demandLetGo(why: string): void {
+    this.#halt();
+    this.#gate.requireLetGo(why);
+  }
+
+  /** The velocity that the driver asks for now, within the limits, as a copy. */
   velocityAt(nowMs: number): Twist {
     this.#lookAtWheels();
     const moving = this.#leases.holder !== null && !this.#estop.latched && !this.#watchdog.expired(nowMs);
     return moving ? copyTwist(this.#wish) : zeroTwist();
+  }
+
+  /** Whether something other than the driver's wish makes `velocityAt` zero: brake as hard as allowed. */
+  stopsUrgently(nowMs: number): boolean {
+    if (this.#forced || this.#estop.latched) return true;
+    return !isZeroTwist(this.#wish) && this.#watchdog.expired(nowMs);
+  }
+
+  /** Whether the driver must let go once before the robot moves again. */
+  get awaitsLetGo(): boolean {
+    const { holder } = this.#leases;
+    return holder !== null && this.#gate.awaitsLetGo(holder);
   }
 
   /** When `velocityAt` becomes zero without any further call: arm a timer for it. `null` while the velocity is zero. */
@@ -142,14 +181,14 @@ export class DriveGuard {
   requestLease(operatorId: string, take: boolean, nowMs: number, supervises = false): LeaseOutcome {
     const before = this.#leases.holder;
     const outcome = this.#leases.request(operatorId, take, nowMs, supervises);
-    if (this.#leases.holder !== before) this.#halt();
+    if (this.#leases.holder !== before) this.#changeDriver();
     return outcome;
   }
 
   /** @returns whether the operator held the lease; if so, send every operator its `leaseState` */
   releaseLease(operatorId: string): boolean {
     const released = this.#leases.release(operatorId);
-    if (released) this.#halt();
+    if (released) this.#changeDriver();
     return released;
   }
 
@@ -189,30 +228,64 @@ export class DriveGuard {
     return releaseEstop(this.#estop, this.#estopRelease, { operatorId, holdsLease, supervises, of }, nowMs);
   }
 
-  /** The message that tells every operator about the emergency stop. */
-  estopState(): EstopState {
-    const { by, number: latch } = this.#estop;
-    return by === null
-      ? { type: 'estop', latched: false, latch }
-      : { type: 'estop', latched: true, by, latch };
+  /**
+   * Stops at once, for a stop at the robot itself. Only {@link letGoEstop} with the same name takes that back. Then send
+   * every operator the `estopState`.
+   *
+   * @returns false if it held the emergency stop already
+   */
+  holdEstop(stop: RobotStop): boolean {
+    this.#halt();
+    return this.#estop.hold(stop);
   }
 
-  /** Whose emergency stop must outlive a restart: an operator's comes before the robot's. `null` while it is released. */
+  /**
+   * The stop at the robot was released. The emergency stop stays latched if anything else has latched it.
+   *
+   * @returns false if it did not hold the emergency stop
+   */
+  letGoEstop(stop: RobotStop, nowMs: number): boolean {
+    return this.#estop.letGo(stop, nowMs);
+  }
+
+  /** The stops at the robot that hold the emergency stop. */
+  get estopHolders(): ReadonlySet<RobotStop> {
+    return this.#estop.holders;
+  }
+
+  /** The message that tells every operator about the emergency stop. */
+  estopState(): EstopState {
+    const { by, number: latch, holders } = this.#estop;
+    if (by === null) return { type: 'estop', latched: false, latch };
+    const state: EstopState = { type: 'estop', latched: true, by, latch };
+    return holders.size === 0 ? state : { ...state, releasedAt: 'robot' };
+  }
+
+  /**
+   * Whose emergency stop must outlive a restart: an operator's comes before the robot's. `null` while it is released,
+   * and while only {@link estopHolders} keep it.
+   */
   get estopKeptFor(): EstopSource | null {
-    return this.#estop.ofOperator ? 'operator' : this.#estop.by;
+    if (this.#estop.ofOperator) return 'operator';
+    return this.#estop.isAsked ? 'robot' : null;
   }
 
   #lookAtWheels(): string | null {
     const fault = this.#askWheels();
     if (fault !== null && this.#hadWheels) {
-      this.#halt();
-      this.#gate.requireLetGo();
+      this.demandLetGo(WITHOUT_WHEELS);
     }
     this.#hadWheels = fault === null;
     return fault;
   }
 
+  #changeDriver(): void {
+    this.#halt();
+    this.view.forget();
+  }
+
   #halt(): void {
+    if (!isZeroTwist(this.#wish)) this.#forced = true;
     this.#wish = zeroTwist();
     this.#watchdog.reset();
   }

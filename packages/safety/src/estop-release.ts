@@ -12,6 +12,7 @@ export type EstopReleasePolicy = (typeof estopReleasePolicies)[number];
 export type EstopReleaseRefusal =
   | 'not-lease-holder' // whoever asks neither drives nor supervises
   | 'not-latched'
+  | 'held-at-robot' // a stop at the robot itself holds it, and is released there only
   | 'newer-latch' // the request means an older latch: it was on its way when somebody latched it again
   | 'not-supervisor' // only supervisors release what an operator has latched
   | 'not-latcher' // an operator who is there has latched it, and this one has not
@@ -28,7 +29,8 @@ export interface EstopRelease {
 }
 
 /**
- * Releases the emergency stop if the request may. What the robot itself latched is released by whoever drives. With the
+ * Releases the emergency stop if the request may. Nobody, not even a supervisor, releases what a stop at the robot holds.
+ * What the robot itself latched for another reason is released by whoever drives. With the
  * policy `latcher`, a latch by operators who have left, or from before the robot's restart, is too.
  */
 export function releaseEstop(
@@ -39,6 +41,7 @@ export function releaseEstop(
 ): EstopReleaseOutcome {
   if (!supervises && !holdsLease) return refused('not-lease-holder');
   if (!estop.latched) return refused('not-latched');
+  if (estop.holders.size > 0) return refused('held-at-robot');
   if (of !== undefined && of !== estop.number) return refused('newer-latch');
   if (!supervises && policy === 'supervisor' && estop.ofOperator) return refused('not-supervisor');
   if (!supervises && policy === 'latcher' && estop.latchers.size > 0) {

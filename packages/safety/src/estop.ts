@@ -1,3 +1,5 @@
+import type { RobotStop } from './robot-stop.ts';
+
 /** Who latched the emergency stop. */
 export type EstopSource = 'operator' | 'robot';
 
@@ -10,12 +12,17 @@ const MOST_LATCHERS = 64;
  * The emergency stop: anyone can latch it, and only a deliberate action releases it. After the release, motion stays
  * refused until the hand has let go of the stick once (a command for zero, or no request for motion for `letGoMs`),
  * because a reset must not by itself start the machine (ISO 13850, 4.1.4).
+ *
+ * A stop at the robot itself, such as a button on it, *holds* it: while anything holds it, nothing else releases it.
  */
 export class EstopLatch {
   readonly #letGoMs: number;
   #by: EstopSource | null = null;
   #number = 0;
   #ofOperator = false;
+  #isAsked = false;
+  /** The stops at the robot that hold it. */
+  readonly #holders = new Set<RobotStop>();
   /** Operators who have latched it since it was last clear, and are still there. */
   readonly #latchers = new Set<string>();
   /** When motion was last requested since the release; `null` once the hand has let go. */
@@ -39,9 +46,19 @@ export class EstopLatch {
     return this.#number;
   }
 
+  /** Whether somebody has latched it, apart from the stops at the robot that hold it. */
+  get isAsked(): boolean {
+    return this.#isAsked;
+  }
+
   /** Whether an operator is among those who latched it. */
   get ofOperator(): boolean {
     return this.#ofOperator;
+  }
+
+  /** The stops at the robot that hold it, and that alone can let it go. */
+  get holders(): ReadonlySet<RobotStop> {
+    return this.#holders;
   }
 
   /** The operators who latched it and have neither withdrawn that nor left. */
@@ -51,13 +68,35 @@ export class EstopLatch {
 
   /** @returns false if it was already latched: its number has changed nevertheless */
   latch(by: EstopSource, operatorId?: string): boolean {
-    this.#number = (this.#number + 1) >>> 0;
+    this.#isAsked = true;
     this.#ofOperator ||= by === 'operator';
     // The bound is never met: a robot takes fewer operators.
     if (operatorId !== undefined && this.#latchers.size < MOST_LATCHERS) this.#latchers.add(operatorId);
-    if (this.#by !== null) return false;
-    this.#by = by;
-    this.#heldMs = null;
+    return this.#latch(by);
+  }
+
+  /**
+   * Latches it from the robot's own side, until {@link letGo} with the same name.
+   *
+   * @returns false if this stop held it already
+   */
+  hold(stop: RobotStop): boolean {
+    if (this.#holders.has(stop)) return false;
+    this.#holders.add(stop);
+    this.#latch('robot');
+    return true;
+  }
+
+  /**
+   * The stop at the robot holds it no longer. It stays latched if another holds it, or if somebody has latched it too.
+   *
+   * @returns false if this stop did not hold it
+   */
+  letGo(stop: RobotStop, nowMs: number): boolean {
+    if (!this.#holders.delete(stop)) return false;
+    if (this.#holders.size > 0) return true;
+    if (this.#isAsked) this.#by = this.#ofOperator ? 'operator' : 'robot';
+    else this.#clear(nowMs);
     return true;
   }
 
@@ -66,13 +105,10 @@ export class EstopLatch {
     this.#latchers.delete(operatorId);
   }
 
-  /** The caller has checked who asks. @returns false if it was not latched */
+  /** The caller has checked who asks. @returns false if it was not latched, or is held by a stop at the robot */
   release(nowMs: number): boolean {
-    if (this.#by === null) return false;
-    this.#by = null;
-    this.#ofOperator = false;
-    this.#latchers.clear();
-    this.#heldMs = nowMs;
+    if (this.#by === null || this.#holders.size > 0) return false;
+    this.#clear(nowMs);
     return true;
   }
 
@@ -86,5 +122,21 @@ export class EstopLatch {
     }
     this.#heldMs = nowMs;
     return 'let-go';
+  }
+
+  #latch(by: EstopSource): boolean {
+    this.#number = (this.#number + 1) >>> 0;
+    if (this.#by !== null) return false;
+    this.#by = by;
+    this.#heldMs = null;
+    return true;
+  }
+
+  #clear(nowMs: number): void {
+    this.#by = null;
+    this.#isAsked = false;
+    this.#ofOperator = false;
+    this.#latchers.clear();
+    this.#heldMs = nowMs;
   }
 }

@@ -2,8 +2,23 @@ export * from './command-gate.ts';
 export * from './drive-guard.ts';
 export * from './estop.ts';
 export * from './estop-release.ts';
+export * from './geofence/index.ts';
 export * from './lease.ts';
 export * from './limits.ts';
+export * from './motion/blind-travel.ts';
+export * from './motion/motion-guard.ts';
+export * from './motion/motion-supervisor.ts';
+export * from './motion/operator-view.ts';
+export * from './motion/velocity-ramp.ts';
+export * from './motion/view-age.ts';
+export * from './obstacles/footprint.ts';
+export * from './obstacles/obstacle-guard.ts';
+export {
+  defaultObstacleGuardOptions,
+  type ObstacleGuardOptions,
+} from './obstacles/obstacle-guard-options.ts';
+export * from './obstacles/sensor-grid.ts';
 export * from './queueing-delay.ts';
 export * from './rejection-reporter.ts';
+export * from './robot-stop.ts';
 export * from './watchdog.ts';

@@ -28,4 +28,5 @@ export {
   type ReferenceFiles,
   referenceFiles,
 } from './reference/layout.ts';
+export { STOP_BYTES, StopBlock, StopBlockWriter, type StopWord } from './stop/stop-block.ts';
 export { Watch, type WatchOrder, type WatchOutcome } from './watch.ts';

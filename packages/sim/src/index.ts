@@ -16,4 +16,6 @@ export { DEFAULT_LIDAR, type LidarOptions, type LidarTurn, SimulatedLidar } from
 export { type RobotState, Simulation, type SimulationOptions } from './simulation.ts';
 export type { Box, Ellipsoid, Material, Mover, Panel, PlanarPose, WorldDescription } from './world.ts';
 export { readSnapshot, snapshotNumbers, type WorldSnapshot, writeSnapshot } from './world-snapshot.ts';
+export { concourseWorld } from './worlds/concourse.ts';
 export { officeWorld } from './worlds/office.ts';
+export { warehouseWorld } from './worlds/warehouse.ts';

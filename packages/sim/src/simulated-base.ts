@@ -145,7 +145,12 @@ export class SimulatedBase {
 
   /** Metres between the robot's edge and the nearest obstacle. */
   get clearance(): number {
-    return this.#collisions.clearance(this.#position.x, this.#position.y) - this.#drive.limits.radius;
+    return this.clearanceAt(this.#position.x, this.#position.y);
+  }
+
+  /** The same for a robot that would stand at (x, y). */
+  clearanceAt(x: number, y: number): number {
+    return this.#collisions.clearance(x, y) - this.#drive.limits.radius;
   }
 
   get state(): BaseState {

@@ -1,5 +1,6 @@
 import { type Audit, type AuditEvent, type AuditSubject, noAudit, shortHash } from '@farpoint/audit';
 import type { EstopState } from '@farpoint/protocol';
+import type { RobotStop, RobotStopState } from '@farpoint/safety';
 import type { Access } from '../access/access.ts';
 
 /** What an entry says about an operator. */
@@ -82,6 +83,17 @@ export class RobotAudit {
   estop({ latched, by }: EstopState, operator: AuditedOperator | undefined): void {
     const who = operator === undefined ? {} : whoIs(operator);
     this.#record({ kind: latched ? 'estop-latched' : 'estop-released', ...who, details: { by } });
+  }
+
+  /**
+   * A stop at the robot itself holds the emergency stop, or no longer.
+   *
+   * @param said what it says
+   * @param latched whether the emergency stop is latched still
+   */
+  robotStop(stop: RobotStop, said: RobotStopState, { latched }: EstopState): void {
+    if (said !== 'go') this.#record({ kind: 'estop-latched', details: { by: 'robot', stop, said } });
+    else if (!latched) this.#record({ kind: 'estop-released', details: { by: 'robot', stop } });
   }
 
   /** The emergency stop outlives the last run. */

@@ -27,7 +27,7 @@ export class BaseThread implements VelocitySink {
 
   constructor(options: BaseOptions) {
     const workerData: BaseWorkerData = { ...options, snapshot: this.snapshot };
-    this.#worker = new Worker(new URL('./base-worker.ts', import.meta.url), { workerData });
+    this.#worker = new Worker(new URL('./base-worker.ts', import.meta.url), { name: 'base', workerData });
     this.#worker.on('message', ({ state, watchdogStops, readings, motors = [] }: BaseReport) => {
       this.watchdogStops = watchdogStops;
       this.onState?.(state);

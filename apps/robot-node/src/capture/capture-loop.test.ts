@@ -13,6 +13,8 @@ function setUp(ownRhythm = false) {
   const reports: CaptureReport[] = [];
   const captures: number[] = [];
   const skips: number[] = [];
+  const looks: number[] = [];
+  let guarding = false;
   let intervalMs: number | null = 50;
   let hasRoom = true;
   const source = {
@@ -32,13 +34,20 @@ function setUp(ownRhythm = false) {
       return intervalMs;
     },
     recycle: () => undefined,
+    guard: (wanted) => {
+      guarding = wanted;
+    },
+    get guarding() {
+      return guarding;
+    },
+    look: () => looks.push(nowMs),
     requestLatencyTest: () => undefined,
     close: () => undefined,
   };
   const send = (report: CaptureReport) => reports.push(report);
   const loop = new CaptureLoop(source, frames, { framesPerSecond: 20, now: () => nowMs, send });
   return {
-    ...{ loop, source, reports, captures, skips },
+    ...{ loop, source, reports, captures, skips, looks },
     states: () => reports.filter(({ type }) => type === 'state').length,
     plan: (ms: number | null) => {
       intervalMs = ms;
@@ -60,6 +69,41 @@ function setUp(ownRhythm = false) {
     },
   };
 }
+
+describe('CaptureLoop for the obstacle guard', () => {
+  it('asks for 20 clouds a second while somebody drives and nobody watches', () => {
+    const { loop, run, captures, looks } = setUp();
+    loop.onRequest(PAUSED);
+    run(200);
+    expect(looks).toEqual([]);
+    loop.onRequest({ type: 'guard', wanted: true });
+    run(200);
+    expect(looks).toEqual([1200, 1250, 1300, 1350]);
+    loop.onRequest({ type: 'guard', wanted: false });
+    run(200);
+    expect([looks.length, captures]).toEqual([4, []]);
+  });
+
+  it('asks for none besides those that are sent at such a rate, and for more where fewer are sent', () => {
+    const { loop, run, plan, captures, looks } = setUp();
+    loop.onRequest({ type: 'guard', wanted: true });
+    loop.onRequest(STREAMING);
+    run(200);
+    expect([captures.length, looks]).toEqual([4, []]);
+    plan(100);
+    run(400);
+    expect([captures.length, looks.length]).toEqual([8, 4]);
+  });
+
+  it('takes the clouds of a source with its own timing, and skips those that come too often', () => {
+    const { loop, ready, looks, skips } = setUp(true);
+    loop.onRequest({ type: 'guard', wanted: true });
+    for (let i = 0; i < 6; i++) ready(20);
+    // The first waited for a listener.
+    expect(looks).toEqual([1000, 1060, 1120]);
+    expect(skips).toEqual([1020, 1040, 1080, 1100]);
+  });
+});
 
 describe('CaptureLoop over a source that can be asked at any time', () => {
   it('captures nothing while nobody watches, then at the rate of the plan', () => {

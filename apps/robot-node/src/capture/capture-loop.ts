@@ -10,12 +10,16 @@ const STATE_INTERVAL_MS = 20;
 const UNCHANGED_STATE_INTERVAL_MS = 100;
 /** Longest time between two ticks for a source that is polled, ms. */
 const MAX_WAIT_MS = 10;
+/** The obstacle guard gets a cloud at least this often if the source has that many, ms. */
+const LOOK_INTERVAL_MS = 50;
 /** A cloud from a source with its own timing is skipped if it has waited longer than this for an operator, ms. */
 const MAX_READY_AGE_MS = 50;
 
 export interface CaptureLoopOptions {
   /** The highest rate at which the source may be asked for clouds. */
   framesPerSecond: number;
+  /** How many clouds there are to look at, per second, if the source knows. */
+  sourceFramesPerSecond?: number | undefined;
   now: () => number;
   send: ReportSink;
 }
@@ -23,7 +27,16 @@ export interface CaptureLoopOptions {
 /** The parts of {@link FrameCapture} that the loop uses. */
 export type LoopFrames = Pick<
   FrameCapture,
-  'capture' | 'close' | 'framesWithoutBuffer' | 'hasRoom' | 'recycle' | 'requestLatencyTest' | 'wishes'
+  | 'capture'
+  | 'close'
+  | 'framesWithoutBuffer'
+  | 'guard'
+  | 'guarding'
+  | 'hasRoom'
+  | 'look'
+  | 'recycle'
+  | 'requestLatencyTest'
+  | 'wishes'
 >;
 
 /**
@@ -41,6 +54,9 @@ export class CaptureLoop {
   readonly #defaultIntervalMs: number;
   #budget: CaptureBudget = NO_BUDGET;
   #nextFrameMs: number;
+  /** When the obstacle guard needs its next cloud. */
+  #nextLookMs = 0;
+  readonly #lookIntervalMs: number;
   #nextStateMs = 0;
   #toldState: BaseState | null = null;
   #toldStateMs = 0;
@@ -50,12 +66,14 @@ export class CaptureLoop {
   #toldRings: readonly number[] | null = null;
   #closed = false;
 
-  constructor(source: FrameSource, frames: LoopFrames, { framesPerSecond, now, send }: CaptureLoopOptions) {
+  constructor(source: FrameSource, frames: LoopFrames, options: CaptureLoopOptions) {
+    const { framesPerSecond, sourceFramesPerSecond = Number.POSITIVE_INFINITY, now, send } = options;
     this.#source = source;
     this.#frames = frames;
     this.#now = now;
     this.#send = send;
     this.#defaultIntervalMs = 1000 / framesPerSecond;
+    this.#lookIntervalMs = Math.max(LOOK_INTERVAL_MS, 1000 / sourceFramesPerSecond);
     this.#nextFrameMs = now();
     this.#gate = new ReadyGate(now(), this.#defaultIntervalMs);
     if (this.#ownRhythm) {
@@ -85,6 +103,10 @@ export class CaptureLoop {
         // A cloud may have been waiting for an operator.
         this.#takeReady();
         break;
+      case 'guard':
+        this.#frames.guard(request.wanted);
+        this.#takeReady();
+        break;
       case 'latencyTest':
         this.#frames.requestLatencyTest();
         break;
@@ -109,6 +131,7 @@ export class CaptureLoop {
   tick(): number {
     const now = this.#now();
     if (!this.#ownRhythm && now >= this.#nextFrameMs) this.#captureAtPlan();
+    if (!this.#ownRhythm && this.#mustLook(now)) this.#look(now);
     if (now >= this.#nextStateMs) {
       this.#nextStateMs = now + STATE_INTERVAL_MS;
       this.#tellState(now);
@@ -137,25 +160,43 @@ export class CaptureLoop {
     if (this.#readySinceMs === null || this.#closed) return;
     const now = this.#now();
     if (!this.#budget.streaming) {
-      if (this.#source.goesOn !== true) return;
+      if (this.#source.goesOn !== true && !this.#frames.guarding) return;
       this.#readySinceMs = null;
-      this.#source.skip?.(now, this.#frames.wishes(this.#budget));
+      this.#pass(now);
       return;
     }
     const aged = now - this.#readySinceMs > MAX_READY_AGE_MS;
     this.#readySinceMs = null;
     if (aged || !this.#frames.hasRoom || !this.#gate.takes(now)) {
-      this.#source.skip?.(now, this.#frames.wishes(this.#budget));
+      this.#pass(now);
       return;
     }
     const interval = this.#capture();
     if (interval !== null) this.#gate.taken(now, interval);
   }
 
+  /** A cloud that is not sent: the obstacle guard may need it. */
+  #pass(now: number): void {
+    if (this.#mustLook(now)) this.#look(now);
+    else this.#source.skip?.(now, this.#frames.wishes(this.#budget));
+  }
+
+  #mustLook(now: number): boolean {
+    return this.#frames.guarding && now >= this.#nextLookMs;
+  }
+
+  #look(now: number): void {
+    this.#nextLookMs = now + this.#lookIntervalMs;
+    this.#frames.look(this.#budget);
+  }
+
   /** @returns the time until the next frame, ms; `null` if there was no cloud or no buffer */
   #capture(): number | null {
     const intervalMs = this.#frames.capture(this.#budget);
-    if (intervalMs !== null) this.#lastFault = '';
+    if (intervalMs !== null) {
+      this.#lastFault = '';
+      this.#nextLookMs = this.#now() + this.#lookIntervalMs;
+    }
     return intervalMs;
   }
 

@@ -7,6 +7,7 @@ import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { EncodedFrame, SamplingOptions } from '../encode/encoded-frame.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
 import type { PlanPolicy } from '../encode/plan.ts';
+import type { CloudGuardOptions } from '../obstacles/cloud-guard.ts';
 import type { PlayedMessage } from '../telemetry/played-telemetry.ts';
 import type { CameraDescription, SourceDescription } from './frame-source.ts';
 import type { SourceOptions } from './open-source.ts';
@@ -24,10 +25,14 @@ export interface CaptureOptions {
   mostPoints: number;
   /** Also offer the colour pictures of the camera that the clouds come from, if they come from one. */
   picturesOfCloud?: boolean;
+  /** Judges every whole cloud for the obstacle guard. */
+  guard?: CloudGuardOptions;
 }
 
 export type CaptureRequest =
   | ({ type: 'budget' } & CaptureBudget)
+  /** Whether the obstacle guard needs clouds, even if nobody watches. */
+  | { type: 'guard'; wanted: boolean }
   /** Make the next captured frame a latency-test frame. */
   | { type: 'latencyTest' }
   /** Returns a frame's buffer that is no longer needed. */

@@ -6,6 +6,7 @@ import { parentPort, workerData } from 'node:worker_threads';
 import { CloudTap } from '@farpoint/recording';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { monotonicMs, threadCpuMs } from '../clock.ts';
+import { CloudGuard } from '../obstacles/cloud-guard.ts';
 import type { CaptureRecording } from './capture.ts';
 import { CaptureLoop } from './capture-loop.ts';
 import type { CaptureOptions, CaptureRequest, ReportSink } from './capture-messages.ts';
@@ -24,9 +25,14 @@ const pictures = new CapturePictures(source, options.picturesOfCloud === true);
 const tap =
   recording === null ? null : new CloudTap(recording.clouds, recording.perSecond, recording.livePerSecond);
 const clocks = { now: monotonicMs, threadCpu: threadCpuMs };
-const frames = new FrameCapture(source, codec, options, clocks, send, { pictures, recording: tap });
-const { framesPerSecond } = options;
-const loop = new CaptureLoop(source, frames, { framesPerSecond, now: monotonicMs, send });
+const guard = options.guard === undefined ? null : new CloudGuard(codec, source.description, options.guard);
+const frames = new FrameCapture(source, codec, options, clocks, send, { pictures, recording: tap, guard });
+const loop = new CaptureLoop(source, frames, {
+  framesPerSecond: options.framesPerSecond,
+  sourceFramesPerSecond: source.description.framesPerSecond,
+  now: monotonicMs,
+  send,
+});
 
 function tick(): void {
   if (!loop.closed) setTimeout(tick, loop.tick());

@@ -101,6 +101,7 @@ export class Capture {
   static async start(options: CaptureOptions, recording: CaptureRecording | null = null): Promise<Capture> {
     const { sensor } = options;
     const worker = new Worker(new URL('./capture-worker.ts', import.meta.url), {
+      name: 'capture',
       workerData: { ...options, recording },
       transferList: recording === null ? [] : [recording.clouds],
     });
@@ -131,6 +132,11 @@ export class Capture {
 
   watchVideo(video: number, watched: boolean): void {
     this.#post({ type: 'watchVideo', video, watched });
+  }
+
+  /** Whether the obstacle guard needs clouds, even if nobody watches. */
+  guard(wanted: boolean): void {
+    this.#post({ type: 'guard', wanted });
   }
 
   requestLatencyTest(): void {

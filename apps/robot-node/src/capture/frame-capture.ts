@@ -6,6 +6,7 @@ import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import { type FormattedFrame, FrameFormats } from '../encode/frame-formats.ts';
 import { SLOT_BYTES } from '../encode/packetiser.ts';
 import { FramePlanner } from '../encode/plan.ts';
+import type { CloudGuard } from '../obstacles/cloud-guard.ts';
 import { BufferPool } from './buffer-pool.ts';
 import type { CaptureOptions, ReportSink } from './capture-messages.ts';
 import type { CapturePictures } from './capture-pictures.ts';
@@ -32,6 +33,8 @@ export class FrameCapture {
   readonly #send: ReportSink;
   readonly #pictures: CapturePictures;
   readonly #recording: CloudTap | null;
+  readonly #guard: CloudGuard | null;
+  #guarding = false;
   readonly #pool: BufferPool;
   readonly #formats: FrameFormats;
   #frameNumber = 0;
@@ -50,7 +53,11 @@ export class FrameCapture {
     clocks: CaptureClocks,
     send: ReportSink,
     /** Other receivers of the clouds. */
-    { pictures, recording }: { pictures: CapturePictures; recording: CloudTap | null },
+    {
+      pictures,
+      recording,
+      guard,
+    }: { pictures: CapturePictures; recording: CloudTap | null; guard: CloudGuard | null },
   ) {
     const { description } = source;
     const { plan, framesPerSecond, floorFraction, mostPoints, sampling, sensor } = options;
@@ -60,6 +67,7 @@ export class FrameCapture {
     this.#send = send;
     this.#pictures = pictures;
     this.#recording = recording;
+    this.#guard = guard;
     this.#pool = new BufferPool(BUFFERS, packetCountOf(description.capacity) * SLOT_BYTES);
     const planner = new FramePlanner({
       policy: plan,
@@ -110,6 +118,7 @@ export class FrameCapture {
     const room = this.#formats.room(budget.coded.length > 0);
     const frame = this.#source.capture(beganMs, this.wishes(budget), room);
     if (frame === null) return null;
+    if (this.#guarding) this.#guard?.take(frame);
     const taken = { captureMs: now() - beganMs, captureCpuMs: threadCpu() - cpuBefore };
     const latencyTest = this.#latencyTest && frame.latencyTest !== false;
     const frameNumber = this.#frameNumber;
@@ -134,7 +143,24 @@ export class FrameCapture {
     return intervalMs;
   }
 
+  /** Whether the obstacle guard needs clouds. */
+  guard(wanted: boolean): void {
+    this.#guarding = wanted && this.#guard !== null;
+  }
+
+  get guarding(): boolean {
+    return this.#guarding;
+  }
+
+  /** Captures a cloud for the obstacle guard only. */
+  look(budget: CaptureBudget): void {
+    const wishes = { ...this.wishes(budget), latencyTest: false };
+    const frame = this.#source.capture(this.#clocks.now(), wishes, this.#formats.room(false));
+    if (frame !== null) this.#guard?.take(frame);
+  }
+
   close(): void {
+    this.#guard?.[Symbol.dispose]();
     this.#pictures.close();
     this.#recording?.close();
   }

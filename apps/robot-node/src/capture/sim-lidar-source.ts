@@ -23,6 +23,11 @@ const TURNS_PER_SECOND = 10;
 /** Where the robot's LiDARs sit, metres above base_link: the first on the mast, the others below it. */
 const HEIGHTS = [1.1, 0.35, 0.7, 0.9, 0.5, 0.25, 1];
 
+/** The height above base_link of the LiDAR with this index, metres. */
+export function lidarHeight(index = 0): number {
+  return HEIGHTS[index % HEIGHTS.length] as number;
+}
+
 /** A LiDAR of the simulated robot. */
 export class SimLidarSource implements FrameSource {
   readonly description: SourceDescription;
@@ -48,8 +53,7 @@ export class SimLidarSource implements FrameSource {
 
   static async create({ seed, index = 0, snapshot }: SimLidarSourceOptions): Promise<SimLidarSource> {
     const world = officeWorld();
-    const up = HEIGHTS[index % HEIGHTS.length] as number;
-    const lidar = await SimulatedLidar.create({ world, seed: seed + index }, { up });
+    const lidar = await SimulatedLidar.create({ world, seed: seed + index }, { up: lidarHeight(index) });
     return new SimLidarSource(lidar, new SharedWorld(world, snapshot));
   }
 

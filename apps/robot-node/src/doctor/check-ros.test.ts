@@ -109,10 +109,14 @@ it('of a robot’s video cameras, each graph has the topics that are used there'
       camera(ros1, '/front'),
       { source: { kind: 'sim' } },
     ],
+    stops: { topic: { graph: ros2, topic: '/stop', silentMs: 500 }, key: false },
   } as unknown as RobotOptions;
   const used = graphsOf(robot, [image('/table')]);
   expect(used.map(({ graph, table: topics }) => [graph.kind, topics.map(({ topic }) => topic)])).toEqual([
     ['ros1', ['/table', '/front']],
-    ['ros2', ['/rear']],
+    ['ros2', ['/rear', '/stop']],
   ]);
+  // Without it the robot stands.
+  const ros2Table = used[1]?.table ?? [];
+  expect(judgeTopics(ros2Table, [], 0).map(({ verdict }) => verdict)).toEqual(['warn', 'fail']);
 });

@@ -1,10 +1,23 @@
 /** Compares a ROS graph with the topics that the robot is to use. */
-import type { GraphTopic, TopicEntry, TopicTable } from '@farpoint/ros';
+import { type GraphTopic, type TopicEntry, type TopicTable, topicTableSchema } from '@farpoint/ros';
 import type { GraphOptions } from '../ros/open-graph.ts';
 import { fail, ok, type Result, warn } from './finding.ts';
 
 /** Without these topics there is no cloud. */
 const NEEDED: readonly TopicEntry['as'][] = ['cloud', 'depth', 'cameraInfo'];
+
+const STOP_LABEL = 'Stop at the robot';
+
+/** The topic of a stop, as an entry of the table. */
+export function stopEntry(topic: string): TopicEntry {
+  const [entry] = topicTableSchema.parse([{ topic, type: 'std_msgs/Bool', as: 'text', label: STOP_LABEL }]);
+  return entry as TopicEntry;
+}
+
+/** Whether the robot shows nothing, or does not move, without the topic. */
+function isNeeded({ as, label }: TopicEntry): boolean {
+  return NEEDED.includes(as) || label === STOP_LABEL;
+}
 
 /**
  * @param seen the topics that discovery has found
@@ -20,7 +33,7 @@ export function judgeTopics(table: TopicTable, seen: readonly GraphTopic[], own:
     const publishers = same?.publishers ?? 0;
     if (publishers > 0)
       return ok(`${topic} (${as}): ${publishers === 1 ? 'published' : `${publishers} publishers`}`);
-    const bad = NEEDED.includes(as) ? fail : warn;
+    const bad = isNeeded(entry) ? fail : warn;
     if (other !== undefined)
       return bad(
         `${topic} (${as}) is of type ${other.type}, not ${type}`,

@@ -16,6 +16,7 @@ import { checkProcessor, judgeCodec, timeCodec } from './check-processor.ts';
 import { judgeSignaling } from './check-signaling.ts';
 import { judgeSound } from './check-sound.ts';
 import { judgeClosedSource, judgeSource, trialSource } from './check-source.ts';
+import { checkStops } from './check-stops.ts';
 import { judgeVideo } from './check-video.ts';
 import { type Check, type Result, warn } from './finding.ts';
 import type { Host } from './host.ts';
@@ -116,6 +117,15 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
           await Promise.all(graphs.map(({ graph, table }) => checkRos(graph, table, own, ANSWER_MS)))
         ).flat();
       },
+    },
+    {
+      name: 'stops',
+      withinMs: ANSWER_MS + 10_000,
+      run: () =>
+        checkStops(robot.stops, running.state === 'runs', {
+          isTerminal: process.stdin.isTTY === true,
+          wait: (ms) => new Promise((resolve) => setTimeout(resolve, ms)),
+        }),
     },
     ...robot.sensors.map(({ name, capture }, i) => ({
       name: i === 0 ? 'source' : `source (${name})`,

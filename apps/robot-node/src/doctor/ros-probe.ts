@@ -2,7 +2,7 @@
 import { RosFault, type TopicEntry, type TopicTable } from '@farpoint/ros';
 import type { RobotOptions } from '../robot-configuration.ts';
 import { type GraphOptions, openGraph, ros2GraphOf } from '../ros/open-graph.ts';
-import { graphName, judgeHostname, judgeTopics } from './check-ros.ts';
+import { graphName, judgeHostname, judgeTopics, stopEntry } from './check-ros.ts';
 import { fail, ok, type Result } from './finding.ts';
 
 /** Time that discovery has to find every topic of the table, ms. */
@@ -20,7 +20,7 @@ export interface UsedGraph {
  *
  * @param topics the topic table
  */
-export function graphsOf({ sensors, sink, videos }: RobotOptions, topics: TopicTable): UsedGraph[] {
+export function graphsOf({ sensors, sink, videos, stops }: RobotOptions, topics: TopicTable): UsedGraph[] {
   const used = new Map<string, UsedGraph>();
   const uses = (graph: GraphOptions, table: readonly TopicEntry[]) => {
     const key = JSON.stringify(graph);
@@ -32,6 +32,7 @@ export function graphsOf({ sensors, sink, videos }: RobotOptions, topics: TopicT
   for (const { capture } of sensors) if (capture.source.kind === 'ros') uses(capture.source.graph, topics);
   if (sink.kind === 'ros') uses(sink.graph, topics);
   for (const { source } of videos) if (source.kind === 'ros') uses(source.graph, [source.entry]);
+  if (stops.topic !== undefined) uses(stops.topic.graph, [stopEntry(stops.topic.topic)]);
   return [...used.values()];
 }
 

@@ -1,5 +1,5 @@
 import { type Command, type Twist, zeroTwist } from '@farpoint/protocol';
-import { DriveGuard, defaultDriveLimits } from '@farpoint/safety';
+import { DriveGuard, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { DriveStation } from './drive-station.ts';
 
@@ -15,7 +15,11 @@ function station() {
   const applied: { atMs: number; twist: Twist }[] = [];
   const now = () => performance.now();
   const start = now();
-  const drive = new DriveStation(guard, (twist) => applied.push({ atMs: now() - start, twist }), now);
+  const drive = new DriveStation(
+    new MotionSupervisor(guard),
+    (twist) => applied.push({ atMs: now() - start, twist }),
+    now,
+  );
   const outcome = guard.requestLease('op', false, now());
   const lease = outcome.granted ? outcome.lease : '';
   const command = (sequence: number, x: number): Command => ({

@@ -43,6 +43,23 @@ describe('EstopJournal', () => {
     expect(open().start.latched).toBeNull();
   });
 
+  it('keeps the stops at the robot that hold it, apart from other latches', () => {
+    const first = open();
+    first.changed(null, ['key', 'gpio']);
+    first.end();
+    expect(open().start).toEqual({ latched: null, heldBy: ['key', 'gpio'] });
+    const third = open();
+    expect(third.start).toMatchObject({ latched: { reason: 'unclean-exit' }, heldBy: ['key', 'gpio'] });
+    third.changed('operator', []);
+    third.end();
+    expect(open().start).toMatchObject({ latched: { by: 'operator' }, heldBy: [] });
+  });
+
+  it('reads what robots wrote that had no such stops', () => {
+    writeFileSync(join(folder, 'robot-1.run.json'), '{"version":1,"running":false,"latchedBy":null}');
+    expect(open().start).toEqual({ latched: null, heldBy: [] });
+  });
+
   it('latches if the file cannot be read, whatever it contains', () => {
     fc.assert(
       fc.property(fc.oneof(fc.string(), fc.json()), (text) => {

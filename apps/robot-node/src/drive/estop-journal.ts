@@ -5,7 +5,7 @@
  */
 import { mkdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import type { EstopSource } from '@farpoint/safety';
+import { type EstopSource, type RobotStop, robotStops } from '@farpoint/safety';
 import { replaceFile } from '@farpoint/service';
 import { z } from 'zod';
 
@@ -15,6 +15,8 @@ const runSchema = z.strictObject({
   running: z.boolean(),
   /** Who latched the emergency stop; `null` while it is released. */
   latchedBy: z.enum(['operator', 'robot']).nullable(),
+  /** The stops at the robot that hold it. Robots before version 0.3 leave it out. */
+  heldBy: z.array(z.enum(robotStops)).max(robotStops.length).default([]),
 });
 
 type Run = z.infer<typeof runSchema>;
@@ -29,6 +31,8 @@ export type LatchedStart =
 export interface RunStart {
   /** `null`: the robot may start unlatched. */
   latched: { by: EstopSource; reason: LatchedStart; detail: string } | null;
+  /** The stops at the robot that held it when the last run ended. */
+  heldBy: readonly RobotStop[];
 }
 
 export class EstopJournal {
@@ -36,6 +40,7 @@ export class EstopJournal {
   readonly #path: string;
   readonly #onFault: (error: Error) => void;
   #latchedBy: EstopSource | null;
+  #heldBy: readonly RobotStop[];
   #ended = false;
 
   /**
@@ -48,7 +53,10 @@ export class EstopJournal {
   constructor(folder: string, robotId: string, onFault: (error: Error) => void) {
     this.#path = join(folder, `${robotId}.run.json`);
     this.#onFault = onFault;
-    let latched = lastRun(this.#path);
+    const last = lastRun(this.#path);
+    let { latched } = last;
+    const { heldBy } = last;
+    this.#heldBy = heldBy;
     this.#latchedBy = latched?.by ?? null;
     try {
       mkdirSync(folder, { recursive: true, mode: 0o750 });
@@ -57,13 +65,15 @@ export class EstopJournal {
       latched ??= { by: 'robot', reason: 'unwritable', detail: (error as Error).message };
       this.#latchedBy = latched.by;
     }
-    this.start = { latched };
+    this.start = { latched, heldBy };
   }
 
   /** Records that the emergency stop was latched or released. */
-  changed(latchedBy: EstopSource | null): void {
-    if (this.#ended || latchedBy === this.#latchedBy) return;
+  changed(latchedBy: EstopSource | null, heldBy: readonly RobotStop[] = []): void {
+    const isSame = latchedBy === this.#latchedBy && heldBy.join() === this.#heldBy.join();
+    if (this.#ended || isSame) return;
     this.#latchedBy = latchedBy;
+    this.#heldBy = heldBy;
     this.#tryWrite(true);
   }
 
@@ -83,28 +93,36 @@ export class EstopJournal {
   }
 
   #write(running: boolean): void {
-    const run: Run = { version: 1, running, latchedBy: this.#latchedBy };
+    const run: Run = { version: 1, running, latchedBy: this.#latchedBy, heldBy: [...this.#heldBy] };
     replaceFile(this.#path, `${JSON.stringify(run)}\n`, 0o640);
   }
 }
 
-function lastRun(path: string): RunStart['latched'] {
+function lastRun(path: string): RunStart {
+  const unreadable = (detail: string): RunStart => ({
+    latched: { by: 'robot', reason: 'unreadable', detail },
+    heldBy: [],
+  });
   let text: string;
   try {
     text = readFileSync(path, 'utf8');
   } catch (error) {
-    if ((error as NodeJS.ErrnoException).code === 'ENOENT') return null;
-    return { by: 'robot', reason: 'unreadable', detail: (error as Error).message };
+    if ((error as NodeJS.ErrnoException).code === 'ENOENT') return { latched: null, heldBy: [] };
+    return unreadable((error as Error).message);
   }
   let run: Run;
   try {
     run = runSchema.parse(JSON.parse(text));
   } catch {
-    return { by: 'robot', reason: 'unreadable', detail: `${path} is not what a robot writes` };
+    return unreadable(`${path} is not what a robot writes`);
   }
-  if (run.latchedBy !== null) {
-    return { by: run.latchedBy, reason: 'was-latched', detail: 'it was latched when the robot last ran' };
-  }
-  if (!run.running) return null;
-  return { by: 'robot', reason: 'unclean-exit', detail: 'the robot did not end in order when it last ran' };
+  const { latchedBy: by, heldBy } = run;
+  if (by !== null)
+    return {
+      latched: { by, reason: 'was-latched', detail: 'it was latched when the robot last ran' },
+      heldBy,
+    };
+  if (!run.running) return { latched: null, heldBy };
+  const detail = 'the robot did not end in order when it last ran';
+  return { latched: { by: 'robot', reason: 'unclean-exit', detail }, heldBy };
 }

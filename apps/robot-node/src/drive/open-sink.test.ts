@@ -2,7 +2,7 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { type Command, zeroTwist } from '@farpoint/protocol';
-import { DriveGuard, defaultDriveLimits } from '@farpoint/safety';
+import { DriveGuard, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import { isAvailable, ReferenceControlReader } from '@farpoint/shared-memory';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
@@ -27,7 +27,7 @@ function setUp(silenceMs = 60_000) {
   const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: (count) => new Uint8Array(count) });
   let nowMs = 1000;
   const station = new DriveStation(
-    guard,
+    new MotionSupervisor(guard),
     (twist) => sink.apply(twist, false),
     () => nowMs,
   );

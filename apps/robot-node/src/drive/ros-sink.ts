@@ -110,7 +110,7 @@ export class RosSink implements VelocitySink {
     this.#listeners = null;
     this.#startedMs = monotonicMs();
     const workerData: RosDriveSetup = { ...this.#options, beat: this.#beat.memory };
-    const worker = new Worker(this.#thread, { workerData });
+    const worker = new Worker(this.#thread, { name: 'drive', workerData });
     this.#worker = worker;
     worker.on('message', (report: RosDriveReport) => this.#onReport(report));
     worker.on('error', (error) =>

@@ -2,7 +2,7 @@
 import { BroadcastChannel } from 'node:worker_threads';
 import { type Command, zeroTwist } from '@farpoint/protocol';
 import { topicTableSchema } from '@farpoint/ros';
-import { DriveGuard, defaultDriveLimits } from '@farpoint/safety';
+import { DriveGuard, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
 import { silentLogger } from '@farpoint/service';
 import { afterEach, describe, expect, it } from 'vitest';
 import { monotonicMs } from '../clock.ts';
@@ -33,7 +33,7 @@ function setUp() {
   sink.tellReadings(({ level, values }) => readings.push(`${level} ${values[0]?.[1]}`));
   const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: (count) => new Uint8Array(count) });
   const station = new DriveStation(
-    guard,
+    new MotionSupervisor(guard),
     (twist) => sink.apply(twist, guard.estopState().latched),
     monotonicMs,
     () => sink.fault,

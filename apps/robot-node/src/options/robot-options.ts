@@ -17,9 +17,13 @@ import { toAlarmRules } from './alarms.ts';
 import { toAudit } from './audit-configuration.ts';
 import { toBroadcast } from './broadcast.ts';
 import { checkAccess } from './check-access.ts';
+import { toObstacleGuard } from './guard.ts';
+import { toMotion } from './motion.ts';
 import { readText } from './read-text.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { stateFolder } from './state.ts';
+import { toFence } from './to-fence.ts';
+import { rosKindOf, toStops } from './to-stops.ts';
 
 /** The highest rate asked of the source if not configured. A recording has its own rate, which is kept. */
 const DEFAULT_FPS: Partial<Record<RobotOptionValues['source'], number>> = { sim: 60, recording: 120 };
@@ -38,7 +42,10 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   const ofSim = values.source !== 'sim' ? [] : [SIM_MOTORS, ...(values.simOrigin === null ? [] : [SIM_FIX])];
   const quantities = describeQuantities([...topics, ...ofSim]);
   const alarms = toAlarmRules(values.alarms, quantities, (detail) => refuse('alarms', detail));
+  const obstacleGuard = toObstacleGuard(values, refuse);
   const broadcast = toBroadcast(values, ca, refuse);
+  const motion = toMotion(values, refuse);
+  const fence = toFence(values, refuse);
   if (mistakes.length > 0) throw new OptionsError(mistakes);
   const folder = stateFolder(values.stateDir, process.env);
   const recorded = (kind: 'captured' | 'sent') => [kind, 'both'].includes(values.recordClouds);
@@ -67,11 +74,14 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       watchdogMs: values.watchdogMs,
       maxCommandsPerSecond: values.maxCommandsPerSecond,
     },
+    ...{ motion, obstacleGuard },
     quantities,
     alarms,
     takePolicy: values.takePolicy,
     estopRelease: values.estopRelease,
     afterGap: values.afterGap,
+    fence,
+    stops: toStops(values, (kind) => toGraph(values, kind)),
     stateFolder: folder,
     referenceSignaling: values.referenceSignaling ?? undefined,
     bitsPerSecond: BitRate.fromMbps(values.bitrateMbps),
@@ -167,6 +177,8 @@ function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, de
     if (camera.kind === 'ros' && camera.version === undefined && rosKindOf(values) === null)
       refuse('videos', `needs \`ros: 1\` or \`ros: 2\` for camera ${i + 1}: neither source nor sink is ROS`);
   }
+  if (values.stopTopic !== null && rosKindOf(values) === null)
+    refuse('stopTopic', 'needs a ROS graph: neither source nor sink is ROS');
   if (source === 'sim' && values.simSize % 4 !== 0) refuse('simSize', 'must be a multiple of 4');
 }
 
@@ -200,12 +212,6 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
     case 'rgbd':
       return { kind: 'rgbd', path };
   }
-}
-
-/** The ROS that the source or the sink uses; `null` if neither does. */
-function rosKindOf({ source, sink }: RobotOptionValues): GraphOptions['kind'] | null {
-  for (const kind of [source, sink]) if (kind === 'ros1' || kind === 'ros2') return kind;
-  return null;
 }
 
 function toVideos(values: RobotOptionValues): VideoCameraOptions[] {

@@ -5,10 +5,13 @@ import { accessOptions } from './access.ts';
 import { alarmsOptions } from './alarms.ts';
 import { auditOptions } from './audit.ts';
 import { broadcastOptions } from './broadcast.ts';
+import { fenceOptions } from './fence.ts';
 import { foxgloveOptions } from './foxglove.ts';
+import { guardOptions } from './guard.ts';
 import { identityOptions } from './identity.ts';
 import { limitsOptions } from './limits.ts';
 import { measurementOptions } from './measurement.ts';
+import { motionOptions } from './motion.ts';
 import { networkOptions } from './network.ts';
 import { picturesOptions } from './pictures.ts';
 import { playbackOptions } from './playback.ts';
@@ -21,6 +24,7 @@ import { sinkOptions } from './sink.ts';
 import { soundOptions } from './sound.ts';
 import { sourceOptions } from './source.ts';
 import { stateOptions } from './state.ts';
+import { stopsOptions } from './stops.ts';
 import { streamOptions } from './stream.ts';
 import { topicsOptions } from './topics.ts';
 import { videosOptions } from './videos.ts';
@@ -39,6 +43,10 @@ const options = {
   ...alarmsOptions,
   ...rosOptions,
   ...limitsOptions,
+  ...motionOptions,
+  ...stopsOptions,
+  ...fenceOptions,
+  ...guardOptions,
   ...stateOptions,
   ...streamOptions,
   ...picturesOptions,

@@ -91,6 +91,7 @@ export class PictureHub {
   #start(): void {
     const { port1, port2 } = new MessageChannel();
     const worker = new Worker(new URL('./picture-worker.ts', import.meta.url), {
+      name: 'pictures',
       workerData: { tap: port1 },
       transferList: [port1],
     });

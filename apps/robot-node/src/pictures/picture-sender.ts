@@ -43,14 +43,17 @@ export class PictureSender {
   bytesSent = 0;
   readonly drops: Record<PictureDropReason, number> = { superseded: 0, backlog: 0, overdue: 0 };
   readonly #link: PictureLink;
+  readonly #onSent: () => void;
   /** By camera, in the order in which they will be sent. */
   readonly #waiting = new Map<number, ReadyPicture>();
   #sending: Sending | null = null;
   #creditBytes = 0;
   #filledMs: number | null = null;
 
-  constructor(link: PictureLink) {
+  /** @param onSent a whole picture is on its way */
+  constructor(link: PictureLink, onSent: () => void = () => undefined) {
     this.#link = link;
+    this.#onSent = onSent;
   }
 
   watch(cameras: readonly number[]): void {
@@ -88,6 +91,7 @@ export class PictureSender {
       sending.next++;
       if (sending.next < sending.picture.chunks.length) continue;
       this.picturesSent++;
+      this.#onSent();
       this.#sending = null;
     }
   }

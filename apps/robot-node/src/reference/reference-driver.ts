@@ -4,7 +4,14 @@
  * errs on the side of standing still.
  */
 
-import { type Command, isZeroTwist, nextSequence32, type Twist, zeroTwist } from '@farpoint/protocol';
+import {
+  type Command,
+  isZeroTwist,
+  nextSequence32,
+  stampUsOf,
+  type Twist,
+  zeroTwist,
+} from '@farpoint/protocol';
 import type { CommandVerdict, DriveGuard } from '@farpoint/safety';
 import { TokenBucket } from '@farpoint/timing';
 
@@ -16,6 +23,8 @@ const LEASE_AFTER_MOTION_MS = 2000;
 /** Messages that arrive this close together were not sent so close together: they waited in a queue. */
 const BURST_SPACING_MS = 4;
 const LATENCY_TESTS_PER_SECOND = 10;
+/** Its page does not say what it shows. Assumed from the robot's sending a cloud to the arrival of a command that saw it. */
+const ASSUMED_LOOP_MS = 100;
 
 export type ReferenceVerdict =
   /** The guard's verdict. */
@@ -27,6 +36,8 @@ export type ReferenceVerdict =
 export class ReferenceDriver {
   /** Commands that arrived in a burst from a queue. Each was treated as a stop. */
   bursts = 0;
+  /** When the newest cloud that was sent to the operator was captured, ms; `null` before the first. */
+  sentCaptureMs: number | null = null;
   readonly #id: string;
   readonly #guard: DriveGuard;
   readonly #tests = new TokenBucket({ perSecond: LATENCY_TESTS_PER_SECOND, burst: LATENCY_TESTS_PER_SECOND });
@@ -102,6 +113,7 @@ export class ReferenceDriver {
       // A handle that belongs to nobody, if this operator has no lease.
       lease: state.holder === 'you' && state.lease !== undefined ? state.lease : 'none',
       deadMan: !isZeroTwist(twist),
+      ...(this.sentCaptureMs === null ? {} : { seenUs: stampUsOf(this.sentCaptureMs - ASSUMED_LOOP_MS) }),
       twist,
     };
   }

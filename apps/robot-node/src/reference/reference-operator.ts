@@ -201,6 +201,7 @@ export class ReferenceOperator implements FrameTarget {
       };
     sender.onFrameSent = ({ frame }) => {
       if (isGreen(frame)) this.#greenWanted = false;
+      if (frame instanceof SharedFrame) this.driver.sentCaptureMs = frame.frame.capturedAtMs;
     };
     sender.onFrameDropped = (frame) => {
       if (isGreen(frame) && this.#greenWanted) this.#host.requestLatencyFrame();

@@ -118,6 +118,10 @@ describe('reference profile of the robot process', { timeout: 30_000 }, () => {
     const { client } = own;
     const start = client.telemetry!.pose.position.x;
     const stop = repeat(reference, forward(0.3));
+    // Motion needs a picture: nobody drives by a stream that is not sent.
+    await client.until(() => client.telemetry?.motion?.reasons[0] === 'view-unknown');
+    expect(client.telemetry?.twist.linear.x).toBe(0);
+    reference.say('start');
     await client.until(() => (client.telemetry?.pose.position.x ?? 0) > start + 0.1);
     expect(client.telemetry?.drive).toBe('driving');
     // An operator that asks while another drives is refused.

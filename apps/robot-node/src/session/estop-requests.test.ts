@@ -1,4 +1,4 @@
-import { DriveGuard, type DriveGuardOptions, defaultDriveLimits } from '@farpoint/safety';
+import { DriveGuard, type DriveGuardOptions, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
 import fc from 'fast-check';
 import { afterEach, describe, expect, it } from 'vitest';
 import { DriveStation } from '../drive/drive-station.ts';
@@ -17,7 +17,7 @@ function robot(options: Partial<DriveGuardOptions> = {}) {
     ...options,
   });
   const drive = new DriveStation(
-    guard,
+    new MotionSupervisor(guard),
     () => undefined,
     () => nowMs,
   );

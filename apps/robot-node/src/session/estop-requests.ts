@@ -19,6 +19,7 @@ type Refusal = Exclude<EstopReleaseRefusal, 'not-latched'> | 'unnamed';
 
 const refusalWords: Record<Refusal, string> = {
   'not-lease-holder': 'only the operator who drives releases the emergency stop',
+  'held-at-robot': 'a stop at the robot itself is on: it can be released there only',
   'newer-latch': 'STOP was pressed again in the meantime: the emergency stop stays on',
   unnamed: 'the release names no latch and may have meant an older one: the emergency stop stays on',
   'not-supervisor': 'only a supervisor releases an emergency stop that an operator has pressed',
@@ -120,6 +121,8 @@ function faultOf(reason: Refusal, drives: boolean): FaultReason | undefined {
   switch (reason) {
     case 'not-lease-holder':
       return drives ? undefined : 'not-permitted';
+    case 'held-at-robot':
+      return undefined;
     case 'not-supervisor':
       return 'not-permitted';
     case 'newer-latch':

@@ -7,7 +7,7 @@ import {
   robotSessionCodec,
   zeroTwist,
 } from '@farpoint/protocol';
-import { DriveGuard, defaultDriveLimits, type RejectedCommand } from '@farpoint/safety';
+import { DriveGuard, defaultDriveLimits, MotionSupervisor, type RejectedCommand } from '@farpoint/safety';
 import fc from 'fast-check';
 import { afterEach, describe, expect, it } from 'vitest';
 import { DriveStation } from '../drive/drive-station.ts';
@@ -27,7 +27,7 @@ function robot() {
     randomBytes: (count) => new Uint8Array(count).fill(7),
   });
   const drive = new DriveStation(
-    guard,
+    new MotionSupervisor(guard),
     (twist) => {
       speed = twist.linear.x;
     },

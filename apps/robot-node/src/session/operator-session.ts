@@ -53,6 +53,7 @@ export class OperatorSession implements FrameTarget {
   readonly videos: OperatorVideos;
   readonly sound: OperatorSound;
   readonly #tests = new LatencyTests();
+  readonly #onViewSent = () => this.#host.drive.guard.onViewSent(this.id, this.#host.now());
   #pathHeardMs = 0;
 
   constructor(
@@ -61,13 +62,11 @@ export class OperatorSession implements FrameTarget {
     sendLoop: SendLoop,
     events: OperatorSessionEvents,
   ) {
-    this.#host = host;
-    this.#sendLoop = sendLoop;
+    [this.#host, this.#sendLoop, this.#events] = [host, sendLoop, events];
     this.#makeController = options.makeController;
     this.#packetLog = options.packetLog;
     this.#claims = options.claims;
     this.#budget = new PathBudget(options.pictureShare);
-    this.#events = events;
     this.peer = new OperatorPeer(options.peer, {
       onCandidate: (candidate) => events.onCandidate(candidate),
       onCandidateRefused: (reason, detail) => events.onCandidateRefused(reason, detail),
@@ -76,7 +75,7 @@ export class OperatorSession implements FrameTarget {
       onPicturesLow: () => this.#sendPictures(),
       onEnded: (end, detail) => this.#onEnded(end, detail),
     });
-    this.pictures = new PictureSender(this.peer);
+    this.pictures = new PictureSender(this.peer, this.#onViewSent);
     this.videos = new OperatorVideos(this.#budget, options.mostVideoBitsPerSecond, (video) =>
       events.onNeedsKeyFrame(video),
     );
@@ -262,6 +261,7 @@ export class OperatorSession implements FrameTarget {
       };
     }
     sender.onFrameSent = ({ frame, sendMs }) => {
+      if (frame.stream !== SOUND_STREAM) this.#onViewSent();
       if (!(frame instanceof SharedFrame)) return;
       this.#meter.onSent(frame, sendMs);
       this.#tests.onSent(frame);

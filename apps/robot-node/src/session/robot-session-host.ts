@@ -1,5 +1,5 @@
 import type { Command, EstopState, LatencyMeasured, ProtocolError } from '@farpoint/protocol';
-import type { CommandVerdict, RejectedCommand } from '@farpoint/safety';
+import type { CommandVerdict, RejectedCommand, RobotStop, RobotStopState } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import type { LeaseCause, RobotAudit } from '../audit/robot-audit.ts';
 import type { DriveStation } from '../drive/drive-station.ts';
@@ -68,16 +68,24 @@ export class RobotSessionHost implements SessionHost {
   }
 
   estopChanged(by?: OperatorMessages): void {
-    const { estop, audit, operators } = this.#parts;
+    const { audit, operators } = this.#parts;
     const state = this.drive.guard.estopState();
-    estop.changed(this.drive.guard.estopKeptFor);
+    this.#keepEstop();
     audit.estop(state, by);
     this.#logEstop(state);
     for (const { messages } of operators().values()) messages.sendEstop();
   }
 
   estopRenewed(): void {
-    this.#parts.estop.changed(this.drive.guard.estopKeptFor);
+    this.#keepEstop();
+    for (const { messages } of this.#parts.operators().values()) messages.sendEstop();
+  }
+
+  /** A stop at the robot itself holds the emergency stop, or no longer. */
+  robotStopChanged(stop: RobotStop, said: RobotStopState): void {
+    this.drive.apply();
+    this.#keepEstop();
+    this.#parts.audit.robotStop(stop, said, this.drive.guard.estopState());
     for (const { messages } of this.#parts.operators().values()) messages.sendEstop();
   }
 
@@ -131,6 +139,11 @@ export class RobotSessionHost implements SessionHost {
   messageRefused(channel: string, error: ProtocolError): void {
     this.#parts.counters.messagesRefused.add(`${channel}:${error.code}`);
     this.#parts.log.debug({ err: error, channel }, 'message refused');
+  }
+
+  #keepEstop(): void {
+    const { estopKeptFor, estopHolders } = this.drive.guard;
+    this.#parts.estop.changed(estopKeptFor, [...estopHolders]);
   }
 
   #logEstop(state: EstopState): void {

@@ -38,6 +38,8 @@ export class RobotCounters {
   readonly signalingErrors = new ReasonCounts();
   commandsAccepted = 0;
   readonly commandsRejected = new ReasonCounts();
+  /** Times that something began to bound the robot's motion. */
+  readonly interventions = new ReasonCounts();
   /** By channel and error code. */
   readonly messagesRefused = new ReasonCounts();
   framesCaptured = 0;

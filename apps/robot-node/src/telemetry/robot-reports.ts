@@ -1,6 +1,6 @@
-import type { DriveGuard } from '@farpoint/safety';
 import { fileFault, JsonLinesFile, type Logger } from '@farpoint/service';
 import type { TimedBaseState } from '../base/base.ts';
+import type { MotionStatus } from '../drive/motion-status.ts';
 import type { OperatorSession } from '../session/operator-session.ts';
 import type { RobotCounters } from './robot-counters.ts';
 import type { SessionRecording } from './session-recording.ts';
@@ -16,7 +16,7 @@ export interface RobotReportsParts {
   counters: RobotCounters;
   telemetry: TelemetrySender;
   board: TelemetryBoard;
-  guard: DriveGuard;
+  status: MotionStatus;
   recording: SessionRecording | null;
   /** The state of the base; `null` before it is known. */
   state: () => TimedBaseState | null;
@@ -55,12 +55,12 @@ export class RobotReports {
   }
 
   #sendTelemetry(): void {
-    const { state, telemetry, board, recording, guard, operators, now } = this.#parts;
+    const { state, telemetry, board, recording, status, operators, now } = this.#parts;
     const known = state();
     if (known === null) return;
     board.state(known);
     telemetry.send(known, now());
-    recording?.telemetry(known, guard, operators.size);
+    recording?.telemetry(known, status, operators.size);
   }
 
   #writeStatistics(): void {

@@ -16,13 +16,14 @@ import {
   SessionRecorder,
   type VideoFormatName,
 } from '@farpoint/recording';
-import type { CommandVerdict, DriveGuard } from '@farpoint/safety';
+import type { CommandVerdict } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import type { TimedBaseState } from '../base/base.ts';
 import type { Capture, CaptureRecording } from '../capture/capture.ts';
 import type { ReadyFrame } from '../capture/capture-messages.ts';
 import type { CameraDescription } from '../capture/frame-source.ts';
 import { monotonicMs } from '../clock.ts';
+import type { MotionStatus } from '../drive/motion-status.ts';
 import type { FOXGLOVE_REACHES } from '../options/foxglove.ts';
 import type { RecordedVideos } from '../options/recording.ts';
 import type { ReadyPicture } from '../pictures/picture-messages.ts';
@@ -230,12 +231,14 @@ export class SessionRecording implements VideoTaker {
     this.#recorder.json('command', monotonicMs(), { session, sequence, timeMs, twist, ...outcome });
   }
 
-  telemetry(state: TimedBaseState, guard: DriveGuard, operators: number): void {
+  telemetry(state: TimedBaseState, status: MotionStatus, operators: number): void {
     const { timeMs, pose, twist, battery, contact } = state;
     this.#recorder.state(timeMs, pose, twist);
     if (!this.#recorder.takes('telemetry')) return;
-    const drive = guard.state(monotonicMs(), contact);
-    this.#recorder.json('telemetry', timeMs, { pose, twist, battery, contact, drive, operators });
+    const nowMs = monotonicMs();
+    const drive = status.drive(nowMs, contact);
+    const motion = status.state(nowMs);
+    this.#recorder.json('telemetry', timeMs, { pose, twist, battery, contact, drive, motion, operators });
   }
 
   estimates(lines: readonly StreamStatistics[]): void {

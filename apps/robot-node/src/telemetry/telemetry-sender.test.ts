@@ -1,6 +1,7 @@
 import { decodeJson, telemetryCodec, zeroTwist } from '@farpoint/protocol';
-import { DriveGuard, defaultDriveLimits } from '@farpoint/safety';
+import { DriveGuard, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
 import { describe, expect, it } from 'vitest';
+import { MotionStatus } from '../drive/motion-status.ts';
 import type { OperatorSession } from '../session/operator-session.ts';
 import { StageTimer } from './stage-timer.ts';
 import { TelemetryBoard } from './telemetry-board.ts';
@@ -42,7 +43,12 @@ function secondAt(targetBitsPerSecond: number): {
   for (const topic of ['/a', '/b', '/c']) board.take({ topic, label: topic, level: 'ok', values: [] }, 0);
   const imu = { name: 'imu', level: 'ok', message: '', sinceMs: 0 } as const;
   board.components.take('/diagnostics', [imu], 0);
-  const sender = new TelemetrySender(new Map([['operator', operator]]), guard, new StageTimer(), board);
+  const sender = new TelemetrySender(
+    new Map([['operator', operator]]),
+    new MotionStatus(new MotionSupervisor(guard), null),
+    new StageTimer(),
+    board,
+  );
   const orientation = { x: 0, y: 0, z: 0, w: 1 };
   const state = { timeMs: 0, pose: { position: zeroTwist().linear, orientation }, twist: zeroTwist() };
   for (let i = 0; i < 20; i++) {

@@ -5,9 +5,9 @@ import {
   type TelemetryMessage,
   telemetryCodec,
 } from '@farpoint/protocol';
-import type { DriveGuard } from '@farpoint/safety';
 import { BitRate } from '@farpoint/timing';
 import type { TimedBaseState } from '../base/base.ts';
+import type { MotionStatus } from '../drive/motion-status.ts';
 import type { OperatorSession } from '../session/operator-session.ts';
 import type { StageTimer } from './stage-timer.ts';
 import type { TelemetryBoard } from './telemetry-board.ts';
@@ -24,20 +24,20 @@ const COMPONENTS_EVERY = 20;
  */
 export class TelemetrySender {
   readonly #operators: ReadonlyMap<string, OperatorSession>;
-  readonly #guard: DriveGuard;
+  readonly #status: MotionStatus;
   readonly #stages: StageTimer;
   readonly #board: TelemetryBoard;
   #sequence = 0;
 
   constructor(
     operators: ReadonlyMap<string, OperatorSession>,
-    guard: DriveGuard,
+    status: MotionStatus,
     stages: StageTimer,
     board: TelemetryBoard,
   ) {
     this.#board = board;
     this.#operators = operators;
-    this.#guard = guard;
+    this.#status = status;
     this.#stages = stages;
   }
 
@@ -49,6 +49,7 @@ export class TelemetrySender {
     const stages = this.#stages.take();
     this.#sequence = nextSequence32(this.#sequence);
     // Readings go with the telemetry that narrow paths get, too, so that every reading reaches all operators.
+    const motion = this.#status.state(nowMs);
     const forNarrow = this.#sequence % NARROW_EVERY === 0;
     const { readings, samples, components } = this.#board;
     const reading = forNarrow ? readings.next(nowMs) : null;
@@ -68,7 +69,8 @@ export class TelemetrySender {
         pose: state.pose,
         twist: state.twist,
         ...(state.battery === null ? {} : { battery: state.battery }),
-        drive: this.#guard.state(nowMs, state.contact),
+        drive: this.#status.drive(nowMs, state.contact),
+        motion,
         ...operator.status(stages, nowMs),
         operators: this.#operators.size,
       };

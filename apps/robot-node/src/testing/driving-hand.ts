@@ -2,12 +2,14 @@ import {
   type Command,
   type EstopRequest,
   type RobotSessionMessage,
+  sequenceDelta32,
   type Twist,
   zeroTwist,
 } from '@farpoint/protocol';
 
 export interface DriveExtras {
   latencyTest?: number;
+  seenUs?: number | undefined;
   twist?: Twist;
 }
 
@@ -17,10 +19,16 @@ export class DrivingHand {
   /** How many of the robot's messages have been looked at. */
   #seen = 0;
   #sequence = 0;
+  #seenUs: number | null = null;
 
   /** @param heard the robot's messages on `session`; more are appended as they come */
   constructor(heard: readonly RobotSessionMessage[]) {
     this.#heard = heard;
+  }
+
+  /** Whatever has arrived counts as drawn at once. @param stampUs its capture time, as in `seenUs` */
+  sees(stampUs: number): void {
+    if (this.#seenUs === null || sequenceDelta32(stampUs, this.#seenUs) > 0) this.#seenUs = stampUs;
   }
 
   /** On a busy machine commands come with gaps, after which the robot demands an open hand. */
@@ -35,6 +43,7 @@ export class DrivingHand {
       lease,
       deadMan: true,
       twist: { ...zeroTwist(), linear: { x: linear, y: 0, z: 0 } },
+      ...(this.#seenUs === null ? {} : { seenUs: this.#seenUs }),
       ...more,
       ...(letsGo ? { twist: zeroTwist() } : {}),
     };

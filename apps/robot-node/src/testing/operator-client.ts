@@ -15,6 +15,7 @@ import {
   readCloudPayload,
   robotSessionCodec,
   type Sample,
+  stampUsOf,
   type Telemetry,
   type TelemetryMessage,
   telemetryCodec,
@@ -214,13 +215,14 @@ export class OperatorClient {
     return lease ?? '';
   }
 
-  /** Releases the emergency stop, by the number of its latest latch. */
+  /** Names the latest latch of the emergency stop. */
   releaseEstop(): void {
     this.sendSession(namedRelease(this.session));
   }
 
   /** Lets go once when the robot has asked for it. */
   drive(lease: string, linear: number, more: DriveExtras = {}): void {
+    if (this.telemetry !== null) this.#hand.sees(stampUsOf(this.telemetry.timeMs));
     this.sendControl(this.#hand.command(lease, linear, more));
   }
 
@@ -273,6 +275,7 @@ export class OperatorClient {
       return;
     }
     this.onCloudPacket?.(payload);
+    this.#hand.sees(placement.captureTimeUs);
     const { frameNumber, frameLength, sequenceLength } = header;
     const frames = this.#framesOf.get(placement.sensor) ?? new Map<number, ReceivedFrame>();
     this.#framesOf.set(placement.sensor, frames);

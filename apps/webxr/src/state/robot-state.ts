@@ -1,6 +1,7 @@
 /** What the robot has reported in this session. */
 import type { RobotClient } from '@farpoint/operator';
 import { alarmWords, raisedFirst } from '../status/alarm-words.ts';
+import { motionWords, obstacleGuardWords } from '../status/motion-words.ts';
 import { shownReading } from '../status/shown-readings.ts';
 import type { Sampler } from './sampler.ts';
 
@@ -30,9 +31,22 @@ export function robotState({ link, stops }: RobotClient, samples: Sampler) {
     stop: samples.of(() =>
       stops.status === 'confirmed' && link.session.estop.latch === undefined ? 'none' : stops.status,
     ),
+    /** Why it does less than its driver asks for; `null` if it does not. */
+    motion: samples.of(() => motionWords(link.session.telemetry?.motion)),
+    /** That it does not look where it goes; `null` if it does, or does not say. */
+    obstacleGuard: samples.of(() => {
+      const guard = link.session.telemetry?.motion?.obstacleGuard;
+      return guard === undefined || guard === 'on' ? null : obstacleGuardWords[guard];
+    }),
+    /** The most that it drives, m/s. */
+    maxLinear: samples.of(() => link.session.welcome?.limits.maxLinear ?? 0),
     /** What it demands when commands come again after a gap that stopped it. */
     afterGap: samples.of(() => link.session.welcome?.limits.afterGap ?? 'resume'),
     /** There is a session, and the robot's emergency stop is on. */
     estopLatched: samples.of(() => link.phase === 'live' && link.session.estop.latched),
+    /** It is, and it can be released at the robot only. */
+    estopAtRobot: samples.of(
+      () => link.phase === 'live' && link.session.estop.latched && link.session.estop.releasedAt === 'robot',
+    ),
   };
 }

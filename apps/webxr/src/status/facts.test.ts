@@ -15,7 +15,15 @@ const telemetry = {
   battery: { voltage: 24.04, percentage: 0.2 },
 } as Telemetry;
 const open = { type: 'estop', latched: false } as const;
-const session = { name: 'Rover', telemetry, estop: open, afterGap: 'let-go', readings: [], figures } as const;
+const session = {
+  name: 'Rover',
+  telemetry,
+  estop: open,
+  afterGap: 'let-go',
+  maxLinear: 1,
+  readings: [],
+  figures,
+} as const;
 const values = (facts: ReturnType<typeof sessionFacts>) =>
   Object.fromEntries(facts.map(({ name, value }) => [name, value]));
 
@@ -39,6 +47,10 @@ describe('the table of figures', () => {
   test('shows an emergency stop before telemetry does, and who pressed it', () => {
     const facts = sessionFacts({ ...session, estop: { ...open, latched: true, by: 'robot' } });
     expect(values(facts).State).toBe('Emergency stop (by robot)');
+    const held = { ...open, latched: true, by: 'robot', releasedAt: 'robot' } as const;
+    expect(values(sessionFacts({ ...session, estop: held })).State).toBe(
+      'Emergency stop (by robot; released at the robot only)',
+    );
   });
 
   test('after a gap, says what the robot waits for', () => {
@@ -59,7 +71,7 @@ describe('the table of figures', () => {
 test('on the wrist: how to release while the stop is on, otherwise the battery and the next robot', () => {
   const words = { text: 'Live', tone: 'good' } as const;
   const facts = {
-    ...{ link: words, driving: words, telemetry, estopLatched: false, figures },
+    ...{ link: words, driving: words, telemetry, estopLatched: false, figures, estopAtRobot: false },
     ...{ stop: null, afterGap: 'let-go' as const },
   };
   const lines = wristLines({ ...facts, alarm: null, nextRobot: { id: 'b', name: 'B' } });
@@ -71,6 +83,14 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
     'rtt 42 ms  frame –  loss 0.0 %',
     'Battery 20 %  press stick: B',
   ]);
+  const atRobot = wristLines({
+    ...facts,
+    alarm: null,
+    nextRobot: null,
+    estopLatched: true,
+    estopAtRobot: true,
+  });
+  expect(atRobot.at(-1)).toEqual({ text: 'Released at the robot only', tone: 'bad' });
   const stopped = wristLines({ ...facts, alarm: null, nextRobot: null, estopLatched: true });
   expect(stopped.at(-1)?.tone).toBe('bad');
   const alarm = { text: 'The battery is low', tone: 'bad' } as const;

@@ -1,6 +1,7 @@
 /** The contents of the table of figures over the picture. */
 import type { AfterGap, EstopState, Telemetry } from '@farpoint/operator';
 import { BitRate } from '@farpoint/timing';
+import { motionWords, speedLimitWords } from './motion-words.ts';
 import type { PageStats } from './page-stats.ts';
 import type { ShownReading } from './shown-readings.ts';
 import { driveStateWords, type Tone } from './words.ts';
@@ -18,14 +19,24 @@ export interface SessionFacts {
   estop: EstopState;
   /** What the robot demands when commands come again after a gap that stopped it. */
   afterGap: AfterGap;
+  /** The most that the robot drives, m/s. */
+  maxLinear: number;
   readings: readonly ShownReading[];
   figures: PageStats;
 }
 
-export function sessionFacts({ name, telemetry, estop, afterGap, readings, figures }: SessionFacts): Fact[] {
+export function sessionFacts({
+  name,
+  telemetry,
+  estop,
+  afterGap,
+  maxLinear,
+  readings,
+  figures,
+}: SessionFacts): Fact[] {
   const facts: Fact[] = [];
   if (name !== null) facts.push({ name: 'Robot', value: name });
-  if (telemetry !== null) facts.push(...telemetryFacts(telemetry, estop, afterGap));
+  if (telemetry !== null) facts.push(...telemetryFacts(telemetry, estop, afterGap, maxLinear));
   addReadings(facts, readings);
   facts.push(...streamFacts(figures));
   if (telemetry !== null && telemetry.operators > 1) {
@@ -34,15 +45,24 @@ export function sessionFacts({ name, telemetry, estop, afterGap, readings, figur
   return facts;
 }
 
-function telemetryFacts(telemetry: Telemetry, estop: EstopState, afterGap: AfterGap): Fact[] {
+function telemetryFacts(
+  telemetry: Telemetry,
+  estop: EstopState,
+  afterGap: AfterGap,
+  maxLinear: number,
+): Fact[] {
   // Telemetry reports an emergency stop a moment later than the `estop` message.
-  const drive = driveStateWords(estop.latched ? 'estop' : telemetry.drive, afterGap);
-  const by = estop.latched && estop.by !== undefined ? ` (by ${estop.by})` : '';
+  const bounded = estop.latched ? null : motionWords(telemetry.motion);
+  const drive = bounded ?? driveStateWords(estop.latched ? 'estop' : telemetry.drive, afterGap);
+  const where = estop.releasedAt === 'robot' ? '; released at the robot only' : '';
+  const by = estop.latched && estop.by !== undefined ? ` (by ${estop.by}${where})` : '';
   const { linear, angular } = telemetry.twist;
   const facts: Fact[] = [
     { name: 'State', value: drive.text + by, tone: drive.tone },
     { name: 'Speed', value: `${linear.x.toFixed(2)} m/s  ${angular.z.toFixed(2)} rad/s` },
   ];
+  const limit = speedLimitWords(telemetry, maxLinear);
+  if (limit !== null) facts.push({ name: 'Speed limit', value: limit.text, tone: limit.tone });
   if (telemetry.battery !== undefined) {
     const share = telemetry.battery.percentage;
     facts.push({

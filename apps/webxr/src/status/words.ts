@@ -45,7 +45,7 @@ export const rejectionWords: Record<CommandRejection, string> = {
   'not-permitted': 'Your grant lets you watch this robot, but not drive it.',
   'not-lease-holder': 'Someone else is driving this robot. Press Take over to drive it yourself.',
   'dead-man-released': 'The robot moves only while you hold the grip.',
-  'let-go-first': 'Commands did not get through while you held the grip. Let go of it, then drive.',
+  'let-go-first': 'The robot was stopped while you held the grip. Let go of it, then drive.',
   'no-wheels': 'The robot’s wheels take no commands. The reading “Wheels” says why.',
   'estop-latched': 'The emergency stop is on. Release it, let go of the grip, then drive.',
   'rate-limited': 'The robot receives more commands than it accepts.',

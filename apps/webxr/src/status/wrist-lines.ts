@@ -1,6 +1,7 @@
 /** The lines of text on the wrist panel. */
 import type { AfterGap, RobotListing, Telemetry } from '@farpoint/operator';
 import { lossTone, mbps, ms } from './facts.ts';
+import { motionWords } from './motion-words.ts';
 import type { PageStats } from './page-stats.ts';
 import { driveStateWords, type Words } from './words.ts';
 
@@ -9,6 +10,8 @@ export interface WristFacts {
   driving: Words;
   telemetry: Telemetry | null;
   estopLatched: boolean;
+  /** It can be released at the robot only. */
+  estopAtRobot: boolean;
   /** What has become of STOP; `null` if there is nothing to say. */
   stop: Words | null;
   /** What the robot demands when commands come again after a gap that stopped it. */
@@ -24,6 +27,7 @@ export function wristLines({
   driving,
   telemetry,
   estopLatched,
+  estopAtRobot,
   stop,
   afterGap,
   nextRobot,
@@ -39,7 +43,9 @@ export function wristLines({
   ];
   return [
     link,
-    ...(telemetry === null ? [] : [driveStateWords(telemetry.drive, afterGap)]),
+    ...(telemetry === null
+      ? []
+      : [motionWords(telemetry.motion) ?? driveStateWords(telemetry.drive, afterGap)]),
     driving,
     // An unconfirmed STOP, an alarm or a confirmed STOP takes the place of the line that matters least.
     (stop?.tone === 'good' ? null : stop) ??
@@ -53,7 +59,10 @@ export function wristLines({
       tone: lossTone(figures),
     },
     estopLatched
-      ? { text: 'Release: open hand, hold trigger 1 s', tone: 'bad' }
+      ? {
+          text: estopAtRobot ? 'Released at the robot only' : 'Release: open hand, hold trigger 1 s',
+          tone: 'bad',
+        }
       : { text: hints.join('  '), tone: 'neutral' },
   ];
 }

@@ -65,6 +65,8 @@ export const elements = {
   joystick: byId('joystick', HTMLElement),
   knob: byId('knob', HTMLElement),
   holder: byId('holder', HTMLElement),
+  motionState: byId('motion-state', HTMLElement),
+  obstacleGuard: byId('obstacle-guard', HTMLElement),
   driveHint: byId('drive-hint', HTMLElement),
   take: byId('take', HTMLButtonElement),
   release: byId('release', HTMLButtonElement),

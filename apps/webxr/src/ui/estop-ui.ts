@@ -38,6 +38,7 @@ export class EstopUi {
     estopRelease.addEventListener('contextmenu', (event) => event.preventDefault());
     effect(() => showStop(this.#robot.stop.value));
     effect(() => showLatched(this.#robot.estopLatched.value));
+    effect(() => showWhere(this.#robot.estopAtRobot.value));
     effect(() => showProgress(this.#hold.progress.value));
   }
 
@@ -53,7 +54,9 @@ export class EstopUi {
   /** @param away the operator cannot see the page or is not at its controls */
   tick(nowMs: number, away: boolean): void {
     if (away) this.#hold.letGo();
-    if (this.#hold.tick(nowMs, this.#robot.estopLatched.value)) this.#client.releaseEstop();
+    const { estopLatched, estopAtRobot } = this.#robot;
+    const mayRelease = estopLatched.value && !estopAtRobot.value;
+    if (this.#hold.tick(nowMs, mayRelease)) this.#client.releaseEstop();
   }
 }
 
@@ -64,6 +67,15 @@ function showLatched(latched: boolean): void {
   estopRelease.hidden = !latched;
   // The release control needs its place, and a robot that cannot drive has nothing to measure.
   latency.hidden = latched;
+}
+
+/** A stop at the robot itself is released there, by nobody here. */
+function showWhere(atRobot: boolean): void {
+  const { estopRelease } = elements;
+  estopRelease.disabled = atRobot;
+  estopRelease.querySelector('b')!.textContent = atRobot ? 'Release at robot' : 'Hold to release';
+  for (const words of estopRelease.querySelectorAll<HTMLElement>(':scope > span'))
+    words.hidden = words.classList.contains('at-robot') !== atRobot;
 }
 
 /** Also without a session: then it is kept until the link returns. */

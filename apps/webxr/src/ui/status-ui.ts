@@ -36,6 +36,8 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
     elements.joystick.hidden = watches;
     elements.driveHint.hidden = watches;
   });
+  effect(() => showWords(elements.motionState, robot.motion.value));
+  effect(() => showWords(elements.obstacleGuard, robot.obstacleGuard.value));
   effect(() => {
     if (!link.live.value) return;
     const { name, telemetry, estop, readings, componentTopics } = robot;
@@ -46,11 +48,17 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
       sessionFacts({
         ...{ name: name.value, telemetry: telemetry.value, estop: estop.value },
         afterGap: robot.afterGap.value,
+        maxLinear: robot.maxLinear.value,
         readings: readings.value.filter((reading) => !isWell(reading)),
         ...{ figures: figures.value },
       }),
     );
   });
+}
+
+function showWords(element: HTMLElement, words: Words | null): void {
+  element.hidden = words === null;
+  if (words !== null) setPill(element, words);
 }
 
 function setPill(element: HTMLElement, words: Words): void {

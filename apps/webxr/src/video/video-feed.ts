@@ -37,6 +37,8 @@ export interface VideoFeedParts {
   readonly synchronised: boolean;
   /** `null` if this browser cannot read videos. */
   readonly receiver: VideoReceiver | null;
+  /** Told when the newest frame that is now shown was captured, ms on the robot's clock. */
+  onShown?(captureMs: number): void;
   /** Told of the instant that is shown; `null` if nobody asks. */
   readonly presented: PresentedInstant | null;
   /**
@@ -100,6 +102,7 @@ export class VideoFeed {
       views.show(video, payload, takenAtMs, nowMs);
       this.#figures.onShown(video, nowMs - takenAtMs);
     }
+    if (this.shownMs !== null) this.#parts.onShown?.(this.shownMs);
     this.onPresented?.();
   }
 

@@ -26,6 +26,7 @@ export function showOnWrist({ state, panel, active, releaseProgress }: WristStat
       wristLines({
         ...{ link: link.line.value, driving: driving.line.value, telemetry: robot.telemetry.value },
         ...{ estopLatched: robot.estop.value.latched, nextRobot: link.nextRobot.value },
+        estopAtRobot: robot.estopAtRobot.value,
         ...{ stop: stopWords[robot.stop.value], afterGap: robot.afterGap.value },
         alarm: alarmLine(robot.alarms.value),
         figures: figures.value,

@@ -1,6 +1,7 @@
 /** Passes the link's events to a client's parts and listeners. */
 import type { CloudReceiver } from '../cloud/cloud-receiver.ts';
 import type { Driver } from '../drive/driver.ts';
+import type { SeenView } from '../drive/seen-view.ts';
 import type { LatencyProbe } from '../latency/latency-probe.ts';
 import type { RobotLinkEvents } from '../link/robot-link.ts';
 import type { PictureFeed } from '../pictures/picture-feed.ts';
@@ -17,6 +18,7 @@ export interface LinkedClient {
   readonly driver: Driver;
   readonly latency: LatencyProbe;
   readonly statistics: StreamStatistics;
+  readonly seen: SeenView;
   readonly stops: StopDelivery;
   pointsAtMs: number;
 }
@@ -57,6 +59,7 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
       tracks.reset();
       sound.reset();
       client.statistics.reset();
+      client.seen.reset();
       client.stops.onSession();
       emitter.emit('session', generation);
     },

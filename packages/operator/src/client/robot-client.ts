@@ -4,6 +4,7 @@ import type { Batch } from '../cloud/batch.ts';
 import { ReadableFormats } from '../cloud/readable-formats.ts';
 import { Driver } from '../drive/driver.ts';
 import { presentRobot, RobotSwitch } from '../drive/robot-switch.ts';
+import { SeenView } from '../drive/seen-view.ts';
 import type { DriveWish } from '../drive/velocity-mapping.ts';
 import { WishInput } from '../drive/wish-input.ts';
 import type { AgeOfStamp } from '../latency/frame-latency.ts';
@@ -31,6 +32,8 @@ export class RobotClient {
   readonly link: RobotLink;
   /** Which device drives, and who holds the lease. */
   readonly driver: Driver;
+  /** What is on the operator's screen, which each command tells the robot. */
+  readonly seen = new SeenView();
   /** Gets STOP to the robot. */
   readonly stops: StopDelivery;
   /** Runs latency tests. */
@@ -67,7 +70,7 @@ export class RobotClient {
     this.sound = this.#parts.sound;
     this.link = openLink(options, this.#parts.receiver.worker, linkEvents(this, this.#parts));
     this.driver = new Driver([...(options.inputs ?? []), this.#wish], {
-      sendCommand: (command) => this.link.sendCommand(command),
+      sendCommand: (command) => this.link.sendCommand(this.seen.stamp(command)),
       sendSession: (message) => this.link.sendSession(message),
       onOtherDrives: () => this.#emitter.emit('otherDrives', undefined),
       onGripLost: (loss) => this.#emitter.emit('gripLost', loss),
@@ -129,10 +132,7 @@ export class RobotClient {
     return this.link.session.telemetry;
   }
 
-  /**
-   * Connects to this robot as soon as it is listed, and again whenever the session is lost. The present robot is
-   * stopped first.
-   */
+  /** Connects to this robot once it is listed, and whenever the session is lost. The present robot stops first. */
   choose(robotId: string): void {
     if (this.#closed) return;
     this.#switch.choose(robotId, presentRobot(this.link, this.driver.holder), performance.now());
@@ -190,7 +190,6 @@ export class RobotClient {
 
   /**
    * Ends another operator's session. Only a supervisor may; others get the robot's `robotFault`.
-   *
    * @param operator its `number` in the `operators` event
    * @param options.block also makes the robot refuse that operator's grant until it ends
    * @returns whether it was sent, which needs a session. The `operators` event confirms it.
@@ -260,13 +259,14 @@ export class RobotClient {
   /** A packet's points were uploaded for the display frame being prepared. */
   noteUploaded(batch: Batch, packet: number): void {
     this.statistics.onUploaded(batch, packet);
+    this.seen.onUploaded(batch, packet);
     // Only the first sensor answers latency tests.
-    if (batch.sensor !== 0) return;
-    this.latency.onPacket(batch, packet);
+    if (batch.sensor === 0) this.latency.onPacket(batch, packet);
   }
 
   /** The display frame with the points of {@link noteUploaded} is finished. @param nowMs `performance.now()` */
   noteDrawn(nowMs: number): void {
+    this.seen.onDrawn();
     this.latency.onDrawn(nowMs);
     this.statistics.onDrawn(nowMs);
   }

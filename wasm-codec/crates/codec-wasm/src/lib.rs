@@ -1,6 +1,7 @@
 //! The point codec's bindings for JavaScript: objects whose buffers lie in the module's memory and are read and written
 //! there through views, so that a call passes numbers only. The checked interface is the TypeScript package around it.
 
+mod obstacle_grid;
 mod organised_decoder;
 mod organised_encoder;
 mod organised_frame;

@@ -8,8 +8,20 @@ export function addDriveMetrics(metrics: PulledMetrics, robot: Robot): void {
   metrics.sums('commands_rejected', 'Drive commands refused, by reason', 'reason', () =>
     counters.commandsRejected.entries(),
   );
+  metrics.sums(
+    'interventions',
+    'Times that something began to bound the robot’s motion, by reason',
+    'reason',
+    () => counters.interventions.entries(),
+  );
   metrics.gauge('wheels_present', '1 while something takes the velocities, otherwise 0', () =>
     robot.sink.fault == null ? 1 : 0,
+  );
+  metrics.sums('robot_stops', 'Stops by a stop at the robot itself, by its kind', 'stop', () =>
+    robot.stops.stopped.entries(),
+  );
+  metrics.gauge('robot_stops_well', '1 while every stop at the robot can be read, otherwise 0', () =>
+    robot.stops.areWell ? 1 : 0,
   );
   metrics.sum(
     'sink_restarts',

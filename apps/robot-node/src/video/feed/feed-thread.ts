@@ -113,7 +113,7 @@ export class FeedThread {
   }
 
   #start(): void {
-    const worker = new Worker(this.#script);
+    const worker = new Worker(this.#script, { name: 'video feed' });
     const startedMs = performance.now();
     let reason = 'it ended';
     this.#restart = null;

@@ -1,0 +1,134 @@
+import { randomBytes } from 'node:crypto';
+import type { AfterGap, DriveLimits, Intervention } from '@farpoint/protocol';
+import {
+  BlindTravel,
+  DriveGuard,
+  type EstopReleasePolicy,
+  MotionSupervisor,
+  type TakePolicy,
+  ViewAge,
+} from '@farpoint/safety';
+import type { Logger } from '@farpoint/service';
+import type { RobotAudit } from '../audit/robot-audit.ts';
+import type { TimedBaseState } from '../base/base.ts';
+import { monotonicMs } from '../clock.ts';
+import type { FixPosition } from '../geofence/fix-position.ts';
+import { type FenceOptions, openGeofence } from '../geofence/open-geofence.ts';
+import type { ObstacleStation } from '../obstacles/obstacle-station.ts';
+import { isConfigured, type RobotStopsOptions } from '../stops/open-stops.ts';
+import type { SessionRecording } from '../telemetry/session-recording.ts';
+import { DriveStation } from './drive-station.ts';
+import { EstopJournal } from './estop-journal.ts';
+import { InterventionReport } from './intervention-report.ts';
+import type { MotionLimits } from './motion-limits.ts';
+import { MotionStatus } from './motion-status.ts';
+import type { VelocitySink } from './velocity-sink.ts';
+
+export interface DriveOptions {
+  id: string;
+  limits: DriveLimits;
+  motion: MotionLimits;
+  takePolicy: TakePolicy;
+  estopRelease: EstopReleasePolicy;
+  afterGap: AfterGap;
+  /** Where the robot may move; `null` for everywhere. */
+  fence?: FenceOptions | null | undefined;
+  /** The stops at the robot itself. */
+  stops: RobotStopsOptions;
+  /** Where the robot remembers its emergency stop across restarts. */
+  stateFolder: string;
+}
+
+export interface DriveParts {
+  sink: VelocitySink;
+  recording: SessionRecording | null;
+  audit: RobotAudit;
+  /** Simulated wheels; `null` for real ones. */
+  base: object | null;
+  obstacles: ObstacleStation;
+  /** The newest of the base; `null` before the first. */
+  state: () => TimedBaseState | null;
+  /** Counts the beginning of each intervention. */
+  count: (reason: Intervention) => void;
+  log: Logger;
+}
+
+/** Between the operators' commands and the wheels. */
+export interface Drive {
+  station: DriveStation;
+  estop: EstopJournal;
+  status: MotionStatus;
+  /** Takes the robot's readings, where the fence needs a satellite receiver's; `null` if it does not. */
+  fix: FixPosition | null;
+}
+
+/**
+ * Opens what moves the robot, latched if the emergency stop outlives the last run, and the journal that preserves it for
+ * the next run.
+ */
+export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
+  const { limits, motion, takePolicy, estopRelease, afterGap } = options;
+  const { base, sink, recording, audit, obstacles, state, count, log } = parts;
+  const fence = options.fence == null ? null : openGeofence(options.fence, state, base !== null);
+  const letGo = afterGap === 'let-go';
+  const guard = new DriveGuard({
+    ...{ limits, takePolicy, estopRelease, randomBytes: (bytes) => randomBytes(bytes) },
+    // Any gap that lets the watchdog stop the robot.
+    ...(letGo ? { letGoAfterMs: limits.watchdogMs } : {}),
+  });
+  const { view, ramps } = motion;
+  const blindTravel = view === null ? null : new BlindTravel(guard.view, view);
+  const supervisor = new MotionSupervisor(guard, {
+    ramps,
+    guards: [
+      ...(view === null ? [] : [new ViewAge(guard.view, view)]),
+      ...(blindTravel === null ? [] : [blindTravel]),
+      obstacles,
+      ...(fence === null ? [] : [fence.geofence]),
+    ],
+    ...(letGo ? { letGoAfter: { 'view-lost': 'what you saw was too old' } } : {}),
+  });
+  const report = new InterventionReport(log, count);
+  supervisor.onIntervention = (reason, nowMs) => report.begins(reason, nowMs);
+  const station = new DriveStation(
+    supervisor,
+    (twist) => {
+      sink.apply(twist, guard.estopState().latched);
+      recording?.velocity(twist);
+    },
+    monotonicMs,
+    () => sink.fault ?? null,
+  );
+  return {
+    station,
+    estop: openJournal(guard, options, audit, log),
+    status: new MotionStatus(supervisor, blindTravel, () => obstacles.state(monotonicMs())),
+    fix: fence?.fix ?? null,
+  };
+}
+
+function openJournal(
+  guard: DriveGuard,
+  { id, stateFolder, stops }: DriveOptions,
+  audit: RobotAudit,
+  log: Logger,
+): EstopJournal {
+  const estop = new EstopJournal(stateFolder, id, (error) =>
+    log.error({ err: error }, 'the emergency stop cannot be stored: the robot will start latched'),
+  );
+  const { latched, heldBy } = estop.start;
+  const gone = heldBy.filter((stop) => !isConfigured(stops, stop));
+  if (gone.length > 0) {
+    guard.latchEstop('robot');
+    log.warn({ stops: gone }, 'starts latched: a stop that held the robot is configured no longer');
+  }
+  if (latched !== null) {
+    guard.latchEstop(latched.by);
+    audit.startsLatched(latched.reason);
+    log.warn(
+      { reason: latched.reason, detail: latched.detail },
+      'starts with the emergency stop latched: whoever drives must release it',
+    );
+  }
+  return estop;
+}

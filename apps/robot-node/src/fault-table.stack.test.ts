@@ -1,0 +1,155 @@
+/**
+ * What goes wrong while a robot is driven with the grip held, and how soon it brakes: at the real programs, from the
+ * cause to the first lower velocity that the wheels are told. Prints the times.
+ */
+import { isAvailable } from '@farpoint/shared-memory';
+import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
+import { brakingFaults } from './testing/faults/braking-faults.ts';
+import { BRAKES_MS, type Driving, type Fault } from './testing/faults/fault.ts';
+import { SPEED } from './testing/faults/fault-hand.ts';
+import { FaultRig } from './testing/faults/fault-rig.ts';
+import { harmlessFaults } from './testing/faults/harmless-faults.ts';
+import { canHangThreads } from './testing/faults/hung-thread.ts';
+import { hangingFaults, type ReturningFault, returningFaults } from './testing/faults/returning-faults.ts';
+
+/** The robot brakes because its program ends or hangs: the wheels are told zero, or nothing any more. */
+const ending: { name: string; signal: NodeJS.Signals; saysZero: boolean }[] = [
+  { name: 'the robot is asked to end', signal: 'SIGTERM', saysZero: true },
+  { name: 'the robot is interrupted', signal: 'SIGINT', saysZero: true },
+  { name: 'the robot’s terminal hangs up', signal: 'SIGHUP', saysZero: true },
+  { name: 'the robot is killed', signal: 'SIGKILL', saysZero: false },
+  { name: 'the robot crashes', signal: 'SIGSEGV', saysZero: false },
+  { name: 'the robot is stopped by a debugger', signal: 'SIGSTOP', saysZero: false },
+];
+
+describe.skipIf(!isAvailable())(
+  'faults while driving (needs the addon: pnpm build:native)',
+  { timeout: 20_000 },
+  () => {
+    let rig: FaultRig;
+    const times: string[] = [];
+
+    beforeAll(async () => {
+      rig = await FaultRig.start();
+    }, 60_000);
+    afterEach(() => rig.reset(), 30_000);
+    afterAll(async () => {
+      const { fastest } = rig.wheels;
+      await rig.close();
+      console.log(
+        `from the cause to braking, ms (the wheels were told ${fastest} m/s at most):\n${times.join('\n')}`,
+      );
+    }, 60_000);
+
+    async function drive({ behindLink = false, settled = false } = {}): Promise<Driving> {
+      const operator = await rig.connect(behindLink);
+      const { latched } = await operator.client.message('estop');
+      const hand = await rig.hand(operator);
+      if (latched) {
+        operator.client.releaseEstop();
+        await operator.client.message('estop', (state) => !state.latched);
+      }
+      await hand.gripAnew();
+      await (settled ? rig.untilSettled(hand) : rig.untilDriving(hand));
+      return { rig, operator, hand };
+    }
+
+    function judge(name: string, causeMs: number, withinMs: number): void {
+      const found = rig.wheels.brakingAfter(causeMs);
+      expect(found).not.toBe(null);
+      const { afterMs, blindMs } = found as NonNullable<typeof found>;
+      times.push(`${afterMs.toFixed(0).padStart(5)}  ${name}`);
+      // What this machine was too busy to look at is not the robot's.
+      expect(afterMs).toBeLessThanOrEqual(withinMs + blindMs);
+      expect(rig.wheels.fastest).toBeLessThanOrEqual(SPEED);
+    }
+
+    /** @returns when it began to go wrong: some causes take long to prepare */
+    async function begin(cause: Fault['cause'], driving: Driving): Promise<number> {
+      const causeMs = performance.now();
+      await cause(driving);
+      return rig.wheels.brakingAfter(causeMs) === null ? Math.max(causeMs, performance.now() - 1) : causeMs;
+    }
+
+    test.each(brakingFaults)(
+      '$name: brakes and stays',
+      async ({ name, cause, withinMs = BRAKES_MS, ...how }) => {
+        const driving = await drive(how);
+        const causeMs = await begin(cause, driving);
+        await rig.wheels.until(({ linear }) => linear === 0);
+        judge(name, causeMs, withinMs);
+        await rig.wheels.beats(10);
+        expect(rig.wheels.speed).toBe(0);
+      },
+    );
+
+    test.each(harmlessFaults)('$name: goes on', async ({ cause, ...how }) => {
+      const driving = await drive(how);
+      const causeMs = performance.now();
+      await cause(driving);
+      await rig.wheels.beats(40);
+      const braked = rig.wheels.brakingAfter(causeMs);
+      // Not even a busy machine makes the commands late for so long.
+      if (braked !== null && braked.blindMs < 50) expect(braked).toBe(null);
+      expect(rig.wheels.fastest).toBeLessThanOrEqual(SPEED);
+    });
+
+    async function returns({ name, cause, ends, withinMs, silent, ...how }: ReturningFault): Promise<void> {
+      const driving = await drive(how);
+      const causeMs = await begin(cause, driving);
+      try {
+        await rig.wheels.until(({ linear }) => linear === 0);
+        if (withinMs !== undefined) judge(name, causeMs, withinMs);
+        await (silent ? rig.wheels.silence(600) : rig.wheels.beats(8));
+      } finally {
+        await ends(driving);
+      }
+      await rig.wheels.beats(25);
+      expect(rig.wheels.speed).toBe(0);
+      await rig.untilDriving(driving.hand);
+    }
+
+    test.each(returningFaults)('$name: stays until the hand has let go', returns);
+
+    describe.skipIf(!canHangThreads())('threads that hang (needs python3 and ptrace)', () => {
+      test.each(hangingFaults)('$name: stays until the hand has let go', returns);
+    });
+
+    test('signaling is killed: the robot goes on', async () => {
+      await drive();
+      const causeMs = performance.now();
+      await rig.stack.signaling.kill();
+      await rig.wheels.beats(40);
+      expect(rig.wheels.brakingAfter(causeMs)).toBe(null);
+      await rig.stack.startSignaling();
+    });
+
+    test.each(ending)(
+      '$name: the wheels are told zero, or nothing any more',
+      async ({ name, signal, saysZero }) => {
+        await drive();
+        const causeMs = performance.now();
+        rig.robot.signal(signal);
+        if (saysZero) {
+          await rig.wheels.until(({ linear }) => linear === 0);
+          judge(name, causeMs, BRAKES_MS);
+          await rig.robot.exited;
+        } else {
+          await rig.wheels.silence(200);
+          times.push(
+            `${Math.max(0, rig.wheels.lastWrittenMs - causeMs)
+              .toFixed(0)
+              .padStart(5)}  ${name}: the last word`,
+          );
+          expect(rig.wheels.lastWrittenMs - causeMs).toBeLessThanOrEqual(BRAKES_MS);
+          await rig.robot.kill();
+        }
+        await rig.restartRobot();
+        // After an end that was not in order it starts latched.
+        const operator = await rig.connect();
+        const state = await operator.client.message('estop');
+        expect(state.latched).toBe(!saysZero);
+      },
+    );
+  },
+);

@@ -1,0 +1,67 @@
+import {
+  type EarthFrame,
+  type Fence,
+  type FencePose,
+  Geofence,
+  type GeofenceOptions,
+} from '@farpoint/safety';
+import type { TimedBaseState } from '../base/base.ts';
+import { FixPosition } from './fix-position.ts';
+
+/** A fence, and what says where the robot is. */
+export interface FenceOptions {
+  fence: Fence;
+  /** The receiver that says where the robot is, and the fence's frame on the earth; `null`: odometry does. */
+  fix: { topic: string; earth: EarthFrame } | null;
+  /** How far off the position may be, m. */
+  errorM: number;
+  limits: GeofenceOptions;
+}
+
+export interface OpenedGeofence {
+  geofence: Geofence;
+  /** Takes the robot's readings, of which it needs the satellite receiver's; `null` if it needs none. */
+  fix: FixPosition | null;
+}
+
+/**
+ * @param state gives the newest of the base; `null` before the first
+ * @param isSimulated whether the base is simulated: then its state was measured at its time. Others say when, or their
+ *   position is unknown
+ */
+export function openGeofence(
+  { fence, fix: receiver, errorM, limits }: FenceOptions,
+  state: () => TimedBaseState | null,
+  isSimulated: boolean,
+): OpenedGeofence {
+  const fix = receiver === null ? null : new FixPosition(receiver.earth, receiver.topic);
+  const pose = (): FencePose | null => {
+    const known = state();
+    if (known === null) return null;
+    const odometry = poseOf(known, errorM, isSimulated);
+    if (fix === null || odometry === null) return odometry;
+    const { place } = fix;
+    if (place === null) return null;
+    return { ...odometry, x: place.x, y: place.y, yaw: null, atMs: Math.min(odometry.atMs, place.atMs) };
+  };
+  return { geofence: new Geofence(fence, limits, pose), fix };
+}
+
+/** `null` if nobody knows when the position was measured. */
+function poseOf(
+  { pose, twist, timeMs, measuredMs }: TimedBaseState,
+  errorM: number,
+  isSimulated: boolean,
+): FencePose | null {
+  const atMs = measuredMs ?? (isSimulated ? timeMs : null);
+  if (atMs === null) return null;
+  const { x: qx, y: qy, z: qz, w: qw } = pose.orientation;
+  return {
+    x: pose.position.x,
+    y: pose.position.y,
+    yaw: Math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz)),
+    linear: twist.linear.x,
+    angular: twist.angular.z,
+    ...{ errorM, atMs },
+  };
+}

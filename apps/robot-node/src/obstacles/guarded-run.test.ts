@@ -1,0 +1,23 @@
+/** Full speed ahead among walls, furniture and people: a few runs. `pnpm bench guard-runs` makes a thousand. */
+import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { expect, it } from 'vitest';
+import { type GuardedRun, guardedRun, RUN_WORLDS } from '../testing/guarded-run.ts';
+
+it.each(RUN_WORLDS.map((world) => [world().name, world] as const))(
+  'drives into nothing, and stops for nothing: %s',
+  async (_, world) => {
+    const codec = await loadCodecFromDisk();
+    const runs: GuardedRun[] = [];
+    for (let seed = 1; seed <= 5; seed++) runs.push(await guardedRun(codec, world, seed, 8));
+    expect(runs.flatMap(({ contacts, seed }) => contacts.map((contact) => ({ ...contact, seed })))).toEqual(
+      [],
+    );
+    const sum = (of: (run: GuardedRun) => number) => runs.reduce((total, run) => total + of(run), 0);
+    expect(sum(({ falseStops }) => falseStops)).toBeLessThanOrEqual(
+      0.02 * sum(({ freeCommands }) => freeCommands),
+    );
+    // They did drive.
+    expect(sum(({ metres }) => metres)).toBeGreaterThan(5);
+  },
+  30_000,
+);

@@ -1,0 +1,26 @@
+/** Where a sensor sits on the robot. */
+import { multiply, type Pose, type Quaternion } from '@farpoint/protocol';
+
+/** The pose of a sensor's body frame (x forward, y left, z up) in base_link: metres and radians, fixed axes. */
+export interface SensorMount {
+  x: number;
+  y: number;
+  z: number;
+  roll: number;
+  /** Positive downwards. */
+  pitch: number;
+  yaw: number;
+}
+
+/** From the optical axes (z forward, x right, y down) to the body's. */
+const OPTICAL_IN_BODY: Quaternion = { x: -0.5, y: 0.5, z: -0.5, w: 0.5 };
+
+/** The pose of its optical frame in base_link. */
+export function opticalMount({ x, y, z, roll, pitch, yaw }: SensorMount): Pose {
+  const about = (axis: 'x' | 'y' | 'z', angle: number): Quaternion => ({
+    ...{ x: 0, y: 0, z: 0, w: Math.cos(angle / 2) },
+    [axis]: Math.sin(angle / 2),
+  });
+  const body = multiply(multiply(about('z', yaw), about('y', pitch)), about('x', roll));
+  return { position: { x, y, z }, orientation: multiply(body, OPTICAL_IN_BODY) };
+}

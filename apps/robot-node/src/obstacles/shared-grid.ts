@@ -1,0 +1,78 @@
+/**
+ * The newest grid of a sensor, in memory shared between its capture thread and the main thread. Three slots: one that is
+ * written, one that is read, one between them that is exchanged. Nobody waits, and nothing is copied twice.
+ */
+import type { SensorGrid } from '@farpoint/safety';
+
+/** The slot between, and whether it is newer than the one that is read. */
+const HEADER_BYTES = 8;
+const SLOTS = 3;
+const SLOT_MASK = 3;
+const FRESH = 4;
+/** Capture time, placed, first cell's x and y. */
+const FACTS = 4;
+
+export interface GridShape {
+  side: number;
+  cellM: number;
+}
+
+function slotBytes(side: number): number {
+  return FACTS * Float64Array.BYTES_PER_ELEMENT + Math.ceil((side * side) / 8) * 8;
+}
+
+export function makeSharedGrid({ side }: GridShape): SharedArrayBuffer {
+  return new SharedArrayBuffer(HEADER_BYTES + SLOTS * slotBytes(side));
+}
+
+function slotsOf(memory: SharedArrayBuffer, side: number) {
+  return Array.from({ length: SLOTS }, (_, slot) => {
+    const begin = HEADER_BYTES + slot * slotBytes(side);
+    return {
+      facts: new Float64Array(memory, begin, FACTS),
+      classes: new Uint8Array(memory, begin + FACTS * Float64Array.BYTES_PER_ELEMENT, side * side),
+    };
+  });
+}
+
+/** Only one writer may exist per memory. */
+export class SharedGridWriter {
+  readonly #state: Int32Array;
+  readonly #slots: ReturnType<typeof slotsOf>;
+  #own = 1;
+
+  constructor(memory: SharedArrayBuffer, { side }: GridShape) {
+    this.#state = new Int32Array(memory, 0, 1);
+    this.#slots = slotsOf(memory, side);
+  }
+
+  write({ capturedAtMs, placed, firstX, firstY, classes }: Omit<SensorGrid, 'side' | 'cellM'>): void {
+    const slot = this.#slots[this.#own] as ReturnType<typeof slotsOf>[number];
+    slot.facts.set([capturedAtMs, placed ? 1 : 0, firstX, firstY]);
+    slot.classes.set(classes);
+    this.#own = Atomics.exchange(this.#state, 0, this.#own | FRESH) & SLOT_MASK;
+  }
+}
+
+/** Only one reader may exist per memory. */
+export class SharedGridReader {
+  readonly #state: Int32Array;
+  readonly #slots: ReturnType<typeof slotsOf>;
+  readonly #shape: GridShape;
+  #own = 2;
+
+  constructor(memory: SharedArrayBuffer, shape: GridShape) {
+    this.#state = new Int32Array(memory, 0, 1);
+    this.#slots = slotsOf(memory, shape.side);
+    this.#shape = shape;
+  }
+
+  /** @returns the newest grid, valid until the next call; `null` if there is none since the last */
+  read(): SensorGrid | null {
+    if ((Atomics.load(this.#state, 0) & FRESH) === 0) return null;
+    this.#own = Atomics.exchange(this.#state, 0, this.#own) & SLOT_MASK;
+    const { facts, classes } = this.#slots[this.#own] as ReturnType<typeof slotsOf>[number];
+    const [capturedAtMs, placed, firstX, firstY] = facts as unknown as [number, number, number, number];
+    return { ...this.#shape, capturedAtMs, placed: placed === 1, firstX, firstY, classes };
+  }
+}

@@ -1,0 +1,31 @@
+import { join } from 'node:path';
+import type { GraphOptions } from '../ros/open-graph.ts';
+import type { RobotStopsOptions } from '../stops/open-stops.ts';
+import type { RobotOptionValues } from './robot-program.ts';
+
+/** The ROS that the source or the sink uses; `null` if neither does. */
+export function rosKindOf({
+  source,
+  sink,
+}: Pick<RobotOptionValues, 'source' | 'sink'>): GraphOptions['kind'] | null {
+  for (const kind of [source, sink]) if (kind === 'ros1' || kind === 'ros2') return kind;
+  return null;
+}
+
+/** @param graph the robot's graph of this kind */
+export function toStops(
+  values: RobotOptionValues,
+  graph: (kind: GraphOptions['kind']) => GraphOptions,
+): RobotStopsOptions {
+  const { stopTopic: topic, stopShm, stopGpio, stopKey: key, stopSilenceMs: silentMs } = values;
+  const kind = rosKindOf(values);
+  const { shmFolder, shmOwner } = values;
+  return {
+    ...(topic === null || kind === null ? {} : { topic: { graph: graph(kind), topic, silentMs } }),
+    ...(stopShm === null
+      ? {}
+      : { shm: { path: join(shmFolder, stopShm), owner: shmOwner ?? undefined, silentMs } }),
+    ...(stopGpio === null ? {} : { gpio: stopGpio }),
+    key,
+  };
+}

@@ -1,0 +1,10 @@
+/** Bytes of CDR's encapsulation before a ROS 2 message. */
+const ENCAPSULATION_BYTES = 4;
+
+/** What a serialised std_msgs/Bool says. Everything but a well-formed false is a stop. */
+export function saysStop(version: 1 | 2, bytes: Uint8Array): boolean {
+  if (version === 1) return bytes.length !== 1 || bytes[0] !== 0;
+  // DDS may pad the message to four bytes.
+  const content = bytes.length - ENCAPSULATION_BYTES;
+  return content < 1 || content > 4 || bytes[ENCAPSULATION_BYTES] !== 0;
+}

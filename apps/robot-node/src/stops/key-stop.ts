@@ -1,0 +1,86 @@
+import { RobotStopSignal, type RobotStopState } from '@farpoint/safety';
+import { KeyWords } from './key-words.ts';
+import type { StopSource } from './stop-source.ts';
+
+/** The robot's console: a terminal, or a pipe. */
+export interface Console {
+  readonly isTTY?: boolean;
+  setRawMode?(raw: boolean): unknown;
+  on(event: 'data', listener: (data: Buffer) => void): unknown;
+  on(event: 'end' | 'close', listener: () => void): unknown;
+  on(event: 'error', listener: (error: Error) => void): unknown;
+  off(event: string, listener: (data: Buffer) => void): unknown;
+  pause(): unknown;
+}
+
+/** A key on the robot's console stops; `release` and Enter release. A console that is gone stops, too. */
+export class KeyStop implements StopSource {
+  readonly stop = 'key';
+  readonly name = 'console';
+  onChange: (() => void) | null = null;
+  readonly #console: Console;
+  readonly #interrupt: () => void;
+  readonly #signal: RobotStopSignal;
+  readonly #words = new KeyWords();
+  #fault: string | null = null;
+  #nowMs = 0;
+  readonly #onData = (data: Buffer) => this.#take(data);
+  readonly #onEnd = () => this.#lose('the console is gone');
+  readonly #onError = (error: Error) => this.#lose(`the console cannot be read: ${error.message}`);
+
+  /**
+   * @param console from which keys are read, one by one if it is a terminal
+   * @param pressed whether it was pressed when the robot last ran
+   * @param interrupt what Ctrl+C does: a terminal that gives single keys raises no signal itself
+   */
+  constructor(console: Console, pressed: boolean, interrupt: () => void) {
+    this.#console = console;
+    this.#interrupt = interrupt;
+    this.#signal = new RobotStopSignal({ silentMs: null, steadyMs: 0, pressed });
+    // A console that can be read says go as long as nobody presses a key.
+    if (!pressed) this.#signal.hear(false, 0);
+    console.on('data', this.#onData);
+    console.on('end', this.#onEnd);
+    console.on('close', this.#onEnd);
+    console.on('error', this.#onError);
+    if (console.isTTY === true) console.setRawMode?.(true);
+  }
+
+  get fault(): string | null {
+    return this.#fault;
+  }
+
+  look(nowMs: number): RobotStopState {
+    this.#nowMs = nowMs;
+    return this.#signal.state(nowMs);
+  }
+
+  close(): void {
+    const { isTTY } = this.#console;
+    for (const [event, listener] of [
+      ['data', this.#onData],
+      ['end', this.#onEnd],
+      ['close', this.#onEnd],
+    ] as const)
+      this.#console.off(event, listener);
+    if (isTTY === true) this.#console.setRawMode?.(false);
+    this.#console.pause();
+  }
+
+  #take(data: Buffer): void {
+    for (const byte of data) {
+      const word = this.#words.take(byte);
+      if (word === null) continue;
+      if (word === 'interrupt') this.#interrupt();
+      else this.#signal.hear(word === 'stop', this.#nowMs);
+      // Each word by itself: a stop among others is not missed.
+      this.onChange?.();
+    }
+  }
+
+  #lose(fault: string): void {
+    this.#fault = fault;
+    this.#signal.lose();
+    this.onChange?.();
+  }
+}

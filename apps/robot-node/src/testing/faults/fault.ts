@@ -1,0 +1,36 @@
+import { type Command, zeroTwist } from '@farpoint/protocol';
+import type { SignaledOperator } from '../signaled-operator.ts';
+import type { FaultHand } from './fault-hand.ts';
+import type { FaultRig } from './fault-rig.ts';
+
+/** The most from a cause to braking, ms. A link's own delay is added where there is one. */
+export const BRAKES_MS = 200;
+/** For causes that only what the driver sees can tell: 150 ms, one frame of the camera, and two commands. */
+export const VIEW_MS = 225;
+
+/** A robot that is being driven, with the grip held. */
+export interface Driving {
+  rig: FaultRig;
+  operator: SignaledOperator;
+  hand: FaultHand;
+}
+
+/** Something that goes wrong. */
+export interface Fault {
+  name: string;
+  /** ms; default {@link BRAKES_MS}. */
+  withinMs?: number;
+  behindLink?: boolean;
+  /** Whether the robot must know the usual interval of what the driver sees: its last second counts. */
+  settled?: boolean;
+  cause(driving: Driving): void | Promise<void>;
+}
+
+/** Changes parts of each command. */
+export const change = (more: (command: Command) => Partial<Command>) => (command: Command) => ({
+  ...command,
+  ...more(command),
+});
+export const forward = (x: number) => ({ ...zeroTwist(), linear: { x, y: 0, z: 0 } });
+/** Sends this in place of each command. */
+export const always = (text: string) => () => text;

@@ -1,0 +1,47 @@
+/** What the robot says about its own bounds on motion, for people. */
+import type { Intervention, MotionState, Telemetry } from '@farpoint/protocol';
+import type { Words } from './tone.ts';
+
+type Explain = (motion: MotionState) => string;
+
+const explanations: Record<Intervention, Explain> = {
+  'view-unknown': () => 'The robot waits until you see it',
+  'view-late': ({ viewAgeMs }) => `Slower: what you see is ${age(viewAgeMs)} old`,
+  'view-lost': () => 'Held: what you see is too old. Let go, then drive',
+  'blind-travel': ({ mostLinear, viewAgeMs }) =>
+    `At most ${mostLinear.toFixed(2)} m/s: what you see is ${age(viewAgeMs)} old`,
+  'obstacle-near': () => 'Slower: something is near',
+  obstacle: () => 'Held: something is in the way',
+  'drop-off': () => 'Held: the floor ahead is missing',
+  'unseen-space': () => 'Slower: no sensor sees where you are going',
+  'sensor-silent': () => 'Slower: a sensor gives nothing',
+  'fence-near': () => 'Slower: near the edge of the permitted area',
+  fence: () => 'Held: the edge of the permitted area',
+};
+
+/** Why the robot does less than it is told, the strictest reason; `null` if it does not. */
+export function motionWords(motion: MotionState | undefined): Words | null {
+  const reason = motion?.reasons[0];
+  if (motion === undefined || reason === undefined) return null;
+  return { text: explanations[reason](motion), tone: motion.factor === 0 ? 'bad' : 'warning' };
+}
+
+/** How fast the robot may go, where that is less than its own limit; `null` if it is not. */
+export function speedLimitWords({ motion }: Telemetry, maxLinear: number): Words | null {
+  if (motion === undefined || motion.mostLinear >= maxLinear) return null;
+  return {
+    text: `${motion.mostLinear.toFixed(2)} m/s: what you see is ${age(motion.viewAgeMs)} old`,
+    tone: 'warning',
+  };
+}
+
+/** The robot says all the time that it does not look where it goes. */
+export const obstacleGuardWords: Readonly<Record<'off' | 'blind', Words>> = {
+  off: { text: 'The robot does not brake for obstacles', tone: 'warning' },
+  blind: { text: 'The robot cannot see obstacles now', tone: 'bad' },
+};
+
+function age(ms: number | undefined): string {
+  if (ms === undefined) return 'some time';
+  return ms < 1000 ? `${ms} ms` : `${(ms / 1000).toFixed(1)} s`;
+}

@@ -1,0 +1,77 @@
+/** `pnpm bench guard-runs`: seeded drives at full speed under the obstacle guard. */
+import { parseArgs } from 'node:util';
+import { type GuardedRun, guardedRun, RUN_WORLDS } from '@farpoint/robot-node/testing/guarded-run';
+import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { distribution, rounded } from './stats.ts';
+
+const USAGE = `pnpm bench guard-runs [--runs 1000] [--seed 1] [--seconds 12] [--json]
+
+Simulated time, in one process. In each run a robot somewhere in one of three worlds is told to go full speed ahead, at a
+speed up to its limit, on changing arcs, while people and carts cross its way; where the guard stops it, it turns on the spot
+and goes on. Counts what it drives into, and the commands for which it stopped although the way was free.`;
+
+export const bench: Bench = {
+  name: 'guard-runs',
+  summary: 'simulated drives at full speed under the obstacle guard: contacts and false stops',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        runs: { type: 'string', default: '1000' },
+        seed: { type: 'string', default: '1' },
+        seconds: { type: 'string', default: '12' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    const count = numberOption('runs', values.runs, 1);
+    const seed = numberOption('seed', values.seed);
+    const seconds = numberOption('seconds', values.seconds, 1);
+    const codec = await loadCodecFromDisk();
+    const boundMs: number[] = [];
+    const times = { now: () => performance.now(), boundMs };
+    const runs: GuardedRun[] = [];
+    for (let i = 0; i < count; i++) {
+      const world = RUN_WORLDS[i % RUN_WORLDS.length] as (typeof RUN_WORLDS)[number];
+      const run = await guardedRun(codec, world, seed + i, seconds, times);
+      runs.push(run);
+      for (const { atS, speed } of run.contacts) {
+        console.log(
+          `${run.world}, seed ${run.seed}: contact at ${atS.toFixed(2)} s, ${speed.toFixed(2)} m/s`,
+        );
+      }
+    }
+    const worlds = RUN_WORLDS.map((world) => world().name);
+    const rows = [...worlds, 'all'].map((world) =>
+      summaryOf(
+        world,
+        runs.filter((run) => world === 'all' || run.world === world),
+      ),
+    );
+    printTable(
+      ['world', 'runs', 'metres', 'contacts', 'stops', 'free commands', 'false stops', '%'],
+      rows.map(({ world, runs: n, metres, contacts, stops, freeCommands, falseStops, falseShare }) => [
+        ...[world, n, Math.round(metres), contacts, stops, freeCommands, falseStops, 100 * falseShare],
+      ]),
+    );
+    const bound = rounded(distribution(boundMs), 4);
+    console.log(`a command: p50 ${bound.p50} ms, p95 ${bound.p95} ms, max ${bound.max} ms`);
+    if (values.json) {
+      const all = rows.at(-1);
+      printJson({ bench: 'guard-runs', ...all, falseStops: all?.falseShare, boundMs: bound, rows });
+    }
+  },
+};
+
+function summaryOf(world: string, runs: readonly GuardedRun[]) {
+  const sum = (of: (run: GuardedRun) => number) => runs.reduce((total, run) => total + of(run), 0);
+  const freeCommands = sum((run) => run.freeCommands);
+  const falseStops = sum((run) => run.falseStops);
+  return {
+    ...{ world, runs: runs.length, metres: sum((run) => run.metres) },
+    ...{ contacts: sum((run) => run.contacts.length), stops: sum((run) => run.stops) },
+    ...{ freeCommands, falseStops, falseShare: freeCommands === 0 ? 0 : falseStops / freeCommands },
+  };
+}

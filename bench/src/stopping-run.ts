@@ -1,0 +1,224 @@
+/**
+ * A robot that is driven straight ahead over a link of constant latency, until something happens: what the drive guard and
+ * the motion supervisor make of the commands, on the simulated base. In simulated time: the same run is the same every time.
+ */
+import { stampUsOf, zeroTwist } from '@farpoint/protocol';
+import {
+  BlindTravel,
+  DriveGuard,
+  MotionSupervisor,
+  NO_RAMPS,
+  type RampLimits,
+  ViewAge,
+} from '@farpoint/safety';
+import { officeWorld, SimulatedBase, type WorldDescription } from '@farpoint/sim';
+
+export const stopCauses = [
+  'sight', // the driver sees what happens and presses STOP within no time
+  'link', // nothing arrives any more, in either direction
+  'camera', // no picture is captured any more
+  'page', // the driver's page draws nothing any more; the driver holds on
+] as const;
+export type StopCause = (typeof stopCauses)[number];
+
+export interface StoppingSettings {
+  cause: StopCause;
+  /** Speed that the driver asks for, m/s. */
+  askedMps: number;
+  /** From the capture of a picture until it is drawn, and from a command's reading until it arrives, in sum, ms. */
+  latencyMs: number;
+  /** From one picture to the next, ms. */
+  intervalMs: number;
+  /** Where between two pictures it happens, 0–1. */
+  phase: number;
+  /** Without it, neither the age of the view nor the blind travel bounds the motion. */
+  bounded: boolean;
+}
+
+export interface Stop {
+  /** Speed when it happened, m/s. */
+  drivenMps: number;
+  /** From then until the wheels are told less, ms; `null` if they stood before. */
+  brakesMs: number | null;
+  /** From then until the robot stands still. */
+  metres: number;
+  ms: number;
+}
+
+/** As the robot's defaults. */
+export const RAMPS: Readonly<RampLimits> = Object.freeze({
+  ...{ accelerationMps2: 1, decelerationMps2: 2, emergencyMps2: 4 },
+  ...{ turnRadps2: 3, emergencyTurnRadps2: 6 },
+});
+const VIEW = { slowMs: 250, brakeMs: 400, stallMs: 150, mostM: 0.5, decelerationMps2: 2, radiusM: 0.25 };
+const WATCHDOG_MS = 150;
+const COMMAND_MS = 20;
+/** Between two velocities for the wheels while they change, and otherwise. */
+const RAMPING_MS = 10;
+const REFRESH_MS = 40;
+const RUN_UP_MS = 5000;
+const GIVES_UP_MS = 20_000;
+const START_MS = 1_000_000;
+
+/** Nothing but floor. */
+function plain(): WorldDescription {
+  const { dock: _, ...office } = officeWorld();
+  return { ...office, start: { x: 0, y: 0, yaw: 0 }, boxes: [], panels: [], ellipsoids: [], movers: [] };
+}
+
+/** The robot: what it is told, and what its base makes of it. */
+class DrivenRobot {
+  readonly guard: DriveGuard;
+  readonly base: SimulatedBase;
+  readonly lease: string;
+  /** What the wheels are told, m/s. */
+  toldMps = 0;
+  readonly #motion: MotionSupervisor;
+  #nextMs = 0;
+
+  constructor(maxMps: number, bounded: boolean, ramps: RampLimits) {
+    this.base = new SimulatedBase(plain(), { maxLinearSpeed: maxMps });
+    this.guard = new DriveGuard({
+      limits: { maxLinear: maxMps, maxAngular: 1.5, watchdogMs: WATCHDOG_MS, maxCommandsPerSecond: 100 },
+      letGoAfterMs: WATCHDOG_MS,
+      takePolicy: 'always',
+      randomBytes: (count) => new Uint8Array(count).fill(7),
+    });
+    const { view } = this.guard;
+    this.#motion = new MotionSupervisor(this.guard, {
+      ramps,
+      guards: bounded ? [new ViewAge(view, VIEW), new BlindTravel(view, VIEW)] : [],
+      ...(bounded ? { letGoAfter: { 'view-lost': 'what you saw was too old' } } : {}),
+    });
+    const granted = this.guard.requestLease('driver', false, START_MS);
+    this.lease = granted.granted ? granted.lease : '';
+  }
+
+  /** @param changed whether something has arrived, so that the wheels are told at once */
+  step(nowMs: number, ms: number, changed: boolean): void {
+    const deadlineMs = this.guard.nextDeadlineMs;
+    if (changed || nowMs >= this.#nextMs || (deadlineMs !== null && nowMs >= deadlineMs)) {
+      const twist = this.#motion.velocityAt(nowMs);
+      this.toldMps = twist.linear.x;
+      this.base.setCommand(twist);
+      this.#nextMs = nowMs + (this.#motion.ramping ? RAMPING_MS : REFRESH_MS);
+    }
+    this.base.step(ms / 1000);
+  }
+}
+
+interface InFlight {
+  arrivesMs: number;
+  /** Capture time of what the page drew. */
+  seenMs: number | null;
+  readMs: number;
+  stop: boolean;
+}
+
+/** Simulates one drive, at 2 ms steps, and measures the stop. */
+export function stoppingRun(settings: StoppingSettings, ramps: RampLimits = RAMPS): Stop {
+  const { cause, askedMps, latencyMs, intervalMs, phase, bounded } = settings;
+  const robot = new DrivenRobot(askedMps, bounded, bounded ? ramps : NO_RAMPS);
+  const halfMs = latencyMs / 2;
+  const happensMs = START_MS + Math.ceil(RUN_UP_MS / intervalMs) * intervalMs + phase * intervalMs;
+  let pictures: number[] = [];
+  let commands: InFlight[] = [];
+  let [captureMs, commandMs, sequence] = [START_MS, START_MS, 0];
+  let drawnMs: number | null = null;
+  let pressed = false;
+  let before: { mps: number; metres: number; told: number } | null = null;
+  let brakesMs: number | null = null;
+  const stepMs = 2;
+
+  for (let nowMs = START_MS; nowMs < happensMs + GIVES_UP_MS; nowMs += stepMs) {
+    const happened = nowMs >= happensMs;
+    if (happened && before === null) {
+      const { twist, odometryDistance } = robot.base.state;
+      before = { mps: twist.linear.x, metres: odometryDistance, told: robot.toldMps };
+    }
+    while (captureMs <= nowMs) {
+      if (!(cause === 'camera' && happened)) pictures.push(captureMs);
+      captureMs += intervalMs;
+    }
+    const cut = cause === 'link' && happened;
+    const drawn = cut || (cause === 'page' && happened) ? [] : pictures.filter((at) => at + halfMs <= nowMs);
+    drawnMs = drawn.at(-1) ?? drawnMs;
+    pictures = pictures.filter((at) => at + halfMs > nowMs);
+    while (commandMs <= nowMs) {
+      const stop: boolean = cause === 'sight' && !pressed && drawnMs !== null && drawnMs >= happensMs;
+      pressed ||= stop;
+      commands.push({ arrivesMs: commandMs + halfMs, readMs: commandMs, seenMs: drawnMs, stop });
+      commandMs += COMMAND_MS;
+    }
+    const arrived = cut ? [] : commands.filter(({ arrivesMs }) => arrivesMs <= nowMs);
+    commands = commands.filter(({ arrivesMs }) => arrivesMs > nowMs);
+    for (const { seenMs, readMs, stop } of arrived) {
+      if (stop) robot.guard.latchEstop('operator', 'driver');
+      const twist = { ...zeroTwist(), linear: { x: askedMps, y: 0, z: 0 } };
+      const seen = seenMs === null ? {} : { seenUs: stampUsOf(seenMs) };
+      const { lease } = robot;
+      robot.guard.onCommand(
+        'driver',
+        { type: 'command', sequence: sequence++, timeMs: readMs, lease, deadMan: true, twist, ...seen },
+        nowMs,
+      );
+    }
+    robot.step(nowMs, stepMs, arrived.length > 0);
+    if (before === null) continue;
+    if (brakesMs === null && robot.toldMps < before.told - 1e-9) brakesMs = nowMs - happensMs;
+    const { twist, odometryDistance } = robot.base.state;
+    const isEnd = twist.linear.x === 0 && robot.toldMps === 0 && (cause !== 'sight' || pressed);
+    if (!isEnd) continue;
+    return {
+      drivenMps: before.mps,
+      brakesMs,
+      metres: odometryDistance - before.metres,
+      ms: nowMs - happensMs,
+    };
+  }
+  throw new Error(`a robot that is driven at ${askedMps} m/s does not stop after: ${cause}`);
+}
+
+/** The worst of several instants between two pictures. */
+export function worstStop(settings: Omit<StoppingSettings, 'phase'>, phases = 8): Stop {
+  const stops = Array.from({ length: phases }, (_, i) =>
+    stoppingRun({ ...settings, phase: (i + 0.06) / phases }),
+  );
+  const most = (of: (stop: Stop) => number) => Math.max(...stops.map(of));
+  const braking = stops.flatMap(({ brakesMs }) => (brakesMs === null ? [] : [brakesMs]));
+  return {
+    drivenMps: most(({ drivenMps }) => drivenMps),
+    brakesMs: braking.length === 0 ? null : Math.max(...braking),
+    metres: most(({ metres }) => metres),
+    ms: most(({ ms }) => ms),
+  };
+}
+
+/**
+ * From a command for motion, from standing still, until the simulated base has half the speed; the base ramps by itself.
+ *
+ * @returns ms with the supervisor's ramps, and without
+ */
+export function feltMs(askedMps: number): { ramped: number; plain: number } {
+  return { ramped: rise(askedMps, RAMPS), plain: rise(askedMps, NO_RAMPS) };
+}
+
+function rise(askedMps: number, ramps: RampLimits): number {
+  const robot = new DrivenRobot(askedMps, false, ramps);
+  const twist = { ...zeroTwist(), linear: { x: askedMps, y: 0, z: 0 } };
+  const { lease } = robot;
+  for (let ms = 0; ms < GIVES_UP_MS; ms += 2) {
+    const nowMs = START_MS + ms;
+    const commanded = ms % COMMAND_MS === 0;
+    if (commanded) {
+      robot.guard.onCommand(
+        'driver',
+        { type: 'command', sequence: ms / COMMAND_MS, timeMs: nowMs, lease, deadMan: true, twist },
+        nowMs,
+      );
+    }
+    robot.step(nowMs, 2, commanded);
+    if (robot.base.state.twist.linear.x >= askedMps / 2) return ms + 2;
+  }
+  throw new Error(`the base does not reach half of ${askedMps} m/s`);
+}

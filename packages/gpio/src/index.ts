@@ -1,0 +1,1 @@
+export { type GpioLine, type GpioLineAt, openGpioLine } from './line.ts';

@@ -1,0 +1,142 @@
+/** Reads a fence from a GeoJSON file (RFC 7946), or from the same with metres in place of degrees. */
+import * as z from 'zod';
+import type { Area, Place } from './area.ts';
+import { EarthFrame, type EarthOrigin } from './earth-frame.ts';
+import type { Fence, SlowArea } from './fence.ts';
+
+/** Together, so that every command can be judged in time. */
+export const MOST_CORNERS = 300;
+const MOST_AREAS = 100;
+/** A fence is around a robot: what is farther away is a mistake, m. */
+const FARTHEST_M = 10_000;
+
+/** Why a file is not a fence. */
+export class FenceError extends Error {
+  override readonly name = 'FenceError';
+}
+
+const number = z.number('must be a number');
+const position = z
+  .array(number)
+  .min(2, 'must be a position of two numbers')
+  .max(3, 'must be a position of two numbers');
+const ring = z.array(position).min(4, 'must be a ring of four or more positions');
+const properties = z.object({
+  kind: z.enum(['allowed', 'slow', 'forbidden'], 'must be allowed, slow or forbidden'),
+  maxMps: z.number().min(0.01, 'must be 0.01 m/s or more').max(10).optional(),
+  radiusM: z.number().positive('must be above zero').max(FARTHEST_M).optional(),
+});
+const feature = z.object({
+  type: z.literal('Feature'),
+  properties,
+  geometry: z.discriminatedUnion('type', [
+    z.object({ type: z.literal('Polygon'), coordinates: z.array(ring).min(1) }),
+    z.object({ type: z.literal('Point'), coordinates: position }),
+  ]),
+});
+const collection = z.object({
+  type: z.literal('FeatureCollection', 'must be FeatureCollection'),
+  /** Not of GeoJSON, whose positions are degrees. */
+  frame: z.enum(['wgs84', 'world'], 'must be wgs84 or world').default('wgs84'),
+  features: z
+    .array(feature)
+    .min(1, 'must have an area')
+    .max(MOST_AREAS, `must be at most ${MOST_AREAS} areas`),
+});
+
+export interface ParsedFence {
+  fence: Fence;
+  /** The frame in which the fence is, for a file with positions on the earth. */
+  earth: EarthFrame | null;
+}
+
+/**
+ * @param text of the file
+ * @param origin of the frame in which the robot's position is told; needed for positions on the earth. `first`: the
+ *   first position of the file, with x to the east
+ * @throws {FenceError} naming the place in the file
+ */
+export function parseFence(text: string, origin: EarthOrigin | 'first' | null): ParsedFence {
+  const file = read(text);
+  const isEarth = file.frame === 'wgs84';
+  const earth = isEarth ? new EarthFrame(originOf(file, origin)) : null;
+  const fence = { allowed: [] as Area[], forbidden: [] as Area[], slow: [] as SlowArea[], radiusM: null };
+  let corners = 0;
+  file.features.forEach(({ geometry, properties: { kind, maxMps, radiusM } }, i) => {
+    const where = `features[${i}]`;
+    const place = (at: readonly number[], path: string) => toPlace(at, earth, `${where}.${path}`);
+    let area: Area;
+    if (geometry.type === 'Point') {
+      if (radiusM === undefined) throw new FenceError(`${where}.properties.radiusM: is needed for a Point`);
+      area = { shape: 'circle', centre: place(geometry.coordinates, 'geometry.coordinates'), radiusM };
+    } else {
+      if (radiusM !== undefined) throw new FenceError(`${where}.properties.radiusM: is for a Point only`);
+      const rings = geometry.coordinates.map((positions, r) => {
+        const path = `geometry.coordinates[${r}]`;
+        const [first, last] = [positions[0], positions.at(-1)];
+        if (first?.[0] !== last?.[0] || first?.[1] !== last?.[1])
+          throw new FenceError(`${where}.${path}: the last position must be the first`);
+        return positions.slice(0, -1).map((each, p) => place(each, `${path}[${p}]`));
+      });
+      corners += rings.reduce((sum, { length }) => sum + length, 0);
+      area = { shape: 'polygon', rings };
+    }
+    if (kind === 'slow') {
+      if (maxMps === undefined) throw new FenceError(`${where}.properties.maxMps: is needed for a slow area`);
+      fence.slow.push({ area, maxMps });
+    } else {
+      if (maxMps !== undefined) throw new FenceError(`${where}.properties.maxMps: is for a slow area only`);
+      fence[kind].push(area);
+    }
+  });
+  if (corners > MOST_CORNERS)
+    throw new FenceError(`has ${corners} corners; at most ${MOST_CORNERS} are allowed`);
+  return { fence, earth };
+}
+
+type File = z.infer<typeof collection>;
+
+function read(text: string): File {
+  let json: unknown;
+  try {
+    json = JSON.parse(text);
+  } catch {
+    throw new FenceError('is not JSON');
+  }
+  const parsed = collection.safeParse(json);
+  if (parsed.success) return parsed.data;
+  const [issue] = parsed.error.issues;
+  const path = (issue?.path ?? [])
+    .map((key) => (typeof key === 'number' ? `[${key}]` : `.${String(key)}`))
+    .join('')
+    .replace(/^\./, '');
+  throw new FenceError(`${path === '' ? '' : `${path}: `}${issue?.message ?? 'is not a fence'}`);
+}
+
+function originOf(file: File, origin: EarthOrigin | 'first' | null): EarthOrigin {
+  if (origin === null)
+    throw new FenceError(
+      'has positions on the earth: it needs the place of the world’s origin (--fence-origin)',
+    );
+  if (origin !== 'first') return origin;
+  const geometry = file.features[0]?.geometry;
+  const at = geometry?.type === 'Point' ? geometry.coordinates : geometry?.coordinates[0]?.[0];
+  const [longitude, latitude] = checked(at ?? [], 'features[0].geometry');
+  return { latitude, longitude, turnDeg: 0 };
+}
+
+/** Longitude, then latitude. */
+function checked([longitude = Number.NaN, latitude = Number.NaN]: readonly number[], where: string): Place {
+  if (Math.abs(longitude) <= 180 && Math.abs(latitude) <= 85) return [longitude, latitude];
+  throw new FenceError(`${where}: must be longitude, then latitude, in degrees`);
+}
+
+function toPlace(at: readonly number[], earth: EarthFrame | null, where: string): Place {
+  let place: Place = [at[0] ?? Number.NaN, at[1] ?? Number.NaN];
+  if (earth !== null) {
+    const [longitude, latitude] = checked(at, where);
+    place = earth.toFrame(latitude, longitude);
+  }
+  if (Math.hypot(...place) <= FARTHEST_M) return place;
+  throw new FenceError(`${where}: is more than ${FARTHEST_M / 1000} km from the origin`);
+}

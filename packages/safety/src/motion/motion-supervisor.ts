@@ -1,0 +1,158 @@
+import { type Intervention, isZeroTwist, type Twist, zeroTwist } from '@farpoint/protocol';
+import type { DriveGuard } from '../drive-guard.ts';
+import type { MotionGuard } from './motion-guard.ts';
+import { NO_RAMPS, type RampLimits, VelocityRamp } from './velocity-ramp.ts';
+
+/** What the robot does (docs/safety.md draws the transitions). */
+export type MotionPhase =
+  | 'standing' // nothing asks for motion
+  | 'driving' // it follows the driver, or ramps towards what is asked
+  | 'limited' // it follows more slowly than asked
+  | 'braking' // it slows down to stand still
+  | 'held' // it stands still although the driver asks for motion
+  | 'latched'; // the emergency stop is latched, and it stands still
+
+/** What the supervisor has made of the latest wish. */
+export interface MotionDecision {
+  phase: MotionPhase;
+  /** Share of the requested velocity that is let through, 0 to 1; 1 while nothing is requested. */
+  factor: number;
+  /** Why it is less than 1, the strictest first; the same array while nothing changes. */
+  reasons: readonly Intervention[];
+}
+
+export interface MotionSupervisorOptions {
+  /** Bounds on motion; the strictest counts. */
+  guards?: readonly MotionGuard[];
+  ramps?: RampLimits;
+  /** Wheels that are told nothing for this long stop by themselves, ms; default the watchdog's time. */
+  staleMs?: number;
+  /** After one of these has stopped the robot, the hand must let go before it moves again. */
+  letGoAfter?: Readonly<Partial<Record<Intervention, string>>>;
+}
+
+const NONE: readonly Intervention[] = Object.freeze([]);
+
+/**
+ * Has the last word on the robot's velocity: what the drive guard lets through, bounded by the strictest of the motion
+ * guards, ramped. Times are the robot's monotonic clock in ms.
+ *
+ * These invariants hold for any sequence of calls:
+ * - no component of the velocity exceeds that of the driver's wish, except while the ramp leads it there;
+ * - the velocity changes no faster than the ramps allow, and goes towards zero from the moment that anything demands a
+ *   stop, however the wish changes;
+ * - linear and angular velocity are bounded alike: the robot leaves its arc only while it ramps.
+ */
+export class MotionSupervisor {
+  readonly guard: DriveGuard;
+  /** Called at the beginning of each intervention. */
+  onIntervention: ((reason: Intervention, nowMs: number) => void) | null = null;
+  readonly #guards: readonly MotionGuard[];
+  readonly #ramp: VelocityRamp;
+  readonly #letGoAfter: Readonly<Partial<Record<Intervention, string>>>;
+  #phase: MotionPhase = 'standing';
+  #factor = 1;
+  #reasons: readonly Intervention[] = NONE;
+  #ramping = false;
+  /** What made the driver's hand let go first, as long as it has not. */
+  #stopped: Intervention | null = null;
+
+  constructor(guard: DriveGuard, options: MotionSupervisorOptions = {}) {
+    this.guard = guard;
+    this.#guards = options.guards ?? [];
+    this.#ramp = new VelocityRamp(options.ramps ?? NO_RAMPS, options.staleMs ?? guard.limits.watchdogMs);
+    this.#letGoAfter = Object.freeze({ ...options.letGoAfter });
+  }
+
+  /** The velocity for the wheels now. Call it at every change of the guard, and at short intervals while {@link ramping}. */
+  velocityAt(nowMs: number): Twist {
+    // Before the wish is read: asking for it may halt the guard.
+    const asked = this.guard.velocityAt(nowMs);
+    const moving = !isZeroTwist(asked);
+    // Also for a wish to stand still: the ordinary ramp may take too long for a guard.
+    const bounds = this.#ask(asked, nowMs);
+    const found = moving ? bounds : null;
+    const factor = found?.factor ?? 1;
+    const urgent = bounds?.urgent === true || (!moving && this.guard.stopsUrgently(nowMs));
+    const target = scaled(asked, factor);
+    const twist = this.#ramp.step(target, urgent, nowMs);
+    this.#ramping = this.#ramp.differs(target);
+    if (moving) this.#stopped = null;
+    this.#tell(found?.reasons ?? this.#lasting(), nowMs);
+    this.#decide(moving || this.#stopped !== null, factor, isZeroTwist(twist), isZeroTwist(target));
+    return twist;
+  }
+
+  /** Whether the velocity is on its way to its target. */
+  get ramping(): boolean {
+    return this.#ramping;
+  }
+
+  /** What became of the wish at the latest {@link velocityAt}. */
+  get decision(): MotionDecision {
+    return { phase: this.#phase, factor: this.#factor, reasons: this.#reasons };
+  }
+
+  /** Stands still at once, without a ramp. */
+  halt(): void {
+    this.#ramp.stop();
+    this.#ramping = false;
+  }
+
+  #ask(asked: Twist, nowMs: number): { factor: number; urgent: boolean; reasons: Intervention[] } | null {
+    let factor = 1;
+    let urgent = false;
+    let reasons: Intervention[] | null = null;
+    for (const each of this.#guards) {
+      const bound = each.bound(asked, nowMs);
+      if (bound.reason === null) continue;
+      // A guard that fails to count must not set the robot free.
+      const share = bound.factor >= 0 && bound.factor <= 1 ? bound.factor : 0;
+      urgent ||= bound.urgent;
+      reasons ??= [];
+      if (share < factor) reasons.unshift(bound.reason);
+      else reasons.push(bound.reason);
+      factor = Math.min(factor, share);
+    }
+    return reasons === null ? null : { factor, urgent, reasons };
+  }
+
+  /** An intervention lasts until the hand that it demands has let go. */
+  #lasting(): readonly Intervention[] {
+    if (this.#stopped === null) return NONE;
+    if (this.guard.awaitsLetGo) return this.#reasons;
+    this.#stopped = null;
+    return NONE;
+  }
+
+  #decide(moving: boolean, factor: number, stands: boolean, mayNotMove: boolean): void {
+    this.#factor = this.#stopped === null ? factor : 0;
+    if (mayNotMove && !stands) this.#phase = 'braking';
+    else if (this.guard.estopState().latched) this.#phase = 'latched';
+    else if (!moving) this.#phase = 'standing';
+    else if (mayNotMove) this.#phase = 'held';
+    else this.#phase = factor < 1 ? 'limited' : 'driving';
+  }
+
+  #tell(reasons: readonly Intervention[], nowMs: number): void {
+    const before = this.#reasons;
+    const isSame = before.length === reasons.length && before.every((reason, i) => reason === reasons[i]);
+    if (isSame) return;
+    this.#reasons = reasons;
+    for (const reason of reasons) {
+      if (before.includes(reason)) continue;
+      this.onIntervention?.(reason, nowMs);
+      const why = this.#letGoAfter[reason];
+      if (why === undefined) continue;
+      this.guard.demandLetGo(why);
+      this.#stopped = reason;
+    }
+  }
+}
+
+function scaled({ linear, angular }: Twist, factor: number): Twist {
+  const twist = zeroTwist();
+  twist.linear.x = linear.x * factor + 0;
+  twist.angular.z = angular.z * factor + 0;
+  return twist;
+}

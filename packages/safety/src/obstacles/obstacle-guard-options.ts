@@ -1,0 +1,47 @@
+/** What an obstacle guard must know of its robot. Lengths in metres, speeds in m/s, times in ms. */
+export interface ObstacleGuardOptions {
+  /** Kept free of obstacles around the footprint, at walking speed. */
+  marginM: number;
+  /** Highest speed towards where no sensor sees, and while a sensor is silent. */
+  unseenMps: number;
+  /** A sensor whose last cloud is older is silent. */
+  silentAfterMs: number;
+  /** From a cloud's capture to the wheels' answer, besides the cloud's age. */
+  reactionMs: number;
+  /** With which the robot slows down before an obstacle: m/s² and rad/s². */
+  braking: { linear: number; angular: number };
+  /** With which it brakes as hard as it can. */
+  emergency: { linear: number; angular: number };
+  /** The robot is slowed down until it would need this long to reach an obstacle. */
+  timeToCollisionMs: number;
+  /** How long what is no longer seen counts as free, and as occupied. */
+  freeMemoryMs: number;
+  occupiedMemoryMs: number;
+  /** Length of the sensors' cells. */
+  cellM: number;
+}
+
+export const defaultObstacleGuardOptions: Readonly<ObstacleGuardOptions> = {
+  marginM: 0.15,
+  unseenMps: 0.3,
+  silentAfterMs: 400,
+  reactionMs: 100,
+  braking: { linear: 1, angular: 2 },
+  emergency: { linear: 2, angular: 3 },
+  timeToCollisionMs: 600,
+  freeMemoryMs: 3000,
+  occupiedMemoryMs: 20_000,
+  cellM: 0.05,
+};
+
+/** How much of the margin is kept even when the robot creeps. */
+export const CREEPING_SHARE = 2 / 3;
+/** The highest speed within the rest of the margin, m/s. */
+export const CREEPING_MPS = 0.2;
+/** Slower than this, the robot stops; and it goes again when it may be faster than that, m/s. */
+export const STOP_BELOW_MPS = 0.04;
+export const GO_ABOVE_MPS = 0.1;
+/** Emergency braking ends when the robot could stop within this share of the way. */
+export const RELEASE_SHARE = 0.7;
+/** Odometry is carried on by its velocity for at most this long; older, it is silent, ms. */
+export const MOST_EXTRAPOLATION_MS = 300;
