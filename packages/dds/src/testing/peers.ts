@@ -37,6 +37,8 @@ const event = z.discriminatedUnion('event', [
   z.object({ event: z.literal('bad') }),
   /** Its raw messages have a subscriber. */
   z.object({ event: z.literal('matched') }),
+  /** All that it has sent so far has been acknowledged. */
+  z.object({ event: z.literal('acknowledged') }),
   /** @param ms CLOCK_MONOTONIC */
   z.object({ event: z.literal('twist'), x: z.number(), z: z.number(), ms: z.number() }),
 ]);
@@ -60,6 +62,7 @@ export class Peer {
   /** Whether what {@link send} sends has a subscriber. */
   matched = false;
   onTwist: ((twist: HeardTwist) => void) | null = null;
+  readonly #waiting: (() => void)[] = [];
   readonly #child: ChildProcess;
   readonly #ended: Promise<void>;
 
@@ -90,6 +93,7 @@ export class Peer {
         const told = event.parse(JSON.parse(line));
         if (told.event === 'ready') resolve();
         if (told.event === 'matched') this.matched = true;
+        if (told.event === 'acknowledged') this.#waiting.shift()?.();
         if (told.event !== 'twist') return;
         this.twists.push(told);
         this.onTwist?.(told);
@@ -102,6 +106,13 @@ export class Peer {
   /** Sends bytes unchanged, including their header. */
   send(bytes: Uint8Array): void {
     this.#child.stdin?.write(`${Buffer.from(bytes).toString('hex')}\n`);
+  }
+
+  /** Resolves once all subscribers have acknowledged what it has sent. */
+  acknowledged(): Promise<void> {
+    const told = new Promise<void>((resolve) => this.#waiting.push(resolve));
+    this.#child.stdin?.write('\n');
+    return told;
   }
 
   /** Lets it exit by itself, leaving the domain properly. */

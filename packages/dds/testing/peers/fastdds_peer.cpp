@@ -1,5 +1,5 @@
 // A program on Fast DDS, like another vendor's ROS 2 node: publishes clouds, receives Twists and sends them back, and
-// sends bytes given to it. Loopback only. Its command line says what to do; it reports events on its standard output,
+// sends bytes given to it; an empty line asks whether all of them were acknowledged. Loopback only. Its command line says what to do; it reports events on its standard output,
 // one JSON object per line, and ends with its standard input. See peers.ts.
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
@@ -237,6 +237,11 @@ int main(int count, char **words) {
   say(R"({"event":"ready"})");
   for (std::string line; std::getline(std::cin, line);) {
     if (raw == nullptr) continue;
+    if (line.empty()) {
+      while (raw->wait_for_acknowledgments({10, 0}) == ReturnCode_t::RETCODE_TIMEOUT) continue;
+      say(R"({"event":"acknowledged"})");
+      continue;
+    }
     Bytes bytes = from_hex(line);
     raw->write(&bytes);
   }

@@ -10,6 +10,8 @@ import { WheelLog } from './wheel-log.ts';
 const ROBOT = 'robot';
 const POINTS = 1500;
 const CAMERA_MS = 33;
+/** For so long, at most, an interval between two pictures counts at the robot. */
+const REMEMBERED_MS = 1100;
 
 /** The real robot program between a camera and wheels in shared memory, and the operators of a test. */
 export class FaultRig {
@@ -88,9 +90,12 @@ export class FaultRig {
 
   /** Resolves once it has driven so for longer than the robot remembers what its driver saw. */
   async untilSettled(hand: FaultHand): Promise<void> {
-    await this.untilDriving(hand);
-    await this.wheels.beats(30);
-    if (this.wheels.speed !== SPEED) await this.untilSettled(hand);
+    for (;;) {
+      await this.untilDriving(hand);
+      const fromMs = performance.now();
+      await this.wheels.until(({ linear, atMs }) => linear !== SPEED || atMs - fromMs > REMEMBERED_MS);
+      if (this.wheels.speed === SPEED) return;
+    }
   }
 
   startCamera(): void {

@@ -59,17 +59,20 @@ export class WheelLog {
    * When the wheels were first told less than before, or were told nothing any more.
    *
    * @param fromMs the cause, `performance.now()`
-   * @returns ms after the cause, and the longest time that this log did not look
+   * @returns ms after the cause, the longest time that this log did not look, and the longest without a word
    */
-  brakingAfter(fromMs: number): { afterMs: number; blindMs: number } | null {
+  brakingAfter(fromMs: number): { afterMs: number; blindMs: number; silentMs: number } | null {
     const before = this.#samples.findLast(({ atMs }) => atMs <= fromMs);
     if (before === undefined) return null;
     let last = before;
-    let blindMs = 0;
+    let word = before;
+    let [blindMs, silentMs] = [0, 0];
     for (const sample of this.#samples) {
       if (sample.atMs <= fromMs) continue;
       blindMs = Math.max(blindMs, sample.atMs - last.atMs);
-      if (sample.linear < before.linear - 1e-9) return { afterMs: sample.atMs - fromMs, blindMs };
+      silentMs = Math.max(silentMs, sample.atMs - word.atMs);
+      if (sample.counter !== word.counter) word = sample;
+      if (sample.linear < before.linear - 1e-9) return { afterMs: sample.atMs - fromMs, blindMs, silentMs };
       last = sample;
     }
     return null;

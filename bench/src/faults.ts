@@ -1,0 +1,67 @@
+/** `pnpm bench faults`: what goes wrong while a robot is driven, and how soon it brakes. */
+import { spawn } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { parseArgs } from 'node:util';
+import { type FaultTime, TIMES_FILE } from '@farpoint/robot-node/testing/fault-times';
+import { type Bench, printJson, printTable } from './report.ts';
+
+const USAGE = `pnpm bench faults [--json]
+
+Runs the fault table of the tests (about 3 minutes): the real robot program is driven with the grip held, one thing goes
+wrong, and the time until the wheels are told less is measured. Here each time is judged strictly; the tests leave room for
+a busy machine. Fails if one is longer than its limit.`;
+
+const root = join(import.meta.dirname, '..', '..');
+
+/** @throws Error if a test of the table failed for another reason than its time, or nothing was measured */
+export async function faultTimes(): Promise<FaultTime[]> {
+  const folder = mkdtempSync(join(tmpdir(), 'farpoint-fault-times-'));
+  try {
+    const file = join(folder, 'times.json');
+    const vitest = join(root, 'node_modules', 'vitest', 'vitest.mjs');
+    const args = ['run', '--project', 'stack-alone', 'apps/robot-node/src/fault-table.stack.test.ts'];
+    const child = spawn(process.execPath, [vitest, ...args], {
+      cwd: root,
+      env: { ...process.env, [TIMES_FILE]: file },
+      // The JSON goes to standard output alone.
+      stdio: ['ignore', 2, 2],
+    });
+    const code = await new Promise<number | null>((resolve, reject) => {
+      child.once('error', reject);
+      child.once('exit', resolve);
+    });
+    if (code !== 0) throw new Error('a test of the fault table failed; see above');
+    return JSON.parse(readFileSync(file, 'utf8')) as FaultTime[];
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+export function printFaults(faults: readonly FaultTime[]): void {
+  printTable(
+    ['fault', 'braking after, ms', 'limit, ms', ''],
+    faults.map(({ fault, brakingAfterMs, limitMs, ok }) => [
+      ...[fault, Math.round(brakingAfterMs), Math.round(limitMs)],
+      ok ? '' : 'LATE',
+    ]),
+  );
+}
+
+export const bench: Bench = {
+  name: 'faults',
+  summary: 'faults at the real programs while driving: from the cause to braking',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: { json: { type: 'boolean' }, help: { type: 'boolean' } },
+    });
+    if (values.help) return console.log(USAGE);
+    const faults = await faultTimes();
+    printFaults(faults);
+    if (values.json) printJson({ faults });
+    const late = faults.filter(({ ok }) => !ok);
+    if (late.length > 0) throw new Error(`${late.length} of ${faults.length} braked too late`);
+  },
+};
