@@ -137,7 +137,10 @@ export function stoppingRun(settings: StoppingSettings, ramps: RampLimits = RAMP
       before = { mps: twist.linear.x, metres: odometryDistance, told: robot.toldMps };
     }
     while (captureMs <= nowMs) {
-      if (!(cause === 'camera' && happened)) pictures.push(captureMs);
+      if (!(cause === 'camera' && happened)) {
+        pictures.push(captureMs);
+        robot.guard.view.sent(nowMs);
+      }
       captureMs += intervalMs;
     }
     const cut = cause === 'link' && happened;

@@ -8,12 +8,16 @@ const require = createRequire(import.meta.url);
 /** The parts of the emulated headset (iwer's XRDevice) that the tests use. */
 interface EmulatedDevice {
   stereoEnabled: boolean;
+  updateVisibilityState(state: 'visible' | 'visible-blurred' | 'hidden'): void;
   position: { set(x: number, y: number, z: number): void };
   controllers: Record<
     'left' | 'right',
     | {
         updateAxes(id: string, x: number, y: number): void;
         updateButtonValue(id: string, value: number): void;
+        inputSource: {
+          gamepad?: { hapticActuators: { pulse(strength: number, ms: number): Promise<boolean> }[] };
+        };
         position: { set(x: number, y: number, z: number): void };
       }
     | undefined
@@ -74,6 +78,14 @@ export class Headset {
    */
   async freeze(): Promise<number> {
     return freezeFrames(this.#page);
+  }
+
+  /** Takes the headset off, or puts it on again: the runtime then hides the session from the page. */
+  async worn(worn: boolean): Promise<void> {
+    await this.#page.evaluate(
+      (state) => window.emulatedHeadset.updateVisibilityState(state),
+      worn ? ('visible' as const) : ('hidden' as const),
+    );
   }
 
   /** The squeeze button of a hand. */

@@ -21,6 +21,7 @@ export interface OpenOptions {
   barcode?: '1';
   /** `0`: videos are shown as they come, not in step. */
   sync?: '0';
+  cues?: '0';
   /** How videos are received; by default what suits the browser best. */
   video?: 'track' | 'native' | 'webcodecs';
 }
@@ -80,6 +81,7 @@ export class OperatorPage {
       'every',
       'barcode',
       'sync',
+      'cues',
       'video',
     ] as const) {
       const value = options[name];

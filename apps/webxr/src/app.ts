@@ -1,11 +1,13 @@
 /** The page: shows on the screen what the robot sends, and sends the robot what the operator's hands do. */
 import { CloudView } from '@farpoint/cloud-view';
-import { finalLosses, RobotClient, type TransformSupport } from '@farpoint/operator';
+import { RobotClient, type TransformSupport } from '@farpoint/operator';
 import { effect, untracked } from '@preact/signals-core';
 import { StoredRobots } from './access/known-robots.ts';
 import { OperatorAccess } from './access/operator-access.ts';
 import { SignIn, tabStorage } from './access/sign-in.ts';
 import { browserAccess } from './access/stored-access.ts';
+import { giveCues } from './cues/cues.ts';
+import { AwayRelease } from './drive/away-release.ts';
 import { ReleaseHold } from './drive/release-hold.ts';
 import { PanelPlacements } from './panels/panel-placements.ts';
 import { loadPlacements, storePlacements } from './panels/stored-panels.ts';
@@ -16,7 +18,8 @@ import { CloudAppearance } from './state/cloud-appearance.ts';
 import type { Notices } from './state/notices.ts';
 import { PageState } from './state/page-state.ts';
 import { PageStatistics, type PageStats } from './status/page-stats.ts';
-import { failureWords, gripLossWords, leavingWords, rejectionWords, wordsOfLoss } from './status/words.ts';
+import { tellNotices } from './status/tell-notices.ts';
+import { failureWords, leavingWords } from './status/words.ts';
 import { loadAppearance, storeAppearance } from './stored-appearance.ts';
 import { PresentedInstant } from './telemetry/presented-instant.ts';
 import { TelemetryRecorder } from './telemetry/recorder.ts';
@@ -81,6 +84,7 @@ export class App {
   wrist: WristPanel | null = null;
   #pictures: PicturePointer | null = null;
   readonly #release = new ReleaseHold();
+  readonly #left = new AwayRelease();
   readonly #estop: EstopUi;
   readonly #access: AccessUi;
 
@@ -179,10 +183,14 @@ export class App {
     if (this.settings.robot !== null) this.client.choose(this.settings.robot);
     this.#show();
     setInterval(() => {
-      this.#inputs.poll(performance.now());
+      const nowMs = performance.now();
+      this.#inputs.poll(nowMs);
       const away = this.#handsAway();
-      this.#estop.tick(performance.now(), away);
-      this.client.driver.suspended = away || this.state.driving.role.value === 'watch';
+      this.#estop.tick(nowMs, away);
+      const { driver } = this.client;
+      driver.suspended = away || this.state.driving.role.value === 'watch';
+      if (this.#left.tick(this.vr.active.value ? this.vr.hidden : document.hidden, nowMs))
+        driver.letGo(nowMs);
       this.client.tick(performance.now());
     }, DRIVE_TICK_MS);
     setInterval(() => {
@@ -252,7 +260,6 @@ export class App {
 
   #listen(): void {
     const { client, stage } = this;
-    const { notices } = this.state;
     client.on('phase', (phase) => {
       if (phase === 'none') stage.forgetPose();
     });
@@ -264,24 +271,8 @@ export class App {
       stage.setBody(pose);
       this.clouds.ground = pose.position.z;
     });
-    client.on('loss', (loss) => {
-      // Of those that are final, a panel tells.
-      if (!finalLosses.has(loss)) notices.tell(wordsOfLoss(loss, client.link), 'warning');
-    });
-    client.on('grantExpires', (inS) => notices.tell(`Your grant ends in ${inS} s.`, 'warning'));
-    client.on('refused', (message) => notices.tell(message, 'warning'));
-    client.on('welcome', ({ name }) => notices.tell(`Connected to ${name}`, 'good'));
-    client.on('commandRejected', ({ reason, detail }) => {
-      console.info('command refused:', reason, detail);
-      notices.tell(rejectionWords[reason], 'warning');
-    });
-    client.on('otherDrives', () => notices.tell(rejectionWords['not-lease-holder'], 'warning'));
-    client.on('gripLost', (loss) => notices.tell(gripLossWords[loss], 'warning'));
-    client.on('robotFault', (message) => notices.tell(`The robot reports: ${message}`, 'warning'));
-    client.on('failed', ({ detail }) => {
-      console.error('cloud worker:', detail);
-      notices.failure.value = failureWords.workerFailed;
-    });
+    tellNotices(client, this.state.notices);
+    if (this.settings.cues) giveCues(client, this.vr, () => performance.now());
   }
 
   #listenToCanvas(): void {

@@ -65,6 +65,11 @@ describe('readSettings', () => {
     expect(parseStored('{"synchronised":"no"}', 'wss://x.org').synchronised).toBeUndefined();
   });
 
+  test('gives cues unless it is told not to', () => {
+    expect([read('').cues, read('cues=0').cues]).toEqual([true, false]);
+    expect([read('', { cues: false }).cues, read('cues=1', { cues: false }).cues]).toEqual([false, true]);
+  });
+
   test('ignores invalid robot ids and canvas sizes', () => {
     expect(read('robot=sim-1&canvas=640x360')).toMatchObject({
       robot: 'sim-1',

@@ -15,6 +15,7 @@ export interface StoredSettings {
   name?: string | undefined;
   pointScale?: number | undefined;
   synchronised?: boolean | undefined;
+  cues?: boolean | undefined;
   /** Address template of a map's tiles, and whose they are. */
   mapTiles?: string | undefined;
   mapAttribution?: string | undefined;
@@ -50,6 +51,8 @@ export interface Settings {
   pointScale: number;
   /** Whether videos are presented in step: frames wait for what was captured at the same time. */
   synchronised: boolean;
+  /** Whether sound and vibration tell that the robot does less than it is told. */
+  cues: boolean;
   /** Where tiles of a map come from; `null`: no tile is fetched. */
   mapTiles: MapTiles | null;
   /** How videos are received; `null`: as suits this browser best. */
@@ -106,6 +109,7 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
     drawEvery: parseEvery(query.get('every')),
     pointScale: clampScale(stored.pointScale),
     synchronised: parseSwitch(query.get('sync')) ?? stored.synchronised ?? true,
+    cues: parseSwitch(query.get('cues')) ?? stored.cues ?? true,
     mapTiles: mapTilesOf(stored.mapTiles, stored.mapAttribution, page),
     videoReceiver: VIDEO_RECEIVERS.find((name) => name === query.get('video')) ?? null,
     barcode: parseSwitch(query.get('barcode')) ?? false,
@@ -145,6 +149,7 @@ export function parseStored(text: string | null, ownUrl: string): StoredSettings
     name: textOf('name'),
     pointScale: typeof record.pointScale === 'number' ? clampScale(record.pointScale) : undefined,
     synchronised: typeof record.synchronised === 'boolean' ? record.synchronised : undefined,
+    cues: typeof record.cues === 'boolean' ? record.cues : undefined,
     mapTiles: textOf('mapTiles'),
     mapAttribution: textOf('mapAttribution'),
   };

@@ -51,6 +51,13 @@ export const rejectionWords: Record<CommandRejection, string> = {
   'rate-limited': 'The robot receives more commands than it accepts.',
 };
 
+/** Why the robot refused a command. @param holder who may drive, as far as the page knows */
+export function wordsOfRejection(reason: CommandRejection, holder: LeaseState['holder']): string {
+  if (reason === 'not-lease-holder' && holder !== 'other')
+    return 'Your turn to drive has ended: the robot had not heard from you. Let go of the grip, then drive.';
+  return rejectionWords[reason];
+}
+
 export const gripLossWords: Record<GripLoss, string> = {
   'late-reading': 'The grip was not read in time, so the robot stops. Let go of it, then drive.',
   'hands-away': 'The page or the headset was left with the grip held. Let go of it, then drive.',

@@ -28,6 +28,7 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
     field('name').value = stored.name ?? '';
     field('pointScale').value = String(stored.pointScale ?? 1);
     field('synchronised').checked = stored.synchronised ?? true;
+    field('cues').checked = stored.cues ?? true;
     field('mapTiles').value = stored.mapTiles ?? '';
     field('mapAttribution').value = stored.mapAttribution ?? '';
     tokenTyped = false;
@@ -63,13 +64,14 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
       name: field('name').value,
       pointScale: clampScale(Number(field('pointScale').value)),
       synchronised: field('synchronised').checked,
+      cues: field('cues').checked,
       mapTiles: field('mapTiles').value.trim(),
       mapAttribution: field('mapAttribution').value.trim(),
     });
     forgetVisitTokens();
     // These parameters in the page's address would override what was just saved.
     const address = new URL(location.href);
-    for (const name of ['signaling', 'token', 'name', 'sync']) address.searchParams.delete(name);
+    for (const name of ['signaling', 'token', 'name', 'sync', 'cues']) address.searchParams.delete(name);
     location.replace(address);
   });
 }

@@ -1,0 +1,54 @@
+import type { Cue } from './cue-judge.ts';
+
+interface Tone {
+  hz: number;
+  ms: number;
+}
+
+/** Told apart by number and pitch, also by those who hear only some of them. */
+export const cueTones: Readonly<Record<Cue, readonly Tone[]>> = {
+  slower: [{ hz: 660, ms: 90 }],
+  held: [
+    { hz: 440, ms: 110 },
+    { hz: 440, ms: 110 },
+  ],
+  stop: [
+    { hz: 880, ms: 120 },
+    { hz: 587, ms: 120 },
+    { hz: 392, ms: 240 },
+  ],
+};
+
+const GAP_MS = 50;
+const LOUDNESS = 0.2;
+/** Of a tone's beginning and end: without it they click. */
+const FADE_S = 0.01;
+
+/** Sounds the cues. A browser lets a page be heard only after somebody has pressed a key or a button in it. */
+export class CueSound {
+  #context: AudioContext | null = null;
+
+  play(cue: Cue): void {
+    this.#context ??= new AudioContext({ latencyHint: 'interactive' });
+    const context = this.#context;
+    // Suspended until the first press. What was not heard at once is not heard late.
+    if (context.state !== 'running') {
+      context.resume().catch(() => undefined);
+      if (!(navigator.userActivation?.hasBeenActive ?? true)) return;
+    }
+    let at = context.currentTime;
+    for (const { hz, ms } of cueTones[cue]) {
+      const oscillator = new OscillatorNode(context, { frequency: hz, type: 'triangle' });
+      const gain = new GainNode(context, { gain: 0 });
+      const end = at + ms / 1000;
+      gain.gain.setValueAtTime(0, at);
+      gain.gain.linearRampToValueAtTime(LOUDNESS, at + FADE_S);
+      gain.gain.setValueAtTime(LOUDNESS, end - FADE_S);
+      gain.gain.linearRampToValueAtTime(0, end);
+      oscillator.connect(gain).connect(context.destination);
+      oscillator.start(at);
+      oscillator.stop(end);
+      at = end + GAP_MS / 1000;
+    }
+  }
+}
