@@ -245,6 +245,7 @@ export const faultReasons = [
   'rate-limited', // too many such requests
   'no-room', // no more grants can be blocked
   'newer-latch', // the release meant an older latch of the emergency stop, or may have meant one
+  'held-at-robot', // a stop at the robot itself is on: the emergency stop is released there
   'not-latcher', // the emergency stop is released by those who latched it
 ] as const;
 /**

@@ -552,7 +552,7 @@ robot_session.good({"type": "operators", "operators": [{**present, "number": 2 *
 robot_session.spoil(operators, ("operators", ABSENT), ("operators", [present] * 17), ("operators.0.number", -1), ("operators.0.number", 2 ** 32),
                     ("operators.1.name", ""), ("operators.1.role", "root"), ("operators.1.drives", 1), ("operators.0.you", ABSENT),
                     ("operators.1.session", "s1", "operators.1"), ("more", 0), ("more", 0.5))
-for reason in ["unknown-operator", "own-session", "rate-limited", "no-room", "newer-latch", "not-latcher"]:
+for reason in ["unknown-operator", "own-session", "rate-limited", "no-room", "newer-latch", "held-at-robot", "not-latcher"]:
     robot_session.good({"type": "fault", "message": "", "reason": reason}, "fault: " + reason)
 robot_session.good({"type": "lease", "holder": "other", "driver": "Ada"}, "lease held by another, who is named")
 robot_session.good({"type": "fault", "message": "your grant lets you watch", "reason": "not-permitted"}, "fault: not permitted")

@@ -122,7 +122,7 @@ function faultOf(reason: Refusal, drives: boolean): FaultReason | undefined {
     case 'not-lease-holder':
       return drives ? undefined : 'not-permitted';
     case 'held-at-robot':
-      return undefined;
+      return 'held-at-robot';
     case 'not-supervisor':
       return 'not-permitted';
     case 'newer-latch':

@@ -40,7 +40,7 @@ export interface SessionHost {
   /** The emergency stop was latched or released. @param by who changed it; undefined: the robot itself */
   estopChanged(by?: OperatorMessages): void;
   /** It was latched again: all operators must be told its new number. */
-  estopRenewed(): void;
+  estopRenewed(by: OperatorMessages): void;
   latencyTestRequested(session: OperatorMessages, id: number, commandMs: number): void;
   /** For the counters. */
   commandAccepted(): void;
@@ -97,7 +97,7 @@ export class OperatorMessages {
     this.#estop = new EstopRequests(this, {
       ...{ drive: host.drive, now: () => host.now() },
       changed: () => host.estopChanged(this),
-      renewed: () => host.estopRenewed(),
+      renewed: () => host.estopRenewed(this),
       refused: (reason) => host.refused?.(this, 'estop-release', reason),
     });
   }

@@ -76,8 +76,9 @@ export class RobotSessionHost implements SessionHost {
     for (const { messages } of operators().values()) messages.sendEstop();
   }
 
-  estopRenewed(): void {
+  estopRenewed(by: OperatorMessages): void {
     this.#keepEstop();
+    this.#parts.audit.estop(this.drive.guard.estopState(), by);
     for (const { messages } of this.#parts.operators().values()) messages.sendEstop();
   }
 
