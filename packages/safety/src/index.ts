@@ -17,6 +17,8 @@ export {
   defaultObstacleGuardOptions,
   type ObstacleGuardOptions,
 } from './obstacles/obstacle-guard-options.ts';
+export * from './obstacles/pose-track.ts';
+export * from './obstacles/scan-grid.ts';
 export * from './obstacles/sensor-grid.ts';
 export * from './queueing-delay.ts';
 export * from './rejection-reporter.ts';
