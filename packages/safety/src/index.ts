@@ -6,6 +6,7 @@ export * from './geofence/index.ts';
 export * from './lease.ts';
 export * from './limits.ts';
 export * from './motion/blind-travel.ts';
+export * from './motion/collision-demand.ts';
 export * from './motion/motion-guard.ts';
 export * from './motion/motion-supervisor.ts';
 export * from './motion/operator-view.ts';
