@@ -6,7 +6,7 @@ import { BaseThread } from './base/base-thread.ts';
 import type { Capture } from './capture/capture.ts';
 import { openSink } from './drive/open-sink.ts';
 import type { VelocitySink } from './drive/velocity-sink.ts';
-import { guardedSensors } from './obstacles/guarded-sensors.ts';
+import { guardedSensors, hasOdometry } from './obstacles/guarded-sensors.ts';
 import { type ObstacleStation, openObstacleGuard } from './obstacles/obstacle-station.ts';
 import type { RobotOptions } from './robot-configuration.ts';
 import { CloudSensors } from './sensors/cloud-sensors.ts';
@@ -65,7 +65,12 @@ export async function openParts(options: RobotOptions, log: Logger, audit: Robot
       main === undefined ? cameras : [...cameras, ...(await openPlayedVideos(main, played, log))];
     if (main !== undefined && capture !== null) recording?.announce(main, capture.framesPerSecond, videos);
     const sink = openSink(options.sink, base, log);
-    const obstacles = openObstacleGuard({ configuration: options.obstacleGuard, grids, captures }, log);
+    const names = options.sensors.map(({ name }) => name);
+    const obstacles = openObstacleGuard(
+      { configuration: options.obstacleGuard, grids, captures, names },
+      capture !== null && hasOdometry(capture.source),
+      log,
+    );
     return { captures, obstacles, base, sink, recording, videos, grants, robotKey, audit };
   } catch (error) {
     for (const capture of captures) await capture.close();

@@ -1,6 +1,8 @@
 import { runProgram, setNiceness } from '@farpoint/service';
 import { Notifier, notifyOrder } from '@farpoint/systemd';
 import { openRobotAudit } from './audit/open-robot-audit.ts';
+import { monotonicMs } from './clock.ts';
+import { guardHealth } from './obstacles/guard-report.ts';
 import { toRobotOptions } from './options/robot-options.ts';
 import { robotProgram } from './options/robot-program.ts';
 import { Robot } from './robot.ts';
@@ -60,6 +62,7 @@ export async function run(): Promise<void> {
       ok: sink.fault == null,
       detail: { sink: sink.kind, ...(sink.fault == null ? {} : { fault: sink.fault }) },
     }));
+    health.add('guard', () => guardHealth(robot.obstacles.report(monotonicMs())));
     if (robot.stops.states.size > 0)
       health.add('stops', () => ({
         ok: robot.stops.areWell,

@@ -9,6 +9,8 @@ export const interventions = [
   'drop-off', // the floor ahead is missing: the robot brakes
   'unseen-space', // no sensor sees where the robot is to go: slower
   'sensor-silent', // a sensor that looks where the robot goes gives nothing: slower
+  'collision-topic', // another program on the robot demands that it be slower, or stop
+  'collision-silent', // that program says nothing: slower, or the robot brakes
   'fence-near', // near the edge of the area in which it may move, or in a slow one
   'fence', // the edge of the area in which it may move
 ] as const;

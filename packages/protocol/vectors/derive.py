@@ -697,10 +697,10 @@ telemetry.good({**state, "motion": {"factor": 1, "reasons": [], "mostLinear": 0}
 for guard in ["on", "blind", "off"]:
     telemetry.good({**state, "motion": {**motion, "obstacleGuard": guard}}, "telemetry: obstacle guard " + guard)
 for reason in ["view-unknown", "view-late", "view-lost", "blind-travel", "obstacle-near", "obstacle", "drop-off",
-               "unseen-space", "sensor-silent", "fence-near", "fence"]:
+               "unseen-space", "sensor-silent", "collision-topic", "collision-silent", "fence-near", "fence"]:
     telemetry.good({**state, "motion": {**motion, "reasons": [reason]}}, "telemetry: " + reason)
 telemetry.spoil({**state, "motion": motion}, ("motion.factor", 1.01), ("motion.factor", -0.1), ("motion.reasons", ["fear"], "motion.reasons.0"),
-                ("motion.reasons", ["fence"] * 12), ("motion.mostLinear", -1), ("motion.mostLinear", ABSENT), ("motion.viewAgeMs", -1),
+                ("motion.reasons", ["fence"] * 40), ("motion.mostLinear", -1), ("motion.mostLinear", ABSENT), ("motion.viewAgeMs", -1),
                 ("motion.obstacleGuard", "sleeping"), ("motion.more", 1, "motion"))
 telemetry.good(changed(state, "stream.feedback", "reports"), "telemetry: the rate follows receiver reports")
 for drive in ["idle", "watchdog", "estop", "blocked"]:

@@ -36,6 +36,8 @@ export {
   foxgloveRawImageSchema,
   type Image,
   imageSchema,
+  type LaserScan,
+  laserScanSchema,
   ODOMETRY_TYPES,
   POINT_CLOUD_TYPES,
   type PointCloud2,

@@ -43,6 +43,32 @@ export const pointCloud2Schema = z.object({
 });
 export type PointCloud2 = z.infer<typeof pointCloud2Schema>;
 
+/** More than one turn, for scanners that overlap; radians. */
+const MOST_SWEEP = 7;
+const MOST_RAYS = 16_384;
+
+/** The rays of a planar scanner. What a range means is up to REP 117. */
+export const laserScanSchema = z
+  .object({
+    header,
+    angle_min: finite,
+    angle_increment: finite.refine((increment) => increment !== 0, 'must not be 0'),
+    /** Between two rays, s; 0 if the driver does not say. */
+    time_increment: finite,
+    range_min: finite.min(0),
+    range_max: z.union([finite.positive(), z.literal(Number.POSITIVE_INFINITY)]),
+    ranges: z.union([z.instanceof(Float32Array), z.array(number)]),
+  })
+  .refine(({ ranges }) => ranges.length > 0 && ranges.length <= MOST_RAYS, {
+    path: ['ranges'],
+    message: `must be 1 to ${MOST_RAYS} rays`,
+  })
+  .refine(({ ranges, angle_increment }) => Math.abs(ranges.length * angle_increment) <= MOST_SWEEP, {
+    path: ['angle_increment'],
+    message: 'must make at most one turn of all rays',
+  });
+export type LaserScan = z.infer<typeof laserScanSchema>;
+
 export const tfMessageSchema = z.object({
   transforms: z
     .array(

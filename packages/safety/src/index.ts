@@ -6,6 +6,7 @@ export * from './geofence/index.ts';
 export * from './lease.ts';
 export * from './limits.ts';
 export * from './motion/blind-travel.ts';
+export * from './motion/collision-demand.ts';
 export * from './motion/motion-guard.ts';
 export * from './motion/motion-supervisor.ts';
 export * from './motion/operator-view.ts';
@@ -17,6 +18,8 @@ export {
   defaultObstacleGuardOptions,
   type ObstacleGuardOptions,
 } from './obstacles/obstacle-guard-options.ts';
+export * from './obstacles/pose-track.ts';
+export * from './obstacles/scan-grid.ts';
 export * from './obstacles/sensor-grid.ts';
 export * from './queueing-delay.ts';
 export * from './rejection-reporter.ts';

@@ -83,7 +83,7 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
     guards: [
       ...(view === null ? [] : [new ViewAge(guard.view, view)]),
       ...(blindTravel === null ? [] : [blindTravel]),
-      obstacles,
+      ...obstacles.guards,
       ...(fence === null ? [] : [fence.geofence]),
     ],
     ...(letGo ? { letGoAfter: { 'view-lost': 'what you saw was too old' } } : {}),
@@ -99,6 +99,7 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
     monotonicMs,
     () => sink.fault ?? null,
   );
+  if (obstacles.topics !== null) obstacles.topics.onChange = () => station.apply();
   return {
     station,
     estop: openJournal(guard, options, audit, log),

@@ -3,6 +3,7 @@ import { compose, inverse, type Pose, rotationMatrix } from '@farpoint/protocol'
 import { type Codec, CodecError, ObstacleGrid } from '@farpoint/wasm-codec';
 import type { SourceDescription, SourceFrame } from '../capture/frame-source.ts';
 import { STATIC_CAMERA_POSE } from '../capture/playback-source.ts';
+import { monotonicMs } from '../clock.ts';
 import { type GridShape, SharedGridWriter } from './shared-grid.ts';
 
 /** Plain data, so that it can be passed to the capture thread. Lengths in metres. */
@@ -61,6 +62,7 @@ export class CloudGuard implements Disposable {
 
   /** Judges a cloud and hands the grid on. */
   take(frame: SourceFrame): void {
+    const beganMs = monotonicMs();
     const { shape, odometry, mount } = this.#options;
     const { side, cellM } = shape;
     const placed = odometry && frame.cameraPose !== STATIC_CAMERA_POSE;
@@ -94,6 +96,7 @@ export class CloudGuard implements Disposable {
     this.#writer.write({
       ...{ capturedAtMs: frame.capturedAtMs, placed, classes: grid.classes },
       ...{ firstX: cells[0] - side / 2, firstY: cells[1] - side / 2 },
+      tookMs: monotonicMs() - beganMs,
     });
   }
 

@@ -4,6 +4,7 @@ import { DEFAULT_CAMERA } from '@farpoint/sim';
 import type { SourceOptions } from '../capture/open-source.ts';
 import { lidarHeight } from '../capture/sim-lidar-source.ts';
 import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
+import type { GuardTopicsOptions } from './guard-topics-messages.ts';
 import { opticalMount, type SensorMount } from './sensor-mount.ts';
 import { type GridShape, makeSharedGrid, SharedGridReader } from './shared-grid.ts';
 
@@ -21,10 +22,14 @@ export interface ObstacleGuardConfiguration {
   mount: SensorMount | null;
   /** How hard the base brakes: m/s² and rad/s². */
   brakes: { linear: number; angular: number };
+  /** The topics of the robot's ROS graph that bound its motion as well. */
+  topics?: GuardTopicsOptions | null | undefined;
+  /** Whether floor over which a laser scan passes counts as seen. */
+  scansShowFloor?: boolean | undefined;
 }
 
 /** Around base_link: 4 m in each direction. */
-const SHAPE: GridShape = { side: 160, cellM: 0.05 };
+export const GRID_SHAPE: GridShape = { side: 160, cellM: 0.05 };
 
 /** The sensors with the guard's part of their capture threads, and its ends of their grids. */
 export interface GuardedSensors {
@@ -45,10 +50,10 @@ export function guardedSensors(
     const { source } = sensor.capture;
     const mount = mountOf(source, configuration.mount);
     if (mount === null) return sensor;
-    const memory = makeSharedGrid(SHAPE);
-    grids.push({ sensor: sensor.capture.sensor, reader: new SharedGridReader(memory, SHAPE) });
+    const memory = makeSharedGrid(GRID_SHAPE);
+    grids.push({ sensor: sensor.capture.sensor, reader: new SharedGridReader(memory, GRID_SHAPE) });
     const odometry = hasOdometry(source);
-    const guard = { memory, shape: SHAPE, mount, odometry, clearanceM, heightM, dropM };
+    const guard = { memory, shape: GRID_SHAPE, mount, odometry, clearanceM, heightM, dropM };
     return { ...sensor, capture: { ...sensor.capture, guard } };
   });
   return { sensors: guarded, grids };
@@ -67,7 +72,7 @@ export function mountOf(source: SourceOptions, configured: SensorMount | null): 
 }
 
 /** Whether the poses of a source's clouds say where the robot is. */
-function hasOdometry(source: SourceOptions): boolean {
+export function hasOdometry(source: SourceOptions): boolean {
   switch (source.kind) {
     case 'sim':
     case 'sim-lidar':

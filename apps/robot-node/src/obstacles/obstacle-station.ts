@@ -1,34 +1,49 @@
-/** The main thread's obstacle guard: reads the capture threads' grids and odometry, and bounds the motion. */
-import type { ObstacleGuardState, Twist } from '@farpoint/protocol';
+/** The main thread's obstacle guard: reads the sensors' grids and odometry, and bounds the motion. */
+import type { Intervention, ObstacleGuardState, Twist } from '@farpoint/protocol';
 import { Footprint, FREE, type MotionBound, type MotionGuard, ObstacleGuard } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import type { TimedBaseState } from '../base/base.ts';
 import type { Capture } from '../capture/capture.ts';
-import type { GuardedSensors, ObstacleGuardConfiguration } from './guarded-sensors.ts';
+import type { GuardReport } from './guard-report.ts';
+import { GuardTopics } from './guard-topics.ts';
+import { GRID_SHAPE, type GuardedSensors, type ObstacleGuardConfiguration } from './guarded-sensors.ts';
+import type { SharedGridReader } from './shared-grid.ts';
 
 export interface ObstacleStationOptions {
   configuration: ObstacleGuardConfiguration;
   grids: GuardedSensors['grids'];
   /** All of the robot's sensors. */
   captures: readonly Pick<Capture, 'guard'>[];
+  /** Their names. */
+  names?: readonly string[];
+  /** The topics of a ROS graph that bound the motion as well; `null` if there are none. */
+  topics?: GuardTopics | null;
 }
 
 export class ObstacleStation implements MotionGuard {
+  readonly topics: GuardTopics | null;
+  /** All that bounds the motion by what is around the robot. */
+  readonly guards: readonly MotionGuard[];
   readonly #options: ObstacleStationOptions;
   /** `null` if it is off. */
   readonly #guard: ObstacleGuard | null;
   #state: TimedBaseState | null = null;
   #driven = false;
+  #reason: Intervention | null = null;
 
   constructor(options: ObstacleStationOptions) {
-    const { configuration, grids } = options;
-    const { footprint, marginM, unseenMps, brakes } = configuration;
+    const { configuration, grids, topics = null } = options;
+    const { footprint, marginM, unseenMps, brakes, scansShowFloor = false } = configuration;
     this.#options = options;
+    this.topics = topics;
+    this.guards = topics?.collision == null ? [this] : [this, topics.collision];
+    const planes = topics?.topics.length ?? 0;
+    const sensors = grids.length + planes;
     this.#guard =
-      grids.length === 0
+      sensors === 0
         ? null
-        : new ObstacleGuard(new Footprint(footprint), grids.length, {
-            ...{ marginM, unseenMps, emergency: brakes },
+        : new ObstacleGuard(new Footprint(footprint), sensors, {
+            ...{ marginM, unseenMps, emergency: brakes, planes, planesShowFloor: scansShowFloor },
             // Before it must brake hard, it slows down more gently.
             braking: { linear: brakes.linear / 2, angular: (brakes.angular * 2) / 3 },
           });
@@ -40,6 +55,28 @@ export class ObstacleStation implements MotionGuard {
     return this.#guard.blind(nowMs) ? 'blind' : 'on';
   }
 
+  /** What it knows now, for those who look after the robot. */
+  report(nowMs: number): GuardReport {
+    const { grids, names = [] } = this.#options;
+    this.#readGrids();
+    const seen = this.#guard?.sensors(nowMs) ?? [];
+    const called = [...grids.map(({ sensor }) => names[sensor] ?? `sensor ${sensor}`), ...this.#scans];
+    return {
+      state: this.state(nowMs),
+      driven: this.#driven,
+      sensors: this.#readers.map(({ count }, i) => {
+        const { ageMs, silent } = seen[i] ?? { ageMs: Number.POSITIVE_INFINITY, silent: true };
+        // Clouds are judged while somebody drives, scans always.
+        const isExpected = this.#driven || i >= grids.length;
+        return { name: called[i] ?? '', ageMs, silent, isExpected, ...count };
+      }),
+      odometryAgeMs: this.#guard?.odometryAgeMs(nowMs) ?? Number.POSITIVE_INFINITY,
+      reason: this.#reason,
+      collision: this.topics?.collisionState(nowMs) ?? null,
+      restarts: this.topics?.restarts ?? 0,
+    };
+  }
+
   /**
    * Called often, with the newest state of the base.
    *
@@ -49,10 +86,12 @@ export class ObstacleStation implements MotionGuard {
     if (this.#guard === null) return;
     if (state !== null && state !== this.#state) {
       this.#state = state;
-      const { pose, twist, timeMs, measuredMs } = state;
-      const { x, y, z, w } = pose.orientation;
+      const { twist, timeMs, measuredMs } = state;
+      const { x, y, z, w } = state.pose.orientation;
       const yaw = Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
-      this.#guard.moved({ x: pose.position.x, y: pose.position.y, yaw }, twist, measuredMs ?? timeMs);
+      const pose = { x: state.pose.position.x, y: state.pose.position.y, yaw };
+      this.#guard.moved(pose, twist, measuredMs ?? timeMs);
+      this.topics?.moved(pose, twist, measuredMs ?? timeMs);
     }
     if (driven === this.#driven) return;
     this.#driven = driven;
@@ -62,36 +101,69 @@ export class ObstacleStation implements MotionGuard {
   bound(wish: Readonly<Twist>, nowMs: number): Readonly<MotionBound> {
     if (this.#guard === null) return FREE;
     this.#readGrids();
-    return this.#guard.bound(wish, nowMs);
+    const bound = this.#guard.bound(wish, nowMs);
+    this.#reason = bound.reason;
+    return bound;
+  }
+
+  async close(): Promise<void> {
+    await this.topics?.close();
+  }
+
+  get #scans(): readonly string[] {
+    return this.topics?.topics ?? [];
+  }
+
+  get #readers(): readonly SharedGridReader[] {
+    return [...this.#options.grids.map(({ reader }) => reader), ...(this.topics?.readers ?? [])];
   }
 
   #readGrids(): void {
-    this.#options.grids.forEach(({ reader }, index) => {
-      const grid = reader.read();
-      if (grid !== null) this.#guard?.see(index, grid);
-    });
+    const { grids } = this.#options;
+    for (let i = 0; i < grids.length; i++) this.#see(i, grids[i]?.reader);
+    const scans = this.topics?.readers ?? [];
+    for (let i = 0; i < scans.length; i++) this.#see(grids.length + i, scans[i]);
+  }
+
+  #see(sensor: number, reader: SharedGridReader | undefined): void {
+    const grid = reader?.read() ?? null;
+    if (grid !== null) this.#guard?.see(sensor, grid);
   }
 }
 
 /**
  * The obstacle guard as configured. Says in the log if it cannot work.
  *
- * @returns what bounds the motion; if it is off, it bounds nothing
+ * @param odometry whether it is known where the robot is
+ * @returns what bounds the motion; if it is off, only what another program demands does
  */
-export function openObstacleGuard(options: ObstacleStationOptions, log: Logger): ObstacleStation {
+export function openObstacleGuard(
+  options: Omit<ObstacleStationOptions, 'topics'>,
+  odometry: boolean,
+  log: Logger,
+): ObstacleStation {
   const { configuration, grids, captures } = options;
-  if (configuration.mode === 'off') {
+  const { mode, clearanceM, heightM, footprint } = configuration;
+  const isOff = mode === 'off';
+  const scans = isOff ? [] : (configuration.topics?.scans ?? []);
+  const collision = configuration.topics?.collision ?? null;
+  if (isOff) {
     log.warn({}, 'the obstacle guard is switched off: nothing on the robot looks where it goes');
-  } else if (grids.length === 0) {
+  } else if (grids.length + scans.length === 0) {
     log.warn(
       {},
       'the obstacle guard is off, because it is not known where the sensor sits on the robot: set guard.mount (--guard-mount)',
     );
   } else {
     log.info(
-      { sensors: grids.length, unguarded: captures.length - grids.length },
+      { sensors: grids.length, scans: scans.length, unguarded: captures.length - grids.length },
       'the obstacle guard is on',
     );
   }
-  return new ObstacleStation(options);
+  const reachM = Math.max(...footprint.map(({ x, y }) => Math.hypot(x, y)));
+  const plan = { shape: GRID_SHAPE, odometry, clearanceM, heightM, reachM };
+  const { graph } = configuration.topics ?? {};
+  const hears = graph !== undefined && (scans.length > 0 || collision !== null);
+  const topics = hears ? new GuardTopics({ ...plan, graph, scans, collision }, log) : null;
+  return new ObstacleStation({ ...options, topics });
 }

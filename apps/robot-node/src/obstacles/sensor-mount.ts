@@ -15,12 +15,18 @@ export interface SensorMount {
 /** From the optical axes (z forward, x right, y down) to the body's. */
 const OPTICAL_IN_BODY: Quaternion = { x: -0.5, y: 0.5, z: -0.5, w: 0.5 };
 
-/** The pose of its optical frame in base_link. */
-export function opticalMount({ x, y, z, roll, pitch, yaw }: SensorMount): Pose {
+/** The pose of its body frame in base_link. */
+export function bodyMount({ x, y, z, roll, pitch, yaw }: SensorMount): Pose {
   const about = (axis: 'x' | 'y' | 'z', angle: number): Quaternion => ({
     ...{ x: 0, y: 0, z: 0, w: Math.cos(angle / 2) },
     [axis]: Math.sin(angle / 2),
   });
-  const body = multiply(multiply(about('z', yaw), about('y', pitch)), about('x', roll));
-  return { position: { x, y, z }, orientation: multiply(body, OPTICAL_IN_BODY) };
+  const orientation = multiply(multiply(about('z', yaw), about('y', pitch)), about('x', roll));
+  return { position: { x, y, z }, orientation };
+}
+
+/** The pose of its optical frame in base_link. */
+export function opticalMount(mount: SensorMount): Pose {
+  const { position, orientation } = bodyMount(mount);
+  return { position, orientation: multiply(orientation, OPTICAL_IN_BODY) };
 }

@@ -12,28 +12,30 @@ const grid = (n: number) => ({
   ...{ capturedAtMs: n, placed: n % 2 === 0, firstX: -n, firstY: n },
   classes: new Uint8Array(36).fill(n),
 });
+const written = (n: number) => ({ ...grid(n), tookMs: n / 10 });
 
 it('hands the newest grid on once', () => {
   const { writer, reader } = shared();
   expect(reader.read()).toBeNull();
-  writer.write(grid(1));
-  writer.write(grid(2));
+  writer.write(written(1));
+  writer.write(written(2));
   expect(reader.read()).toEqual({ ...SHAPE, ...grid(2) });
   expect(reader.read()).toBeNull();
+  expect(reader.count).toEqual({ grids: 1, lastMs: 0.2 });
 });
 
 it('does not touch the grid that is being read, and loses none that is newer, in any order of calls', () => {
   fc.assert(
     fc.property(fc.array(fc.boolean(), { maxLength: 60 }), (writes) => {
       const { writer, reader } = shared();
-      let [written, read] = [0, 0];
+      let [last, read] = [0, 0];
       let held: ReturnType<SharedGridReader['read']> = null;
       for (const write of writes) {
-        if (write) writer.write(grid(++written));
+        if (write) writer.write(written(++last));
         else {
           const next = reader.read();
-          expect(next === null).toBe(written === read);
-          if (next !== null) [held, read] = [next, written];
+          expect(next === null).toBe(last === read);
+          if (next !== null) [held, read] = [next, last];
         }
         if (held !== null) expect(held).toEqual({ ...SHAPE, ...grid(read) });
       }

@@ -9,8 +9,8 @@ const HEADER_BYTES = 8;
 const SLOTS = 3;
 const SLOT_MASK = 3;
 const FRESH = 4;
-/** Capture time, placed, first cell's x and y. */
-const FACTS = 4;
+/** Capture time, placed, first cell's x and y, and how long it took to make. */
+const FACTS = 5;
 
 export interface GridShape {
   side: number;
@@ -35,6 +35,10 @@ function slotsOf(memory: SharedArrayBuffer, side: number) {
   });
 }
 
+export interface WrittenGrid extends Omit<SensorGrid, 'side' | 'cellM'> {
+  tookMs: number;
+}
+
 /** Only one writer may exist per memory. */
 export class SharedGridWriter {
   readonly #state: Int32Array;
@@ -46,9 +50,10 @@ export class SharedGridWriter {
     this.#slots = slotsOf(memory, side);
   }
 
-  write({ capturedAtMs, placed, firstX, firstY, classes }: Omit<SensorGrid, 'side' | 'cellM'>): void {
+  /** @param grid with the time that it took to make it, ms */
+  write({ capturedAtMs, placed, firstX, firstY, classes, tookMs }: WrittenGrid): void {
     const slot = this.#slots[this.#own] as ReturnType<typeof slotsOf>[number];
-    slot.facts.set([capturedAtMs, placed ? 1 : 0, firstX, firstY]);
+    slot.facts.set([capturedAtMs, placed ? 1 : 0, firstX, firstY, tookMs]);
     slot.classes.set(classes);
     this.#own = Atomics.exchange(this.#state, 0, this.#own | FRESH) & SLOT_MASK;
   }
@@ -56,6 +61,8 @@ export class SharedGridWriter {
 
 /** Only one reader may exist per memory. */
 export class SharedGridReader {
+  /** How many grids were read, and how long it took to make the last, ms. */
+  readonly count = { grids: 0, lastMs: 0 };
   readonly #state: Int32Array;
   readonly #slots: ReturnType<typeof slotsOf>;
   readonly #shape: GridShape;
@@ -72,7 +79,11 @@ export class SharedGridReader {
     if ((Atomics.load(this.#state, 0) & FRESH) === 0) return null;
     this.#own = Atomics.exchange(this.#state, 0, this.#own) & SLOT_MASK;
     const { facts, classes } = this.#slots[this.#own] as ReturnType<typeof slotsOf>[number];
-    const [capturedAtMs, placed, firstX, firstY] = facts as unknown as [number, number, number, number];
+    const [capturedAtMs, placed, firstX, firstY, tookMs] = facts as unknown as [
+      ...[number, number, number, number, number],
+    ];
+    this.count.grids++;
+    this.count.lastMs = tookMs;
     return { ...this.#shape, capturedAtMs, placed: placed === 1, firstX, firstY, classes };
   }
 }

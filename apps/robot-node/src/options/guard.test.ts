@@ -4,7 +4,11 @@ import { toRobotOptions } from './robot-options.ts';
 import { robotProgram } from './robot-program.ts';
 
 function options(...argv: string[]) {
-  const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => '' });
+  return optionsIn('', ...argv);
+}
+
+function optionsIn(yaml: string, ...argv: string[]) {
+  const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => yaml });
   if (resolved.action !== 'run') throw new Error(resolved.action);
   return toRobotOptions(resolved.values, resolved.where).obstacleGuard;
 }
@@ -41,5 +45,56 @@ describe('the options of the obstacle guard', () => {
     [['--source', 'shm', '--obstacle-guard', 'on'], 'must know where the sensor sits'],
   ])('refuse %s', (argv, why) => {
     expect(() => options(...argv)).toThrow(why);
+  });
+
+  const ROS = 'robot:\n  sink: { kind: ros2 }\n  topics: [{ topic: /cmd_vel, as: velocity }]\n';
+  const scan = (topic: string, x: number, z = 0.3) => ({
+    ...{ topic, mount: { x, y: 0, z, roll: 0, pitch: 0, yaw: 0 } },
+  });
+
+  it('take laser scans from a flag and from a file', () => {
+    expect(options().topics).toBeNull();
+    const { topics, scansShowFloor } = optionsIn(
+      ROS,
+      ...['--guard-scan', '/scan=0.2,0,0.3,0,0,0 /rear=-0.2,0,0.3,0,0,0', '--ros-domain', '7'],
+    );
+    expect(topics?.scans).toEqual([scan('/scan', 0.2), scan('/rear', -0.2)]);
+    expect(topics?.graph).toMatchObject({ kind: 'ros2', domain: 7 });
+    expect([topics?.collision, scansShowFloor]).toEqual([null, false]);
+    const file = optionsIn(
+      `${ROS}  guard: { scans: [{ topic: /scan, mount: "0.2,0,0.3,0,0,0" }], scanFloor: seen }\n`,
+    );
+    expect([file.topics?.scans, file.scansShowFloor]).toEqual([[scan('/scan', 0.2)], true]);
+  });
+
+  it('take a collision topic, whose silence stops the robot by default', () => {
+    expect(optionsIn(ROS, '--guard-collision-topic', '/safety/stop').topics?.collision).toEqual({
+      ...{ topic: '/safety/stop', type: 'bool', silentMs: 500, silentMps: 0 },
+    });
+    const slow = `${ROS}  guard: { unseenMps: 0.2, collision: { topic: /most, type: speed, silenceMs: 200, silent: slow } }\n`;
+    expect(optionsIn(slow).topics?.collision).toEqual({
+      ...{ topic: '/most', type: 'speed', silentMs: 200, silentMps: 0.2 },
+    });
+  });
+
+  it('laser scans alone are enough for a guard that must be on', () => {
+    const argv = ['--source', 'shm', '--obstacle-guard', 'on', '--guard-scan', '/scan=0.2,0,0.3,0,0,0'];
+    expect(optionsIn(ROS, ...argv).mode).toBe('on');
+  });
+
+  it.each([
+    [['--guard-scan', '/scan'], 'must be "x,y,z,roll,pitch,yaw"'],
+    [['--guard-scan', 'scan=0,0,0.3,0,0,0'], 'must be a topic’s full name'],
+    [['--guard-scan', '/a=0,0,0.3,0,0,0 /a=1,0,0.3,0,0,0'], 'must name each topic once'],
+    [['--guard-scan', '/a=0,0,1.3,0,0,0'], 'it would see nothing'],
+    [['--guard-scan', '/a=0,0,0.03,0,0,0'], 'it would see nothing'],
+    [['--guard-collision-topic', 'stop'], 'must be a topic’s full name'],
+  ])('refuse %s in a ROS graph', (argv, why) => {
+    expect(() => optionsIn(ROS, ...argv)).toThrow(why);
+  });
+
+  it('refuse topics without a ROS graph', () => {
+    expect(() => options('--guard-scan', '/scan=0,0,0.3,0,0,0')).toThrow('needs a ROS graph');
+    expect(() => options('--guard-collision-topic', '/stop')).toThrow('needs a ROS graph');
   });
 });

@@ -2,8 +2,10 @@
 import { type Corner, defaultObstacleGuardOptions, Footprint, FootprintError } from '@farpoint/safety';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 import * as z from 'zod';
+import type { GuardTopicsOptions } from '../obstacles/guard-topics-messages.ts';
 import type { ObstacleGuardConfiguration } from '../obstacles/guarded-sensors.ts';
 import type { SensorMount } from '../obstacles/sensor-mount.ts';
+import { mountSchema } from './mount.ts';
 
 const RADIUS = 0.25;
 
@@ -36,23 +38,6 @@ export function footprintOf(text: string): readonly Corner[] {
   }));
   return new Footprint(corners).corners;
 }
-
-const LIMITS = [10, 10, 10, Math.PI, Math.PI, Math.PI] as const;
-
-const mountSchema = z
-  .string('must be "x,y,z,roll,pitch,yaw" in metres and radians')
-  .transform((text, context): SensorMount => {
-    const numbers = text.split(/[\s,]+/).map((part) => (part === '' ? Number.NaN : Number(part)));
-    const [x, y, height, roll, pitch, yaw] = numbers;
-    if (numbers.length === 6 && LIMITS.every((limit, i) => Math.abs(numbers[i] as number) <= limit)) {
-      return { x, y, z: height, roll, pitch, yaw } as SensorMount;
-    }
-    context.addIssue({
-      code: 'custom',
-      message: 'must be "x,y,z,roll,pitch,yaw": up to 10 m and π rad, such as 0.12,0,0.9,0,0.2,0',
-    });
-    return z.NEVER;
-  });
 
 export const guardOptions = optionGroup('guard', {
   obstacleGuard: defineOption({
@@ -117,6 +102,7 @@ export interface GuardValues {
   obstacleGuard: ObstacleGuardConfiguration['mode'];
   footprint: string;
   guardMount: SensorMount | null;
+  guardScanFloor: 'unseen' | 'seen';
   guardClearanceM: number;
   guardHeightM: number;
   guardDropM: number;
@@ -126,13 +112,15 @@ export interface GuardValues {
   turnRadps2: number;
 }
 
-/** @param refuse what contradicts something else */
+/** @param topics of a ROS graph that bound its motion too @param refuse what contradicts something else */
 export function toObstacleGuard(
   values: GuardValues,
+  topics: GuardTopicsOptions | null,
   refuse: (key: keyof GuardValues, detail: string) => void,
 ): ObstacleGuardConfiguration {
   const { obstacleGuard, source, guardMount, guardHeightM, guardClearanceM } = values;
-  if (obstacleGuard === 'on' && source !== 'sim' && guardMount === null)
+  const sees = source === 'sim' || guardMount !== null || (topics?.scans.length ?? 0) > 0;
+  if (obstacleGuard === 'on' && !sees)
     refuse('guardMount', 'is needed for the obstacle guard: it must know where the sensor sits');
   if (guardHeightM <= guardClearanceM) refuse('guardHeightM', 'must be above guard.clearanceM');
   return {
@@ -144,6 +132,8 @@ export function toObstacleGuard(
     marginM: values.guardMarginM,
     unseenMps: values.guardUnseenMps,
     mount: guardMount,
+    topics,
+    scansShowFloor: values.guardScanFloor === 'seen',
     brakes: { linear: values.decelerationMps2, angular: values.turnRadps2 },
   };
 }

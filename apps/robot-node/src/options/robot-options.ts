@@ -18,12 +18,14 @@ import { toAudit } from './audit-configuration.ts';
 import { toBroadcast } from './broadcast.ts';
 import { checkAccess } from './check-access.ts';
 import { toObstacleGuard } from './guard.ts';
+import { toGuardTopics } from './guard-topics.ts';
 import { toMotion } from './motion.ts';
 import { readText } from './read-text.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
+import { rosKindOf } from './ros-kind.ts';
 import { stateFolder } from './state.ts';
 import { toFence } from './to-fence.ts';
-import { rosKindOf, toStops } from './to-stops.ts';
+import { toStops } from './to-stops.ts';
 
 /** The highest rate asked of the source if not configured. A recording has its own rate, which is kept. */
 const DEFAULT_FPS: Partial<Record<RobotOptionValues['source'], number>> = { sim: 60, recording: 120 };
@@ -42,7 +44,11 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   const ofSim = values.source !== 'sim' ? [] : [SIM_MOTORS, ...(values.simOrigin === null ? [] : [SIM_FIX])];
   const quantities = describeQuantities([...topics, ...ofSim]);
   const alarms = toAlarmRules(values.alarms, quantities, (detail) => refuse('alarms', detail));
-  const obstacleGuard = toObstacleGuard(values, refuse);
+  const obstacleGuard = toObstacleGuard(
+    values,
+    toGuardTopics(values, (kind) => toGraph(values, kind), refuse),
+    refuse,
+  );
   const broadcast = toBroadcast(values, ca, refuse);
   const motion = toMotion(values, refuse);
   const fence = toFence(values, refuse);

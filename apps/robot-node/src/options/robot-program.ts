@@ -8,6 +8,7 @@ import { broadcastOptions } from './broadcast.ts';
 import { fenceOptions } from './fence.ts';
 import { foxgloveOptions } from './foxglove.ts';
 import { guardOptions } from './guard.ts';
+import { guardTopicsOptions } from './guard-topics.ts';
 import { identityOptions } from './identity.ts';
 import { limitsOptions } from './limits.ts';
 import { measurementOptions } from './measurement.ts';
@@ -47,6 +48,7 @@ const options = {
   ...stopsOptions,
   ...fenceOptions,
   ...guardOptions,
+  ...guardTopicsOptions,
   ...stateOptions,
   ...streamOptions,
   ...picturesOptions,

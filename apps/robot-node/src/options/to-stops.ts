@@ -2,15 +2,7 @@ import { join } from 'node:path';
 import type { GraphOptions } from '../ros/open-graph.ts';
 import type { RobotStopsOptions } from '../stops/open-stops.ts';
 import type { RobotOptionValues } from './robot-program.ts';
-
-/** The ROS that the source or the sink uses; `null` if neither does. */
-export function rosKindOf({
-  source,
-  sink,
-}: Pick<RobotOptionValues, 'source' | 'sink'>): GraphOptions['kind'] | null {
-  for (const kind of [source, sink]) if (kind === 'ros1' || kind === 'ros2') return kind;
-  return null;
-}
+import { rosKindOf } from './ros-kind.ts';
 
 /** @param graph the robot's graph of this kind */
 export function toStops(

@@ -15,6 +15,12 @@ const explanations: Record<Intervention, Explain> = {
   'drop-off': () => 'Held: the floor ahead is missing',
   'unseen-space': () => 'Slower: no sensor sees where you are going',
   'sensor-silent': () => 'Slower: a sensor gives nothing',
+  'collision-topic': ({ factor }) =>
+    factor === 0
+      ? 'Held: the robot’s collision sensor demands it'
+      : 'Slower: the robot’s collision sensor demands it',
+  'collision-silent': ({ factor }) =>
+    `${factor === 0 ? 'Held' : 'Slower'}: the robot’s collision sensor says nothing`,
   'fence-near': () => 'Slower: near the edge of the permitted area',
   fence: () => 'Held: the edge of the permitted area',
 };

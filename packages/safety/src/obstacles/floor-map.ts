@@ -1,40 +1,31 @@
+import { FloorLayer, type FloorMemory } from './floor-layer.ts';
 import { floorClasses, type SensorGrid } from './sensor-grid.ts';
 
-/** Cells along a side of the map: a power of two, so that a cell's place is found with a mask. */
-const SIDE = 256;
-const MASK = SIDE - 1;
-const HALF = SIDE / 2;
-
-export interface FloorMapOptions {
+export interface FloorMapOptions extends FloorMemory {
   cellM: number;
-  /** How long a cell counts as free after it was last seen, ms. */
-  freeMemoryMs: number;
-  /** How long a cell counts as occupied, or without a floor, after it was last seen, ms. */
-  occupiedMemoryMs: number;
-  /** Without odometry, a cell no longer counts as free when the robot has gone this far since, metres. */
-  freeMemoryM: number;
+  /** How many sensors see one plane only. */
+  planes?: number;
+  /** Whether floor over which such a sensor sees nothing counts as free where no other sees it. */
+  planesShowFloor?: boolean;
 }
 
 /**
- * What all sensors together say about the floor around the robot. A cell is what the newest cloud that sees it says; of
- * clouds of the same age, an obstacle wins. What is no longer seen is remembered for a while: an obstacle does not go away
- * because the robot came too near to see it.
+ * What all sensors together say about the floor around the robot. Those that see the floor and everything on it form one
+ * layer. Each that sees one plane only has a layer of its own, because it cannot take away what it cannot see: it adds
+ * obstacles, and removes only those that it has itself added.
  */
 export class FloorMap {
   readonly cellM: number;
-  readonly #options: FloorMapOptions;
-  readonly #classes = new Uint8Array(SIDE * SIDE);
-  /** When each cell was last seen, ms. */
-  readonly #seenMs = new Float64Array(SIDE * SIDE).fill(Number.NEGATIVE_INFINITY);
-  /** How far the robot had gone by then, metres: only counts without odometry. */
-  readonly #seenTravel = new Float64Array(SIDE * SIDE);
-  #centreX = 0;
-  #centreY = 0;
+  readonly #floor: FloorLayer;
+  readonly #planes: readonly FloorLayer[];
+  readonly #planesShowFloor: boolean;
   #placed = true;
 
   constructor(options: FloorMapOptions) {
-    this.#options = options;
     this.cellM = options.cellM;
+    this.#floor = new FloorLayer(options);
+    this.#planes = Array.from({ length: options.planes ?? 0 }, () => new FloorLayer(options));
+    this.#planesShowFloor = options.planesShowFloor ?? false;
   }
 
   /** Whether its cells stay where they are when the robot moves. */
@@ -49,74 +40,45 @@ export class FloorMap {
 
   /** Moves the map so that it lies around this cell. What falls off its edge is forgotten. */
   centreOn(x: number, y: number): void {
-    const [dx, dy] = [x - this.#centreX, y - this.#centreY];
-    if (dx === 0 && dy === 0) return;
-    [this.#centreX, this.#centreY] = [x, y];
-    if (Math.abs(dx) >= SIDE || Math.abs(dy) >= SIDE) {
-      this.forget();
-      return;
-    }
-    // The columns and rows that entered have those cells' old contents.
-    for (let k = 0; k < Math.abs(dx); k++) {
-      const column = (dx > 0 ? x + HALF - 1 - k : x - HALF + k) & MASK;
-      for (let row = 0; row < SIDE; row++) this.#seenMs[row * SIDE + column] = Number.NEGATIVE_INFINITY;
-    }
-    for (let k = 0; k < Math.abs(dy); k++) {
-      const row = (dy > 0 ? y + HALF - 1 - k : y - HALF + k) & MASK;
-      this.#seenMs.fill(Number.NEGATIVE_INFINITY, row * SIDE, (row + 1) * SIDE);
-    }
-  }
-
-  forget(): void {
-    this.#seenMs.fill(Number.NEGATIVE_INFINITY);
+    this.#floor.centreOn(x, y);
+    for (const plane of this.#planes) plane.centreOn(x, y);
   }
 
   /**
-   * Takes what a cloud says.
+   * Takes what a sensor says.
    *
-   * @param travel how far the robot had gone when it was taken, metres
+   * @param travel how far the robot had gone when its cloud or scan was taken, metres
+   * @param plane the number of the sensor among those that see one plane only; `null` for another
    */
-  merge({ side, classes, firstX, firstY, capturedAtMs, placed }: SensorGrid, travel: number): void {
-    if (placed !== this.#placed) this.forget();
-    this.#placed = placed;
-    const [left, right] = [this.#centreX - HALF, this.#centreX + HALF];
-    const [low, high] = [this.#centreY - HALF, this.#centreY + HALF];
-    const from = Math.max(0, left - firstX);
-    const until = Math.min(side, right - firstX);
-    const [seenMs, known, seenTravel] = [this.#seenMs, this.#classes, this.#seenTravel];
-    for (let j = Math.max(0, low - firstY); j < Math.min(side, high - firstY); j++) {
-      const row = ((firstY + j) & MASK) * SIDE;
-      for (let i = from; i < until; i++) {
-        const said = classes[j * side + i] as number;
-        if (said === floorClasses.unknown) continue;
-        const cell = row + ((firstX + i) & MASK);
-        const before = seenMs[cell] as number;
-        if (before > capturedAtMs) continue;
-        if (before === capturedAtMs && (known[cell] as number) > said) continue;
-        known[cell] = said;
-        seenMs[cell] = capturedAtMs;
-        seenTravel[cell] = travel;
-      }
+  merge(grid: SensorGrid, travel: number, plane: number | null = null): void {
+    if (grid.placed !== this.#placed) {
+      this.#floor.forget();
+      for (const each of this.#planes) each.forget();
     }
+    this.#placed = grid.placed;
+    (plane === null ? this.#floor : this.#planes[plane])?.merge(grid, travel);
   }
 
   /** What is known of a cell. @param travel how far the robot has gone by now, metres */
   classAt(x: number, y: number, nowMs: number, travel: number): number {
-    const [dx, dy] = [x - this.#centreX + HALF, y - this.#centreY + HALF];
-    if (dx < 0 || dx >= SIDE || dy < 0 || dy >= SIDE) return floorClasses.unknown;
-    const cell = (y & MASK) * SIDE + (x & MASK);
-    const known = this.#classes[cell] as number;
-    const ageMs = nowMs - (this.#seenMs[cell] as number);
-    const { freeMemoryMs, occupiedMemoryMs, freeMemoryM } = this.#options;
-    if (known !== floorClasses.free) return ageMs <= occupiedMemoryMs ? known : floorClasses.unknown;
-    if (!(ageMs <= freeMemoryMs)) return floorClasses.unknown;
-    if (this.#placed || travel - (this.#seenTravel[cell] as number) <= freeMemoryM) return known;
-    return floorClasses.unknown;
+    let known = this.#floor.classAt(x, y, nowMs, travel, this.#placed);
+    if (known >= floorClasses.occupied) return known;
+    for (const plane of this.#planes) {
+      const said = plane.classAt(x, y, nowMs, travel, this.#placed);
+      if (said === floorClasses.occupied) return said;
+      if (said === floorClasses.free && this.#planesShowFloor) known = said;
+    }
+    return known;
   }
 
-  /** How far the robot may have come nearer to a cell since it was seen, metres. */
-  travelSince(x: number, y: number, travel: number): number {
+  /** How far the robot may have come nearer to what stands in a cell since it was seen, metres. */
+  travelSince(x: number, y: number, nowMs: number, travel: number): number {
     if (this.#placed) return 0;
-    return Math.max(0, travel - (this.#seenTravel[(y & MASK) * SIDE + (x & MASK)] as number));
+    let since = 0;
+    for (const layer of [this.#floor, ...this.#planes]) {
+      if (layer.classAt(x, y, nowMs, travel, false) < floorClasses.occupied) continue;
+      since = Math.max(since, travel - layer.travelAt(x, y));
+    }
+    return since;
   }
 }

@@ -161,7 +161,7 @@ export class FreeWaySearch {
           way.unknownS = atS;
           continue;
         }
-        const nearer = Math.max(0, atS - map.travelSince(i, j, travel) / speed);
+        const nearer = Math.max(0, atS - map.travelSince(i, j, nowMs, travel) / speed);
         if (nearer >= way.contactS) continue;
         way.contactS = nearer;
         way.cause = causeOf(known);

@@ -19,6 +19,10 @@ export interface ObstacleGuardOptions {
   occupiedMemoryMs: number;
   /** Length of the sensors' cells. */
   cellM: number;
+  /** How many of the sensors, the last ones, see one plane only, as a laser scanner does. */
+  planes: number;
+  /** Whether floor over which such a sensor sees nothing counts as seen. */
+  planesShowFloor: boolean;
 }
 
 export const defaultObstacleGuardOptions: Readonly<ObstacleGuardOptions> = {
@@ -32,6 +36,8 @@ export const defaultObstacleGuardOptions: Readonly<ObstacleGuardOptions> = {
   freeMemoryMs: 3000,
   occupiedMemoryMs: 20_000,
   cellM: 0.05,
+  planes: 0,
+  planesShowFloor: false,
 };
 
 /** How much of the margin is kept even when the robot creeps. */

@@ -183,6 +183,58 @@ describe('the obstacle guard', () => {
     expect(guard.bound(go(0.5), 21_110)).toEqual({ factor: 0.6, reason: 'unseen-space', urgent: false });
   });
 
+  describe('with a laser scanner beside the camera', () => {
+    const nothing = (ms: number) => new PaintedGrid(ms).paint('unknown', -4, 4, -4, 4);
+    const withScanner = (options = {}) => {
+      const guard = new ObstacleGuard(DISC, 2, { planes: 1, ...options });
+      guard.moved({ x: 0, y: 0, yaw: 0 }, zeroTwist(), 1000);
+      return guard;
+    };
+
+    test('either of them stops the robot, whatever the other says, and however new that is', () => {
+      for (const sensor of [0, 1]) {
+        const guard = withScanner();
+        guard.see(sensor, wall(0.32));
+        guard.see(1 - sensor, new PaintedGrid(1050));
+        expect(guard.bound(go(1), 1060)).toMatchObject({ factor: 0, reason: 'obstacle' });
+        // Each takes away what it has itself seen.
+        guard.see(sensor, new PaintedGrid(1100));
+        guard.moved({ x: 0, y: 0, yaw: 0 }, zeroTwist(), 1100);
+        expect(guard.bound(go(1), 1110).factor).toBe(1);
+      }
+    });
+
+    test('a hole that the camera sees stays one', () => {
+      const guard = withScanner({ planesShowFloor: true });
+      guard.see(0, floor().paint('dropOff', 0.32, 0.6, -1, 1));
+      guard.see(1, new PaintedGrid(1050));
+      expect(guard.bound(go(0.5), 1060)).toMatchObject({ factor: 0, reason: 'drop-off' });
+    });
+
+    test('what the scanner passes over is unseen floor, unless it is configured to be trusted', () => {
+      for (const trusted of [false, true]) {
+        const guard = withScanner({ planesShowFloor: trusted });
+        guard.see(0, nothing(1000));
+        guard.see(1, floor());
+        const bound = guard.bound(go(1), 1010);
+        expect([bound.factor, bound.reason]).toEqual(trusted ? [1, null] : [0.3, 'unseen-space']);
+      }
+    });
+
+    test('its silence is that of a sensor', () => {
+      const guard = withScanner();
+      guard.see(0, new PaintedGrid(1400));
+      guard.see(1, floor());
+      guard.moved({ x: 0, y: 0, yaw: 0 }, zeroTwist(), 1400);
+      expect(guard.bound(go(1), 1401)).toMatchObject({ factor: 0.3, reason: 'sensor-silent' });
+      expect(guard.sensors(1401)).toEqual([
+        { ageMs: 1, silent: false },
+        { ageMs: 401, silent: true },
+      ]);
+      expect(guard.odometryAgeMs(1401)).toBe(1);
+    });
+  });
+
   test('without odometry, the age of what it knows counts as travel', () => {
     const guard = new ObstacleGuard(DISC, 1);
     const seen = wall(0.6);

@@ -37,8 +37,8 @@ export class ObstacleGuard implements MotionGuard {
   /** @param sensors how many there are; each must give clouds, or all motion is slow */
   constructor(footprint: Footprint, sensors: number, options: Partial<ObstacleGuardOptions> = {}) {
     this.#options = { ...defaultObstacleGuardOptions, ...options };
-    const { cellM, freeMemoryMs, occupiedMemoryMs, marginM } = this.#options;
-    this.#map = new FloorMap({ cellM, freeMemoryMs, occupiedMemoryMs, freeMemoryM: FREE_MEMORY_M });
+    const { marginM } = this.#options;
+    this.#map = new FloorMap({ ...this.#options, freeMemoryM: FREE_MEMORY_M });
     const narrow = marginM * CREEPING_SHARE;
     this.#search = new FreeWaySearch(this.#map, footprint, [
       ...[marginM, narrow],
@@ -55,12 +55,30 @@ export class ObstacleGuard implements MotionGuard {
     this.#lastMs[sensor] = grid.capturedAtMs;
     const half = grid.side / 2;
     this.#map.centreOn(grid.firstX + half, grid.firstY + half);
-    this.#map.merge(grid, grid.placed ? 0 : this.#whereabouts.travelAt(grid.capturedAtMs));
+    const firstPlane = this.#lastMs.length - this.#options.planes;
+    this.#map.merge(
+      grid,
+      grid.placed ? 0 : this.#whereabouts.travelAt(grid.capturedAtMs),
+      sensor < firstPlane ? null : sensor - firstPlane,
+    );
   }
 
   /** Takes odometry: the pose of base_link, its velocity, and when they were measured. */
   moved(pose: Readonly<FloorPose>, twist: Readonly<Twist>, measuredMs: number): void {
     this.#whereabouts.measured(pose, twist, measuredMs);
+  }
+
+  /** How old each sensor's newest cloud is, and whether the sensor counts as silent; ms, infinite before the first. */
+  sensors(nowMs: number): { ageMs: number; silent: boolean }[] {
+    return this.#lastMs.map((lastMs) => ({
+      ageMs: nowMs - lastMs,
+      silent: this.#isSilent(lastMs, nowMs),
+    }));
+  }
+
+  /** How old odometry is; infinite before the first, ms. */
+  odometryAgeMs(nowMs: number): number {
+    return this.#whereabouts.ageMs(nowMs);
   }
 
   /** Whether no sensor at all gives clouds. */

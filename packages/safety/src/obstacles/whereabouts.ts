@@ -35,8 +35,13 @@ export class Whereabouts {
     return this.#twist;
   }
 
+  /** How old the newest odometry is, ms; infinite before the first. */
+  ageMs(nowMs: number): number {
+    return nowMs - this.#measuredMs;
+  }
+
   silent(nowMs: number): boolean {
-    return !(nowMs - this.#measuredMs <= MOST_EXTRAPOLATION_MS);
+    return !(this.ageMs(nowMs) <= MOST_EXTRAPOLATION_MS);
   }
 
   /** The pose now: an object that the next call overwrites. @param placed without odometry, the origin */

@@ -2,6 +2,7 @@ import { PulledMetrics, type Registry } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
 import { addBroadcastMetrics } from './broadcast-metrics.ts';
 import { addDriveMetrics } from './drive-metrics.ts';
+import { addGuardMetrics } from './guard-metrics.ts';
 import { addLiveMetrics } from './live-metrics.ts';
 import { addPathMetrics } from './path-metrics.ts';
 import { addPictureMetrics } from './picture-metrics.ts';
@@ -19,6 +20,7 @@ export function registerRobotMetrics(registry: Registry, robot: Robot): void {
   addSessionMetrics(metrics, robot);
   addSignalingMetrics(metrics, robot);
   addDriveMetrics(metrics, robot);
+  addGuardMetrics(metrics, robot);
   addSensorMetrics(metrics, robot);
   addPathMetrics(metrics, robot);
   addPictureMetrics(metrics, robot);

@@ -1,0 +1,183 @@
+import { Worker } from 'node:worker_threads';
+import type { Twist } from '@farpoint/protocol';
+import { CollisionDemand, type CollisionState, type FloorPose, type MotionGuard } from '@farpoint/safety';
+import type { Logger } from '@farpoint/service';
+import { Backoff } from '@farpoint/timing';
+import { monotonicMs } from '../clock.ts';
+import { SinkBeat } from '../drive/sink-beat.ts';
+import { CollisionCells } from './collision-cells.ts';
+import type {
+  GuardTopicsOptions,
+  GuardTopicsReport,
+  GuardTopicsRequest,
+  GuardTopicsSetup,
+} from './guard-topics-messages.ts';
+import { type GridShape, makeSharedGrid, SharedGridReader } from './shared-grid.ts';
+
+const THREAD = new URL('./guard-topics-worker.ts', import.meta.url);
+const FIRST_RETRY_MS = 250;
+const MOST_RETRY_MS = 5000;
+/** A thread that has lived this long was well: the next wait is short again. */
+const WELL_MS = 10_000;
+/** A thread that gives no sign of life for longer is replaced, ms. */
+const REPLACE_MS = 1000;
+const CHECK_MS = 100;
+/** The time that the thread has to leave the graph, ms. */
+const CLOSE_MS = 1000;
+
+export interface GuardTopicsPlan extends GuardTopicsOptions {
+  shape: GridShape;
+  /** Whether odometry says where the robot is. */
+  odometry: boolean;
+  clearanceM: number;
+  heightM: number;
+  /** How far the footprint reaches from base_link, metres. */
+  reachM: number;
+}
+
+/**
+ * The topics of the robot's ROS graph that the obstacle guard hears, in a thread of their own. One that ends or hangs is
+ * replaced; meanwhile nothing is heard, and silence bounds the motion.
+ */
+export class GuardTopics {
+  /** Called when the motion may be bounded otherwise; it is bounded anew every few milliseconds anyway. */
+  onChange: (() => void) | null = null;
+  /** How often the thread was replaced. */
+  restarts = 0;
+  readonly topics: readonly string[];
+  /** Bounds the motion by what the collision topic demands; `null` if there is none. */
+  readonly collision: MotionGuard | null;
+  readonly #demand: CollisionDemand | null;
+  readonly #plan: GuardTopicsPlan;
+  readonly #log: Pick<Logger, 'info' | 'warn' | 'error'>;
+  readonly #thread: URL;
+  readonly #backoff = new Backoff({ firstMs: FIRST_RETRY_MS, mostMs: MOST_RETRY_MS, random: Math.random });
+  readonly #checking: NodeJS.Timeout;
+  #readers: readonly SharedGridReader[] = [];
+  #cells = new CollisionCells();
+  #beat = new SinkBeat();
+  #worker: Worker | null = null;
+  #startedMs = 0;
+  #ended: Promise<unknown> = Promise.resolve();
+  #retry: NodeJS.Timeout | null = null;
+  #closing = false;
+
+  /** @param thread the program of the thread; another one in tests */
+  constructor(plan: GuardTopicsPlan, log: Pick<Logger, 'info' | 'warn' | 'error'>, thread = THREAD) {
+    const { collision, scans, reachM } = plan;
+    this.#plan = plan;
+    this.#log = log;
+    this.#thread = thread;
+    this.topics = scans.map(({ topic }) => topic);
+    const demand = collision === null ? null : new CollisionDemand({ ...collision, reachM });
+    this.#demand = demand;
+    this.collision =
+      demand === null
+        ? null
+        : {
+            bound: (wish, nowMs) => {
+              this.#hear(demand, nowMs);
+              return demand.bound(wish, nowMs);
+            },
+          };
+    this.#start();
+    this.#checking = setInterval(() => this.#check(), CHECK_MS);
+  }
+
+  /** The grids of the scans, in their order. */
+  get readers(): readonly SharedGridReader[] {
+    return this.#readers;
+  }
+
+  /** What the collision topic says; `null` if there is none. */
+  collisionState(nowMs: number): CollisionState | null {
+    if (this.#demand === null) return null;
+    this.#hear(this.#demand, nowMs);
+    return this.#demand.state(nowMs);
+  }
+
+  /** Odometry came. */
+  moved(pose: FloorPose, twist: Readonly<Twist>, atMs: number): void {
+    if (this.topics.length > 0) this.#post({ type: 'pose', pose, twist, atMs });
+  }
+
+  async close(): Promise<void> {
+    this.#closing = true;
+    clearInterval(this.#checking);
+    if (this.#retry !== null) clearTimeout(this.#retry);
+    this.#post({ type: 'close' });
+    const worker = this.#worker;
+    const late = setTimeout(() => void worker?.terminate(), CLOSE_MS);
+    await this.#ended;
+    clearTimeout(late);
+  }
+
+  #hear(demand: CollisionDemand, nowMs: number): void {
+    const heard = this.#cells.read(nowMs);
+    if (heard === null) return;
+    if (heard.publishers === 0) demand.lose();
+    else demand.hear(heard.mostMps, heard.atMs);
+  }
+
+  #start(): void {
+    const { graph, scans, shape, odometry, clearanceM, heightM, collision } = this.#plan;
+    this.#retry = null;
+    // What a thread that has ended left behind is not read any more.
+    this.#cells = new CollisionCells();
+    this.#beat = new SinkBeat();
+    this.#startedMs = monotonicMs();
+    const memories = scans.map(() => makeSharedGrid(shape));
+    this.#readers = memories.map((memory) => new SharedGridReader(memory, shape));
+    const workerData: GuardTopicsSetup = {
+      graph,
+      scans: scans.map(({ topic, mount }, i) => {
+        const memory = memories[i] as SharedArrayBuffer;
+        return { topic, guard: { memory, shape, mount, odometry, clearanceM, heightM } };
+      }),
+      collision: collision === null ? null : { ...collision, cells: this.#cells.memory },
+      beat: this.#beat.memory,
+    };
+    const worker = new Worker(this.#thread, { name: 'guard topics', workerData });
+    this.#worker = worker;
+    worker.on('message', (report: GuardTopicsReport) => this.#onReport(report));
+    worker.on('error', (error: unknown) =>
+      this.#tell(error instanceof Error ? error.message : String(error)),
+    );
+    this.#ended = new Promise((resolve) => worker.once('exit', resolve));
+    worker.once('exit', () => this.#onExit());
+  }
+
+  #onReport(report: GuardTopicsReport): void {
+    if (report.type === 'changed') this.onChange?.();
+    else if (report.type === 'failed') this.#tell(report.detail);
+    else this.#log.warn({ detail: report.detail }, 'a topic of the obstacle guard has a fault');
+  }
+
+  #onExit(): void {
+    this.#worker = null;
+    if (this.#closing) return;
+    this.#demand?.lose();
+    this.#cells = new CollisionCells();
+    this.onChange?.();
+    if (monotonicMs() - this.#startedMs > WELL_MS) this.#backoff.reset();
+    const inMs = this.#backoff.nextMs();
+    this.#log.error(
+      { inMs: Math.round(inMs) },
+      'the thread that hears the obstacle guard’s topics has ended: starting another',
+    );
+    this.restarts++;
+    this.#retry = setTimeout(() => this.#start(), inMs);
+  }
+
+  #check(): void {
+    if ((this.#beat.silentMs(monotonicMs()) ?? 0) > REPLACE_MS) void this.#worker?.terminate();
+  }
+
+  #tell(detail: string): void {
+    this.#log.error({ detail }, 'the obstacle guard’s topics cannot be heard');
+  }
+
+  #post(request: GuardTopicsRequest): void {
+    this.#worker?.postMessage(request);
+  }
+}
