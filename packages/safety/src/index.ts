@@ -9,6 +9,7 @@ export * from './motion/blind-travel.ts';
 export * from './motion/motion-guard.ts';
 export * from './motion/motion-supervisor.ts';
 export * from './motion/operator-view.ts';
+export * from './motion/unattended-drive.ts';
 export * from './motion/velocity-ramp.ts';
 export * from './motion/view-age.ts';
 export * from './obstacles/footprint.ts';
@@ -20,5 +21,7 @@ export {
 export * from './obstacles/sensor-grid.ts';
 export * from './queueing-delay.ts';
 export * from './rejection-reporter.ts';
+export * from './return/return-drive.ts';
+export { defaultReturnOptions, type ReturnOptions } from './return/return-options.ts';
 export * from './robot-stop.ts';
 export * from './watchdog.ts';
