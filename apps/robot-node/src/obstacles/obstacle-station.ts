@@ -1,6 +1,13 @@
 /** The main thread's obstacle guard: reads the capture threads' grids and odometry, and bounds the motion. */
 import type { ObstacleGuardState, Twist } from '@farpoint/protocol';
-import { Footprint, FREE, type MotionBound, type MotionGuard, ObstacleGuard } from '@farpoint/safety';
+import {
+  Footprint,
+  FREE,
+  type Lookout,
+  type MotionBound,
+  type MotionGuard,
+  ObstacleGuard,
+} from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import type { TimedBaseState } from '../base/base.ts';
 import type { Capture } from '../capture/capture.ts';
@@ -13,7 +20,7 @@ export interface ObstacleStationOptions {
   captures: readonly Pick<Capture, 'guard'>[];
 }
 
-export class ObstacleStation implements MotionGuard {
+export class ObstacleStation implements MotionGuard, Lookout {
   readonly #options: ObstacleStationOptions;
   /** `null` if it is off. */
   readonly #guard: ObstacleGuard | null;
@@ -57,6 +64,15 @@ export class ObstacleStation implements MotionGuard {
     if (driven === this.#driven) return;
     this.#driven = driven;
     for (const { sensor } of this.#options.grids) this.#options.captures[sensor]?.guard(driven);
+  }
+
+  live(nowMs: number): boolean {
+    this.#readGrids();
+    return this.#guard?.live(nowMs) === true;
+  }
+
+  sees(wish: Readonly<Twist>, nowMs: number): boolean {
+    return this.#guard?.sees(wish, nowMs) === true;
   }
 
   bound(wish: Readonly<Twist>, nowMs: number): Readonly<MotionBound> {

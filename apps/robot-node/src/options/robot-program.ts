@@ -16,6 +16,7 @@ import { networkOptions } from './network.ts';
 import { picturesOptions } from './pictures.ts';
 import { playbackOptions } from './playback.ts';
 import { recordingOptions } from './recording.ts';
+import { returnOptions } from './return.ts';
 import { rosOptions } from './ros.ts';
 import { shmOptions } from './shm.ts';
 import { signalingOptions } from './signaling.ts';
@@ -47,6 +48,7 @@ const options = {
   ...stopsOptions,
   ...fenceOptions,
   ...guardOptions,
+  ...returnOptions,
   ...stateOptions,
   ...streamOptions,
   ...picturesOptions,

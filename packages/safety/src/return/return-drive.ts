@@ -107,11 +107,12 @@ export class ReturnDrive implements UnattendedDrive {
     return { phase, metres: this.#metres, ...(this.#end === null ? {} : { end: this.#end }) };
   }
 
-  /** A message came from an operator's live session. */
-  heard(nowMs: number): void {
-    this.#heardMs = Math.max(this.#heardMs, nowMs);
-    if (this.isActive) this.#finish('service-back', nowMs);
-    else if (this.#phase === 'waiting') this.#become('standby', nowMs);
+  /** An operator's live session was heard. @param atMs what is not newer than what is known changes nothing */
+  heard(atMs: number): void {
+    if (!(atMs > this.#heardMs)) return;
+    this.#heardMs = atMs;
+    if (this.isActive) this.#finish('service-back', atMs);
+    else if (this.#phase === 'waiting') this.#become('standby', atMs);
   }
 
   /** Odometry came: the pose of base_link, and when it was measured. */
