@@ -11,6 +11,7 @@ import type { ObstacleGuardConfiguration } from './obstacles/guarded-sensors.ts'
 import type { SoundOptions } from './options/sound.ts';
 import type { ConfiguredVideo } from './options/videos.ts';
 import type { PicturePolicy } from './pictures/picture-plan.ts';
+import type { ReturnConfiguration } from './return/return-configuration.ts';
 import type { CloudSensorOptions } from './sensors/cloud-sensor.ts';
 import type { SignalingOptions } from './signaling/signaling-client.ts';
 import type { RobotStopsOptions } from './stops/open-stops.ts';
@@ -58,6 +59,8 @@ export interface RobotOptions extends RateControlOptions {
   afterGap: AfterGap;
   /** Where it may go; if undefined, anywhere. */
   fence?: FenceOptions | undefined;
+  /** How it drives back by itself when it hears no operator; if undefined, never. */
+  returns?: ReturnConfiguration | undefined;
   /** The stops at the robot itself. */
   stops: RobotStopsOptions;
   /** Where the robot remembers its emergency stop and revoked grants across restarts. */

@@ -10,8 +10,7 @@ import { openBroadcast } from './broadcast/open-broadcast.ts';
 import type { Capture } from './capture/capture.ts';
 import { monotonicMs, threadCpuMs } from './clock.ts';
 import type { DriveStation } from './drive/drive-station.ts';
-import type { EstopJournal } from './drive/estop-journal.ts';
-import { openDrive } from './drive/open-drive.ts';
+import { type Drive, openDrive } from './drive/open-drive.ts';
 import type { VelocitySink } from './drive/velocity-sink.ts';
 import { openReferenceProfile } from './reference/open-reference-profile.ts';
 import type { ReferenceProfile } from './reference/reference-profile.ts';
@@ -50,6 +49,7 @@ export class Robot {
   readonly base: BaseThread | null;
   readonly drive: DriveStation;
   readonly obstacles: RobotParts['obstacles'];
+  readonly driving: Drive;
   readonly sink: VelocitySink;
   readonly signaling: SignalingClient;
   readonly counters = new RobotCounters();
@@ -68,7 +68,6 @@ export class Robot {
   readonly #options: RobotOptions;
   readonly #log: Logger;
   readonly #logs: MeasurementLogs;
-  readonly #estop: EstopJournal;
   readonly #host: RobotSessionHost;
   readonly #sendLoop = new SendLoop(monotonicMs, threadCpuMs);
   readonly #paths: PathKeeper;
@@ -82,18 +81,19 @@ export class Robot {
   #failed = false;
 
   private constructor(parts: RobotParts, options: RobotOptions, log: Logger) {
-    const { captures, obstacles, base, sink, recording, videos, grants, robotKey, audit } = parts;
+    const { captures, base, sink, recording, videos, grants, robotKey, audit } = parts;
     [this.recording, this.sink, this.base, this.#options, this.#log] = [recording, sink, base, options, log];
     const capture = captures[0] as Capture;
     this.#board = openBoard(options, capture, recording, log);
     this.#logs = new MeasurementLogs(options);
     const count = (reason: Intervention) => this.counters.interventions.add(reason);
     const state = () => this.#state;
-    const { station, estop, status, fix } = openDrive(options, { ...parts, state, count, log });
-    [this.obstacles, this.#estop, this.drive] = [obstacles, estop, station];
-    const { guard } = station;
+    const heard = () => [...this.operators.values(), this.reference?.operator];
+    this.driving = openDrive(options, { ...parts, state, heard, count, log });
+    const { station, estop, status, fix } = this.driving;
+    [this.drive, this.obstacles] = [station, parts.obstacles];
     this.#host = new RobotSessionHost({
-      ...{ drive: this.drive, estop: this.#estop, counters: this.counters, recording, audit, log },
+      ...{ drive: this.drive, estop, counters: this.counters, recording, audit, log },
       commandLog: this.#logs.commands,
       operators: () => this.operators,
       sensors: () => this.sensors,
@@ -150,7 +150,7 @@ export class Robot {
       {
         targets: () => [...watching(), ...(this.reference?.targets ?? [])],
         ...{ sendLoop: this.#sendLoop, counters: this.counters, frameLog: this.#logs.frames },
-        driver: () => guard.leaseHolder,
+        driver: () => station.guard.leaseHolder,
         onFrame: (frame) => recording?.frame(frame),
         wantedAnyway: () => recording?.wantsClouds === true,
         stages,
@@ -170,7 +170,7 @@ export class Robot {
     recording?.cameras(capture.cameras, videos, (video) => this.cameras.videos.requestKeyFrame(video));
     const shared = {
       targets: () => this.operators.values(),
-      driver: () => guard.leaseHolder,
+      driver: () => station.guard.leaseHolder,
       onFrame: () => this.#sendLoop.run(),
       log,
     };
@@ -243,7 +243,7 @@ export class Robot {
 
   /** Stops the wheels first, then ends all sessions and closes everything. */
   async close(): Promise<void> {
-    if (!this.#failed) this.#estop.end();
+    if (!this.#failed) this.driving.estop.end();
     this.drive.guard.latchEstop('robot');
     this.drive.halt();
     clearInterval(this.#ticking);
@@ -287,7 +287,7 @@ export class Robot {
   }
 
   #tick(): void {
-    this.obstacles.update(this.#state, this.drive.guard.leaseHolder !== null);
+    this.driving.tick();
     this.#paths.tick();
     this.sessions.tick();
     this.reference?.tick();

@@ -68,6 +68,13 @@ export async function run(): Promise<void> {
         ok: robot.stops.areWell,
         detail: Object.fromEntries(robot.stops.states),
       }));
+    const { returns } = robot.driving;
+    if (returns !== null)
+      health.add('return', () => {
+        const { phase, end, trackM } = returns.drive;
+        const track = Math.round(trackM * 10) / 10;
+        return { ok: true, detail: { phase, trackM: track, ...(end === null ? {} : { end }) } };
+      });
     health.add('operators', () => ({ ok: true, detail: { connected: robot.operators.size } }));
     const { recording } = robot;
     // A robot drives without viewers.

@@ -15,6 +15,8 @@ export const auditKinds = [
   'lease-expired', // the driver was silent for too long
   'estop-latched',
   'estop-released',
+  'return-began', // a robot without operators drives back by itself
+  'return-ended', // with the reason; perhaps before it has begun
   'refused',
   // About the log itself:
   'torn-entry', // the program ended while it wrote; the bytes before this entry are what it left

@@ -33,6 +33,7 @@ export * from './quantity.ts';
 export * from './reading.ts';
 export * from './reference-bridge.ts';
 export * from './reference-control.ts';
+export * from './return-state.ts';
 export * from './role.ts';
 export { MAX_RINGS, type SensorRings } from './sensor-rings.ts';
 export * from './sequence.ts';

@@ -1,6 +1,7 @@
 /** What a robot makes of its driver's wish: how much of it, and why not all. Part of the telemetry. */
 import * as z from 'zod/mini';
 import { type Intervention, interventions } from './interventions.ts';
+import { type ReturnState, returnStateSchema } from './return-state.ts';
 
 /** Whether the robot looks where it goes. */
 export const obstacleGuardStates = [
@@ -27,6 +28,8 @@ export interface MotionState {
   viewAgeMs?: number | undefined;
   /** Whether the robot looks where it goes. Left out by robots that cannot. */
   obstacleGuard?: ObstacleGuardState | undefined;
+  /** That it drives back by itself, or has done so since somebody last drove it. */
+  return?: ReturnState | undefined;
 }
 
 const nonNegative = z.number().check(z.minimum(0));
@@ -37,4 +40,5 @@ export const motionStateSchema = z.strictObject({
   mostLinear: nonNegative,
   viewAgeMs: z.optional(nonNegative),
   obstacleGuard: z.optional(z.enum(obstacleGuardStates)),
+  return: z.optional(returnStateSchema),
 }) satisfies z.ZodMiniType<MotionState>;

@@ -699,6 +699,15 @@ for guard in ["on", "blind", "off"]:
 for reason in ["view-unknown", "view-late", "view-lost", "blind-travel", "obstacle-near", "obstacle", "drop-off",
                "unseen-space", "sensor-silent", "collision-topic", "collision-silent", "fence-near", "fence"]:
     telemetry.good({**state, "motion": {**motion, "reasons": [reason]}}, "telemetry: " + reason)
+for told in [{"phase": "announcing", "metres": 0}, {"phase": "returning", "metres": 2.75}]:
+    telemetry.good({**state, "motion": {**motion, "return": told}}, "telemetry: return " + told["phase"])
+for end in ["service-back", "estop", "track-end", "no-track", "off-track", "odometry-silent", "sensor-silent", "unseen", "blocked",
+            "no-wheels", "too-long"]:
+    telemetry.good({**state, "motion": {**motion, "return": {"phase": "ended", "metres": 4.5, "end": end}}}, "telemetry: return ended, " + end)
+returned = {**state, "motion": {**motion, "return": {"phase": "ended", "metres": 4.5, "end": "blocked"}}}
+telemetry.spoil(returned, ("motion.return.phase", "waiting"), ("motion.return.phase", "returning", "motion.return.end"),
+                ("motion.return.end", ABSENT), ("motion.return.end", "fear"), ("motion.return.metres", -1),
+                ("motion.return.metres", ABSENT), ("motion.return.more", 1, "motion.return"))
 telemetry.spoil({**state, "motion": motion}, ("motion.factor", 1.01), ("motion.factor", -0.1), ("motion.reasons", ["fear"], "motion.reasons.0"),
                 ("motion.reasons", ["fence"] * 40), ("motion.mostLinear", -1), ("motion.mostLinear", ABSENT), ("motion.viewAgeMs", -1),
                 ("motion.obstacleGuard", "sleeping"), ("motion.more", 1, "motion"))

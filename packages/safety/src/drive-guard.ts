@@ -126,6 +126,11 @@ export class DriveGuard {
     this.#askWheels = fault;
   }
 
+  /** Whether something takes the velocities, as {@link velocityAt} found last. */
+  get hasWheels(): boolean {
+    return this.#hadWheels;
+  }
+
   /**
    * Whoever moves the robot now must let go once before it moves again.
    *
@@ -272,9 +277,7 @@ export class DriveGuard {
 
   #lookAtWheels(): string | null {
     const fault = this.#askWheels();
-    if (fault !== null && this.#hadWheels) {
-      this.demandLetGo(WITHOUT_WHEELS);
-    }
+    if (fault !== null && this.#hadWheels) this.demandLetGo(WITHOUT_WHEELS);
     this.#hadWheels = fault === null;
     return fault;
   }

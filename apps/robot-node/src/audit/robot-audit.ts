@@ -1,5 +1,5 @@
 import { type Audit, type AuditEvent, type AuditSubject, noAudit, shortHash } from '@farpoint/audit';
-import type { EstopState } from '@farpoint/protocol';
+import type { EstopState, ReturnEnd } from '@farpoint/protocol';
 import type { RobotStop, RobotStopState } from '@farpoint/safety';
 import type { Access } from '../access/access.ts';
 
@@ -94,6 +94,12 @@ export class RobotAudit {
   robotStop(stop: RobotStop, said: RobotStopState, { latched }: EstopState): void {
     if (said !== 'go') this.#record({ kind: 'estop-latched', details: { by: 'robot', stop, said } });
     else if (!latched) this.#record({ kind: 'estop-released', details: { by: 'robot', stop } });
+  }
+
+  /** The robot drives back by itself, or no longer. @param end why no longer; `null`: it begins */
+  returned(end: ReturnEnd | null, metres: number): void {
+    if (end === null) this.#record({ kind: 'return-began' });
+    else this.#record({ kind: 'return-ended', details: { because: end, metres } });
   }
 
   /** The emergency stop outlives the last run. */

@@ -1,4 +1,4 @@
-import type { DriveState, MotionState, ObstacleGuardState } from '@farpoint/protocol';
+import type { DriveState, MotionState, ObstacleGuardState, ReturnState } from '@farpoint/protocol';
 import type { BlindTravel, MotionSupervisor } from '@farpoint/safety';
 
 /** What operators are told of the robot's motion. */
@@ -6,16 +6,22 @@ export class MotionStatus {
   readonly #motion: MotionSupervisor;
   readonly #blindTravel: BlindTravel | null;
   readonly #obstacleGuard: (() => ObstacleGuardState) | null;
+  readonly #returns: (() => ReturnState | undefined) | null;
 
-  /** @param obstacleGuard whether the robot looks where it goes; `null` if it cannot */
+  /**
+   * @param obstacleGuard whether the robot looks where it goes; `null` if it cannot
+   * @param returns what it does without operators; `null`: nothing
+   */
   constructor(
     motion: MotionSupervisor,
     blindTravel: BlindTravel | null,
     obstacleGuard: (() => ObstacleGuardState) | null = null,
+    returns: (() => ReturnState | undefined) | null = null,
   ) {
     this.#motion = motion;
     this.#blindTravel = blindTravel;
     this.#obstacleGuard = obstacleGuard;
+    this.#returns = returns;
   }
 
   /** @param contact whether the base touches an obstacle */
@@ -31,6 +37,7 @@ export class MotionStatus {
     const ageMs = guard.view.worstAgeMs(nowMs);
     // Clouds are judged while somebody drives.
     const seen = this.#obstacleGuard?.();
+    const returns = this.#returns?.();
     const looks = seen === 'blind' && guard.leaseHolder === null ? 'on' : seen;
     return {
       factor,
@@ -38,6 +45,7 @@ export class MotionStatus {
       mostLinear: Math.min(guard.limits.maxLinear, mostMps),
       ...(ageMs === null ? {} : { viewAgeMs: Math.max(0, Math.round(ageMs)) }),
       ...(looks === undefined ? {} : { obstacleGuard: looks }),
+      ...(returns === undefined ? {} : { return: returns }),
     };
   }
 }

@@ -15,6 +15,9 @@ import { monotonicMs } from '../clock.ts';
 import type { FixPosition } from '../geofence/fix-position.ts';
 import { type FenceOptions, openGeofence } from '../geofence/open-geofence.ts';
 import type { ObstacleStation } from '../obstacles/obstacle-station.ts';
+import { type HeardOperator, newestHeardMs } from '../return/newest-heard.ts';
+import type { ReturnConfiguration } from '../return/return-configuration.ts';
+import { ReturnStation } from '../return/return-station.ts';
 import { isConfigured, type RobotStopsOptions } from '../stops/open-stops.ts';
 import type { SessionRecording } from '../telemetry/session-recording.ts';
 import { DriveStation } from './drive-station.ts';
@@ -33,6 +36,8 @@ export interface DriveOptions {
   afterGap: AfterGap;
   /** Where the robot may move; `null` for everywhere. */
   fence?: FenceOptions | null | undefined;
+  /** How it drives back by itself; if undefined, never. */
+  returns?: ReturnConfiguration | undefined;
   /** The stops at the robot itself. */
   stops: RobotStopsOptions;
   /** Where the robot remembers its emergency stop across restarts. */
@@ -48,6 +53,8 @@ export interface DriveParts {
   obstacles: ObstacleStation;
   /** The newest of the base; `null` before the first. */
   state: () => TimedBaseState | null;
+  /** All operators. */
+  heard: () => Iterable<HeardOperator | null | undefined>;
   /** Counts the beginning of each intervention. */
   count: (reason: Intervention) => void;
   log: Logger;
@@ -60,6 +67,10 @@ export interface Drive {
   status: MotionStatus;
   /** Takes the robot's readings, where the fence needs a satellite receiver's; `null` if it does not. */
   fix: FixPosition | null;
+  /** What drives the robot back by itself; `null`: nothing. */
+  returns: ReturnStation | null;
+  /** Call this every 25 ms. */
+  tick: () => void;
 }
 
 /**
@@ -68,7 +79,7 @@ export interface Drive {
  */
 export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
   const { limits, motion, takePolicy, estopRelease, afterGap } = options;
-  const { base, sink, recording, audit, obstacles, state, count, log } = parts;
+  const { base, sink, recording, audit, obstacles, state, heard, count, log } = parts;
   const fence = options.fence == null ? null : openGeofence(options.fence, state, base !== null);
   const letGo = afterGap === 'let-go';
   const guard = new DriveGuard({
@@ -78,14 +89,20 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
   });
   const { view, ramps } = motion;
   const blindTravel = view === null ? null : new BlindTravel(guard.view, view);
+  const returns =
+    options.returns === undefined
+      ? null
+      : new ReturnStation(options.returns, {
+          ...{ limits, lookout: obstacles, isSimulated: base !== null, audit, log },
+        });
   const supervisor = new MotionSupervisor(guard, {
     ramps,
-    guards: [
+    guards: [...obstacles.guards, ...(fence === null ? [] : [fence.geofence])],
+    driverGuards: [
       ...(view === null ? [] : [new ViewAge(guard.view, view)]),
       ...(blindTravel === null ? [] : [blindTravel]),
-      ...obstacles.guards,
-      ...(fence === null ? [] : [fence.geofence]),
     ],
+    unattended: returns?.drive ?? null,
     ...(letGo ? { letGoAfter: { 'view-lost': 'what you saw was too old' } } : {}),
   });
   const report = new InterventionReport(log, count);
@@ -103,8 +120,19 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
   return {
     station,
     estop: openJournal(guard, options, audit, log),
-    status: new MotionStatus(supervisor, blindTravel, () => obstacles.state(monotonicMs())),
+    status: new MotionStatus(
+      supervisor,
+      blindTravel,
+      () => obstacles.state(monotonicMs()),
+      () => returns?.told,
+    ),
     fix: fence?.fix ?? null,
+    returns,
+    tick: () => {
+      const newest = state();
+      obstacles.update(newest, guard.leaseHolder !== null || returns?.drive.isActive === true);
+      if (returns?.update(newest, newestHeardMs(heard())) === true) station.apply();
+    },
   };
 }
 

@@ -1,6 +1,13 @@
 /** The main thread's obstacle guard: reads the sensors' grids and odometry, and bounds the motion. */
 import type { Intervention, ObstacleGuardState, Twist } from '@farpoint/protocol';
-import { Footprint, FREE, type MotionBound, type MotionGuard, ObstacleGuard } from '@farpoint/safety';
+import {
+  Footprint,
+  FREE,
+  type Lookout,
+  type MotionBound,
+  type MotionGuard,
+  ObstacleGuard,
+} from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import type { TimedBaseState } from '../base/base.ts';
 import type { Capture } from '../capture/capture.ts';
@@ -20,7 +27,7 @@ export interface ObstacleStationOptions {
   topics?: GuardTopics | null;
 }
 
-export class ObstacleStation implements MotionGuard {
+export class ObstacleStation implements MotionGuard, Lookout {
   readonly topics: GuardTopics | null;
   /** All that bounds the motion by what is around the robot. */
   readonly guards: readonly MotionGuard[];
@@ -96,6 +103,15 @@ export class ObstacleStation implements MotionGuard {
     if (driven === this.#driven) return;
     this.#driven = driven;
     for (const { sensor } of this.#options.grids) this.#options.captures[sensor]?.guard(driven);
+  }
+
+  live(nowMs: number): boolean {
+    this.#readGrids();
+    return this.#guard?.live(nowMs) === true;
+  }
+
+  sees(wish: Readonly<Twist>, nowMs: number): boolean {
+    return this.#guard?.sees(wish, nowMs) === true;
   }
 
   bound(wish: Readonly<Twist>, nowMs: number): Readonly<MotionBound> {

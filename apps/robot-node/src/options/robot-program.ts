@@ -17,6 +17,7 @@ import { networkOptions } from './network.ts';
 import { picturesOptions } from './pictures.ts';
 import { playbackOptions } from './playback.ts';
 import { recordingOptions } from './recording.ts';
+import { returnOptions } from './return.ts';
 import { rosOptions } from './ros.ts';
 import { shmOptions } from './shm.ts';
 import { signalingOptions } from './signaling.ts';
@@ -49,6 +50,7 @@ const options = {
   ...fenceOptions,
   ...guardOptions,
   ...guardTopicsOptions,
+  ...returnOptions,
   ...stateOptions,
   ...streamOptions,
   ...picturesOptions,

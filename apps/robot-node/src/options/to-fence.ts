@@ -2,6 +2,7 @@ import { topicAs } from '@farpoint/ros';
 import { defaultGeofenceOptions, EarthFrame, type Fence, FenceError, parseFence } from '@farpoint/safety';
 import { SIM_FIX } from '../base/sim-topics.ts';
 import type { FenceOptions } from '../geofence/open-geofence.ts';
+import { hasOdometry } from './odometry.ts';
 import { readText } from './read-text.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 
@@ -55,11 +56,4 @@ export function toFence(
       maxAgeMs: values.fenceMaxAgeMs,
     },
   };
-}
-
-/** Whether the robot is told its pose and its velocity, and when they were measured. */
-function hasOdometry({ source, topics }: RobotOptionValues): boolean {
-  if (source === 'sim') return true;
-  const type = topicAs(topics, 'pose')?.type ?? '';
-  return (source === 'ros1' || source === 'ros2') && /^nav_msgs\/(msg\/)?Odometry$/.test(type);
 }

@@ -113,7 +113,12 @@ export class ReferenceOperator implements FrameTarget {
   }
 
   silentMs(nowMs: number): number {
-    return nowMs - Math.max(this.#heardMs, this.sender?.heardMs ?? 0);
+    return nowMs - this.heardMs;
+  }
+
+  /** When the operator was last heard from, ms on the robot's clock. */
+  get heardMs(): number {
+    return Math.max(this.#heardMs, this.sender?.heardMs ?? 0);
   }
 
   enqueue(shared: SharedFrame): void {

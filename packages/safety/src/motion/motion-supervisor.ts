@@ -1,12 +1,13 @@
 import { type Intervention, isZeroTwist, type Twist, zeroTwist } from '@farpoint/protocol';
 import type { DriveGuard } from '../drive-guard.ts';
 import type { MotionGuard } from './motion-guard.ts';
+import type { UnattendedDrive } from './unattended-drive.ts';
 import { NO_RAMPS, type RampLimits, VelocityRamp } from './velocity-ramp.ts';
 
 /** What the robot does (docs/safety.md draws the transitions). */
 export type MotionPhase =
   | 'standing' // nothing asks for motion
-  | 'driving' // it follows the driver, or ramps towards what is asked
+  | 'driving' // it follows the driver or its own way back, or ramps towards what is asked
   | 'limited' // it follows more slowly than asked
   | 'braking' // it slows down to stand still
   | 'held' // it stands still although the driver asks for motion
@@ -24,6 +25,10 @@ export interface MotionDecision {
 export interface MotionSupervisorOptions {
   /** Bounds on motion; the strictest counts. */
   guards?: readonly MotionGuard[];
+  /** Further bounds on what a driver asks for: what follows from what it sees. */
+  driverGuards?: readonly MotionGuard[];
+  /** Moves the robot while no driver does. */
+  unattended?: UnattendedDrive | null;
   ramps?: RampLimits;
   /** Wheels that are told nothing for this long stop by themselves, ms; default the watchdog's time. */
   staleMs?: number;
@@ -37,8 +42,11 @@ const NONE: readonly Intervention[] = Object.freeze([]);
  * Has the last word on the robot's velocity: what the drive guard lets through, bounded by the strictest of the motion
  * guards, ramped. Times are the robot's monotonic clock in ms.
  *
+ * While no driver moves the robot, nobody holds the lease, no emergency stop is latched and something takes the velocities,
+ * an unattended drive may; when it ends, the robot brakes as hard as allowed.
+ *
  * These invariants hold for any sequence of calls:
- * - no component of the velocity exceeds that of the driver's wish, except while the ramp leads it there;
+ * - no component of the velocity exceeds that of the wish, except while the ramp leads it there;
  * - the velocity changes no faster than the ramps allow, and goes towards zero from the moment that anything demands a
  *   stop, however the wish changes;
  * - linear and angular velocity are bounded alike: the robot leaves its arc only while it ramps.
@@ -47,7 +55,12 @@ export class MotionSupervisor {
   readonly guard: DriveGuard;
   /** Called at the beginning of each intervention. */
   onIntervention: ((reason: Intervention, nowMs: number) => void) | null = null;
+  /** For a driver's wish, and for others. */
+  readonly #allGuards: readonly MotionGuard[];
   readonly #guards: readonly MotionGuard[];
+  readonly #unattended: UnattendedDrive | null;
+  /** Whether an unattended drive gave the robot the velocity that it has. */
+  #unattendedMoves = false;
   readonly #ramp: VelocityRamp;
   readonly #letGoAfter: Readonly<Partial<Record<Intervention, string>>>;
   #phase: MotionPhase = 'standing';
@@ -60,6 +73,8 @@ export class MotionSupervisor {
   constructor(guard: DriveGuard, options: MotionSupervisorOptions = {}) {
     this.guard = guard;
     this.#guards = options.guards ?? [];
+    this.#allGuards = [...(options.driverGuards ?? []), ...this.#guards];
+    this.#unattended = options.unattended ?? null;
     this.#ramp = new VelocityRamp(options.ramps ?? NO_RAMPS, options.staleMs ?? guard.limits.watchdogMs);
     this.#letGoAfter = Object.freeze({ ...options.letGoAfter });
   }
@@ -67,16 +82,20 @@ export class MotionSupervisor {
   /** The velocity for the wheels now. Call it at every change of the guard, and at short intervals while {@link ramping}. */
   velocityAt(nowMs: number): Twist {
     // Before the wish is read: asking for it may halt the guard.
-    const asked = this.guard.velocityAt(nowMs);
+    const wish = this.guard.velocityAt(nowMs);
+    const own = this.#unattendedWish(!isZeroTwist(wish), nowMs);
+    const asked = own ?? wish;
     const moving = !isZeroTwist(asked);
     // Also for a wish to stand still: the ordinary ramp may take too long for a guard.
-    const bounds = this.#ask(asked, nowMs);
+    const bounds = this.#ask(asked, own === null ? this.#allGuards : this.#guards, nowMs);
     const found = moving ? bounds : null;
     const factor = found?.factor ?? 1;
-    const urgent = bounds?.urgent === true || (!moving && this.guard.stopsUrgently(nowMs));
+    const stops = !moving && (this.#unattendedMoves || this.guard.stopsUrgently(nowMs));
+    const urgent = bounds?.urgent === true || stops;
     const target = scaled(asked, factor);
     const twist = this.#ramp.step(target, urgent, nowMs);
     this.#ramping = this.#ramp.differs(target);
+    this.#unattendedMoves = moving ? own !== null : this.#unattendedMoves && !isZeroTwist(twist);
     if (moving) this.#stopped = null;
     this.#tell(found?.reasons ?? this.#lasting(), nowMs);
     this.#decide(moving || this.#stopped !== null, factor, isZeroTwist(twist), isZeroTwist(target));
@@ -99,11 +118,24 @@ export class MotionSupervisor {
     this.#ramping = false;
   }
 
-  #ask(asked: Twist, nowMs: number): { factor: number; urgent: boolean; reasons: Intervention[] } | null {
+  #unattendedWish(driven: boolean, nowMs: number): Twist | null {
+    if (this.#unattended === null) return null;
+    const { leaseHolder, hasWheels } = this.guard;
+    const { latched } = this.guard.estopState();
+    const leased = leaseHolder !== null;
+    const wish = this.#unattended.wishAt(nowMs, { driven, leased, latched, wheels: hasWheels });
+    return driven || leased || latched || !hasWheels ? null : wish;
+  }
+
+  #ask(
+    asked: Twist,
+    guards: readonly MotionGuard[],
+    nowMs: number,
+  ): { factor: number; urgent: boolean; reasons: Intervention[] } | null {
     let factor = 1;
     let urgent = false;
     let reasons: Intervention[] | null = null;
-    for (const each of this.#guards) {
+    for (const each of guards) {
       const bound = each.bound(asked, nowMs);
       if (bound.reason === null) continue;
       // A guard that fails to count must not set the robot free.

@@ -86,6 +86,21 @@ export class ObstacleGuard implements MotionGuard {
     return this.#lastMs.every((lastMs) => this.#isSilent(lastMs, nowMs));
   }
 
+  /** Whether every sensor gives clouds, and odometry a pose. */
+  live(nowMs: number): boolean {
+    return this.#map.placed && !this.#someSilent(nowMs, true);
+  }
+
+  /** Whether the floor is known on the arc of a wish, as far as the robot goes before it stands. Changes nothing. */
+  sees(wish: Readonly<Twist>, nowMs: number): boolean {
+    const placed = this.#map.placed;
+    const { reactionMs, braking, timeToCollisionMs } = this.#options;
+    const horizonS = Math.max(reactionMs + 500 * slowingS(wish, braking), timeToCollisionMs) / 1000;
+    const pose = this.#whereabouts.at(nowMs, placed);
+    const travel = placed ? 0 : this.#whereabouts.travel(nowMs);
+    return this.#search.look({ pose, wish, horizonS, nowMs, travel }, NARROW).unknownS >= horizonS;
+  }
+
   bound(wish: Readonly<Twist>, nowMs: number): Readonly<MotionBound> {
     const bound = this.#bound(wish, nowMs);
     this.#whereabouts.allowed(wish, bound.factor, nowMs);

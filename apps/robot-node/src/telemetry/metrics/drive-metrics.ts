@@ -1,5 +1,6 @@
 import type { PulledMetrics } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
+import { addReturnMetrics } from './return-metrics.ts';
 
 /** Metrics of commands and the guard's verdicts. */
 export function addDriveMetrics(metrics: PulledMetrics, robot: Robot): void {
@@ -23,6 +24,8 @@ export function addDriveMetrics(metrics: PulledMetrics, robot: Robot): void {
   metrics.gauge('robot_stops_well', '1 while every stop at the robot can be read, otherwise 0', () =>
     robot.stops.areWell ? 1 : 0,
   );
+  const { returns } = robot.driving;
+  if (returns !== null) addReturnMetrics(metrics, returns);
   metrics.sum(
     'sink_restarts',
     'Restarts of the thread that publishes velocities',

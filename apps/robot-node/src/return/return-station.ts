@@ -1,0 +1,98 @@
+/** The robot's way back without operators: feeds it, and tells everybody what it does. */
+import type { DriveLimits, ReturnEnd, ReturnState } from '@farpoint/protocol';
+import { type Lookout, ReturnDrive, type ReturnPhase } from '@farpoint/safety';
+import type { Logger } from '@farpoint/service';
+import type { RobotAudit } from '../audit/robot-audit.ts';
+import type { TimedBaseState } from '../base/base.ts';
+import { ReasonCounts } from '../telemetry/robot-counters.ts';
+import { measuredPose } from './measured-pose.ts';
+import type { ReturnConfiguration } from './return-configuration.ts';
+
+/** Odometry may say that the robot is by so much faster than it is allowed to be. */
+const FASTER = 1.5;
+
+export interface ReturnStationParts {
+  /** Of the robot. */
+  limits: Pick<DriveLimits, 'maxLinear' | 'maxAngular'>;
+  lookout: Lookout;
+  /** Whether the base is simulated: then its state was measured at its time. */
+  isSimulated: boolean;
+  audit: Pick<RobotAudit, 'returned'>;
+  log: Pick<Logger, 'info' | 'warn'>;
+}
+
+export class ReturnStation {
+  /** Moves the robot, under the motion supervisor. */
+  readonly drive: ReturnDrive;
+  /** How often the robot has begun to drive back. */
+  begun = 0;
+  /** How often that ended, by reason; a return that never began counts too. */
+  readonly ends = new ReasonCounts();
+  /** Whenever the robot begins or ceases to say that it drives back. */
+  onAnnounce: ((isActive: boolean) => void) | null = null;
+  readonly #configuration: ReturnConfiguration;
+  readonly #parts: ReturnStationParts;
+  #metres = 0;
+
+  constructor(configuration: ReturnConfiguration, parts: ReturnStationParts) {
+    const { maxLinear, maxAngular } = parts.limits;
+    this.#configuration = configuration;
+    this.#parts = parts;
+    const most = { mostMps: maxLinear * FASTER, mostRadps: maxAngular * FASTER };
+    this.drive = new ReturnDrive(configuration.options, most, parts.lookout);
+    this.drive.onPhase = (phase, end) => this.#tell(phase, end);
+  }
+
+  /** What operators are told; undefined if there is nothing to say. */
+  get told(): ReturnState | undefined {
+    return this.drive.told;
+  }
+
+  /** How far the robot has come back by itself, in all, m. */
+  get metres(): number {
+    return this.#metres + (this.drive.isActive ? this.drive.metres : 0);
+  }
+
+  /**
+   * Call this every 25 ms.
+   *
+   * @param state the newest of the base; `null` before the first
+   * @param heardMs when any operator was last heard, robot's clock
+   * @returns whether the robot must stand at once
+   */
+  update(state: TimedBaseState | null, heardMs: number): boolean {
+    const wasActive = this.drive.isActive;
+    this.drive.heard(heardMs);
+    const measured = state === null ? null : measuredPose(state, this.#parts.isSimulated);
+    if (measured !== null) this.drive.moved(measured.pose, measured.measuredMs);
+    return wasActive && !this.drive.isActive;
+  }
+
+  #tell(phase: ReturnPhase, end: ReturnEnd | null): void {
+    const { log, audit } = this.#parts;
+    const { afterMs, announceMs } = this.#configuration.options;
+    const metres = Math.round(this.drive.metres * 100) / 100;
+    switch (phase) {
+      case 'announcing':
+        log.warn(
+          { silentS: afterMs / 1000, inS: announceMs / 1000 },
+          'no operator is heard: the robot will drive back along its track',
+        );
+        break;
+      case 'returning':
+        this.begun++;
+        log.warn({ mostM: Math.round(this.drive.trackM * 100) / 100 }, 'drives back along its track');
+        audit.returned(null, 0);
+        break;
+      case 'ended':
+        this.#metres += this.drive.metres;
+        this.ends.add(end ?? '');
+        log.warn({ end, metres }, 'does not drive back any more');
+        audit.returned(end, metres);
+        break;
+      default:
+        break;
+    }
+    this.onAnnounce?.(this.drive.isActive);
+  }
+}

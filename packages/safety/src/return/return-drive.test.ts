@@ -1,0 +1,263 @@
+import { isZeroTwist } from '@farpoint/protocol';
+import { describe, expect, test } from 'vitest';
+import { FREE } from '../motion/motion-guard.ts';
+import type { ReturnOptions } from './return-options.ts';
+import { ReturningRobot } from './testing/returning-robot.ts';
+
+/** A robot that was driven 3 m, and has lost its driver. */
+function lost(options: Partial<ReturnOptions> = {}): ReturningRobot {
+  const robot = new ReturningRobot(options);
+  robot.connect();
+  robot.drive(0.5, 0, 6);
+  robot.lose();
+  return robot;
+}
+
+/** The same, on its way back. */
+function returning(options: Partial<ReturnOptions> = {}): ReturningRobot {
+  const robot = lost(options);
+  robot.wait(15);
+  expect(robot.back.phase).toBe('returning');
+  expect(robot.velocity.linear.x).toBeCloseTo(-0.2);
+  return robot;
+}
+
+function ends(robot: ReturningRobot, end: string): void {
+  expect(robot.back.phase).toBe('ended');
+  expect(robot.back.end).toBe(end);
+  robot.wait(0.1);
+  expect(isZeroTwist(robot.velocity)).toBe(true);
+  const { x } = robot.base.pose;
+  robot.wait(60);
+  expect(robot.base.pose.x).toBe(x);
+}
+
+describe('a robot that has lost its operators', () => {
+  test('waits, says what it will do, and comes back to where it was first driven', () => {
+    const robot = lost();
+    const { x } = robot.base.pose;
+    expect(x).toBeGreaterThan(2.7);
+    robot.wait(2);
+    expect(robot.back.phase).toBe('waiting');
+    expect(robot.back.told).toBe(undefined);
+    robot.wait(8.1);
+    expect(robot.back.phase).toBe('announcing');
+    expect(robot.back.told).toEqual({ phase: 'announcing', metres: 0 });
+    robot.wait(2.9);
+    expect(robot.base.pose.x).toBe(x);
+    robot.wait(1);
+    expect(robot.back.phase).toBe('returning');
+    expect(robot.motion.decision).toEqual({ phase: 'driving', factor: 1, reasons: [] });
+    robot.wait(20);
+    ends(robot, 'track-end');
+    expect(Math.abs(robot.base.pose.x)).toBeLessThan(0.1);
+    expect(robot.back.metres).toBeCloseTo(x, 1);
+    expect(robot.back.told).toEqual({ phase: 'ended', metres: robot.back.metres, end: 'track-end' });
+  });
+
+  test('stays if nobody has driven it', () => {
+    const robot = new ReturningRobot();
+    robot.connect();
+    robot.wait(1);
+    robot.lose();
+    robot.wait(60);
+    expect(robot.back.phase).toBe('standby');
+  });
+
+  test('stays as long as any operator is heard', () => {
+    const robot = lost();
+    for (let i = 0; i < 8; i++) {
+      robot.wait(9);
+      robot.back.heard(robot.nowMs);
+    }
+    expect(robot.back.phase).toBe('standby');
+    robot.wait(10.1);
+    expect(robot.back.phase).toBe('announcing');
+  });
+
+  test('goes no farther than it is allowed to', () => {
+    const robot = lost({ maxM: 1 });
+    const { x } = robot.base.pose;
+    robot.wait(30);
+    ends(robot, 'track-end');
+    expect(x - robot.base.pose.x).toBeGreaterThan(0.8);
+    expect(x - robot.base.pose.x).toBeLessThan(1.05);
+  });
+
+  test('does it once for each drive', () => {
+    const robot = returning();
+    robot.back.heard(robot.nowMs);
+    robot.tick();
+    ends(robot, 'service-back');
+    robot.connect();
+    robot.wait(1);
+    robot.lose();
+    robot.wait(60);
+    expect(robot.back.phase).toBe('ended');
+    robot.connect();
+    robot.drive(0.5, 0, 1);
+    expect(robot.back.told).toBe(undefined);
+    robot.lose();
+    robot.wait(15);
+    expect(robot.back.phase).toBe('returning');
+  });
+});
+
+describe('it stands at once', () => {
+  test('when an operator is heard, also while it only announces', () => {
+    const robot = returning();
+    robot.back.heard(robot.nowMs);
+    robot.tick();
+    expect(robot.velocity.linear.x).toBeGreaterThan(-0.15);
+    ends(robot, 'service-back');
+    const announcing = lost();
+    announcing.wait(11);
+    announcing.back.heard(announcing.nowMs);
+    ends(announcing, 'service-back');
+  });
+
+  test('at the emergency stop, and its release moves nothing', () => {
+    const robot = returning();
+    robot.guard.holdEstop('key');
+    robot.wait(0.1);
+    robot.guard.letGoEstop('key', robot.nowMs);
+    ends(robot, 'estop');
+    const waiting = lost();
+    waiting.wait(5);
+    waiting.guard.holdEstop('key');
+    waiting.wait(0.1);
+    waiting.guard.letGoEstop('key', waiting.nowMs);
+    waiting.wait(60);
+    expect(waiting.back.phase).toBe('standby');
+  });
+
+  test('when somebody takes the lease', () => {
+    const robot = returning();
+    robot.guard.requestLease('other', false, robot.nowMs);
+    robot.wait(0.1);
+    ends(robot, 'service-back');
+  });
+
+  test('when nothing takes the velocities', () => {
+    const robot = returning();
+    robot.wheels = false;
+    robot.tick();
+    robot.wheels = true;
+    ends(robot, 'no-wheels');
+  });
+
+  test('when odometry says nothing, or something else', () => {
+    const robot = returning();
+    robot.odometry = false;
+    robot.wait(0.4);
+    ends(robot, 'odometry-silent');
+    const jumped = returning();
+    jumped.base.pose = { ...jumped.base.pose, x: 0 };
+    jumped.tick();
+    ends(jumped, 'off-track');
+  });
+
+  test('when it is pushed off its track', () => {
+    const robot = returning();
+    for (let i = 0; i < 20; i++) {
+      robot.base.pose = { ...robot.base.pose, y: robot.base.pose.y + 0.02 };
+      robot.tick();
+    }
+    ends(robot, 'off-track');
+  });
+
+  test('when a sensor says nothing, and goes on when it does', () => {
+    const robot = returning();
+    robot.lookout.isLive = false;
+    robot.wait(0.1);
+    expect(isZeroTwist(robot.velocity)).toBe(true);
+    robot.lookout.isLive = true;
+    robot.wait(1);
+    expect(robot.velocity.linear.x).toBeCloseTo(-0.2);
+    robot.lookout.isLive = false;
+    robot.wait(21);
+    ends(robot, 'sensor-silent');
+  });
+
+  test('where no sensor sees, unless it is told otherwise', () => {
+    const robot = returning();
+    robot.lookout.isSeen = false;
+    robot.wait(0.1);
+    expect(isZeroTwist(robot.velocity)).toBe(true);
+    robot.wait(21);
+    ends(robot, 'unseen');
+    const bold = returning({ unseen: 'slow' });
+    bold.lookout.isSeen = false;
+    bold.wait(1);
+    expect(bold.velocity.linear.x).toBeCloseTo(-0.2);
+  });
+
+  test('before somebody in the way; it goes on when the way is free, and gives up after a while', () => {
+    const robot = returning();
+    robot.lookout.says = { factor: 0, reason: 'obstacle', urgent: true };
+    robot.wait(10);
+    expect(isZeroTwist(robot.velocity)).toBe(true);
+    expect(robot.motion.decision).toMatchObject({ phase: 'held', reasons: ['obstacle'] });
+    robot.lookout.says = FREE;
+    robot.wait(1);
+    expect(robot.velocity.linear.x).toBeCloseTo(-0.2);
+    robot.lookout.says = { factor: 0, reason: 'obstacle', urgent: true };
+    robot.wait(21);
+    ends(robot, 'blocked');
+  });
+
+  test('when its wheels do not move it', () => {
+    const robot = returning();
+    const { pose } = robot.base;
+    robot.onTick = () => {
+      robot.base.pose = pose;
+    };
+    robot.wait(21);
+    ends(robot, 'blocked');
+  });
+
+  test('when it was on its way for too long', () => {
+    const robot = lost({ longestMs: 5000 });
+    robot.wait(18.2);
+    ends(robot, 'too-long');
+  });
+});
+
+describe('it does not begin', () => {
+  test.each<[string, string, (robot: ReturningRobot) => void]>([
+    [
+      'while a sensor is silent',
+      'sensor-silent',
+      ({ lookout }) => {
+        lookout.isLive = false;
+      },
+    ],
+    [
+      'without odometry',
+      'odometry-silent',
+      (robot) => {
+        robot.odometry = false;
+      },
+    ],
+    [
+      'while nothing takes the velocities',
+      'no-wheels',
+      (robot) => {
+        robot.wheels = false;
+      },
+    ],
+    [
+      'without a track',
+      'no-track',
+      (robot) => {
+        robot.base.pose = { x: 90, y: 0, yaw: 0 };
+      },
+    ],
+  ])('%s', (_, end, spoil) => {
+    const robot = lost();
+    spoil(robot);
+    robot.wait(15);
+    ends(robot, end);
+    expect(robot.back.metres).toBe(0);
+  });
+});
