@@ -1,10 +1,9 @@
-import { Worker } from 'node:worker_threads';
 import type { Twist } from '@farpoint/protocol';
 import { CollisionDemand, type CollisionState, type FloorPose, type MotionGuard } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
-import { Backoff } from '@farpoint/timing';
 import { monotonicMs } from '../clock.ts';
 import { SinkBeat } from '../drive/sink-beat.ts';
+import { KeptThread } from '../threads/kept-thread.ts';
 import { CollisionCells } from './collision-cells.ts';
 import type {
   GuardTopicsOptions,
@@ -14,16 +13,13 @@ import type {
 } from './guard-topics-messages.ts';
 import { type GridShape, makeSharedGrid, SharedGridReader } from './shared-grid.ts';
 
-const THREAD = new URL('./guard-topics-worker.ts', import.meta.url);
-const FIRST_RETRY_MS = 250;
+const PROGRAM = new URL('./guard-topics-worker.ts', import.meta.url);
 const MOST_RETRY_MS = 5000;
 /** A thread that has lived this long was well: the next wait is short again. */
 const WELL_MS = 10_000;
 /** A thread that gives no sign of life for longer is replaced, ms. */
 const REPLACE_MS = 1000;
 const CHECK_MS = 100;
-/** The time that the thread has to leave the graph, ms. */
-const CLOSE_MS = 1000;
 
 export interface GuardTopicsPlan extends GuardTopicsOptions {
   shape: GridShape;
@@ -42,32 +38,23 @@ export interface GuardTopicsPlan extends GuardTopicsOptions {
 export class GuardTopics {
   /** Called when the motion may be bounded otherwise; it is bounded anew every few milliseconds anyway. */
   onChange: (() => void) | null = null;
-  /** How often the thread was replaced. */
-  restarts = 0;
   readonly topics: readonly string[];
   /** Bounds the motion by what the collision topic demands; `null` if there is none. */
   readonly collision: MotionGuard | null;
   readonly #demand: CollisionDemand | null;
   readonly #plan: GuardTopicsPlan;
   readonly #log: Pick<Logger, 'info' | 'warn' | 'error'>;
-  readonly #thread: URL;
-  readonly #backoff = new Backoff({ firstMs: FIRST_RETRY_MS, mostMs: MOST_RETRY_MS, random: Math.random });
+  readonly #thread: KeptThread<GuardTopicsReport>;
   readonly #checking: NodeJS.Timeout;
   #readers: readonly SharedGridReader[] = [];
   #cells = new CollisionCells();
   #beat = new SinkBeat();
-  #worker: Worker | null = null;
-  #startedMs = 0;
-  #ended: Promise<unknown> = Promise.resolve();
-  #retry: NodeJS.Timeout | null = null;
-  #closing = false;
 
-  /** @param thread the program of the thread; another one in tests */
-  constructor(plan: GuardTopicsPlan, log: Pick<Logger, 'info' | 'warn' | 'error'>, thread = THREAD) {
+  /** @param program of the thread; another one in tests */
+  constructor(plan: GuardTopicsPlan, log: Pick<Logger, 'info' | 'warn' | 'error'>, program = PROGRAM) {
     const { collision, scans, reachM } = plan;
     this.#plan = plan;
     this.#log = log;
-    this.#thread = thread;
     this.topics = scans.map(({ topic }) => topic);
     const demand = collision === null ? null : new CollisionDemand({ ...collision, reachM });
     this.#demand = demand;
@@ -80,8 +67,21 @@ export class GuardTopics {
               return demand.bound(wish, nowMs);
             },
           };
-    this.#start();
+    const closeMessage: GuardTopicsRequest = { type: 'close' };
+    this.#thread = new KeptThread<GuardTopicsReport>({
+      ...{ program, name: 'guard topics', mostRetryMs: MOST_RETRY_MS, wellAfterMs: WELL_MS, closeMessage },
+      data: () => this.#setup(),
+      onReport: (report) => this.#onReport(report),
+      onError: (detail) => this.#tell(detail),
+      onEnd: (inMs) => this.#onEnd(inMs),
+    });
+    this.#thread.start();
     this.#checking = setInterval(() => this.#check(), CHECK_MS);
+  }
+
+  /** How often the thread was replaced. */
+  get restarts(): number {
+    return this.#thread.restarts;
   }
 
   /** The grids of the scans, in their order. */
@@ -101,15 +101,9 @@ export class GuardTopics {
     if (this.topics.length > 0) this.#post({ type: 'pose', pose, twist, atMs });
   }
 
-  async close(): Promise<void> {
-    this.#closing = true;
+  close(): Promise<void> {
     clearInterval(this.#checking);
-    if (this.#retry !== null) clearTimeout(this.#retry);
-    this.#post({ type: 'close' });
-    const worker = this.#worker;
-    const late = setTimeout(() => void worker?.terminate(), CLOSE_MS);
-    await this.#ended;
-    clearTimeout(late);
+    return this.#thread.close();
   }
 
   #hear(demand: CollisionDemand, nowMs: number): void {
@@ -119,16 +113,14 @@ export class GuardTopics {
     else demand.hear(heard.mostMps, heard.atMs);
   }
 
-  #start(): void {
+  #setup(): GuardTopicsSetup {
     const { graph, scans, shape, odometry, clearanceM, heightM, collision } = this.#plan;
-    this.#retry = null;
     // What a thread that has ended left behind is not read any more.
     this.#cells = new CollisionCells();
     this.#beat = new SinkBeat();
-    this.#startedMs = monotonicMs();
     const memories = scans.map(() => makeSharedGrid(shape));
     this.#readers = memories.map((memory) => new SharedGridReader(memory, shape));
-    const workerData: GuardTopicsSetup = {
+    return {
       graph,
       scans: scans.map(({ topic, mount }, i) => {
         const memory = memories[i] as SharedArrayBuffer;
@@ -137,14 +129,6 @@ export class GuardTopics {
       collision: collision === null ? null : { ...collision, cells: this.#cells.memory },
       beat: this.#beat.memory,
     };
-    const worker = new Worker(this.#thread, { name: 'guard topics', workerData });
-    this.#worker = worker;
-    worker.on('message', (report: GuardTopicsReport) => this.#onReport(report));
-    worker.on('error', (error: unknown) =>
-      this.#tell(error instanceof Error ? error.message : String(error)),
-    );
-    this.#ended = new Promise((resolve) => worker.once('exit', resolve));
-    worker.once('exit', () => this.#onExit());
   }
 
   #onReport(report: GuardTopicsReport): void {
@@ -153,24 +137,18 @@ export class GuardTopics {
     else this.#log.warn({ detail: report.detail }, 'a topic of the obstacle guard has a fault');
   }
 
-  #onExit(): void {
-    this.#worker = null;
-    if (this.#closing) return;
+  #onEnd(inMs: number): void {
     this.#demand?.lose();
     this.#cells = new CollisionCells();
     this.onChange?.();
-    if (monotonicMs() - this.#startedMs > WELL_MS) this.#backoff.reset();
-    const inMs = this.#backoff.nextMs();
     this.#log.error(
       { inMs: Math.round(inMs) },
       'the thread that hears the obstacle guard’s topics has ended: starting another',
     );
-    this.restarts++;
-    this.#retry = setTimeout(() => this.#start(), inMs);
   }
 
   #check(): void {
-    if ((this.#beat.silentMs(monotonicMs()) ?? 0) > REPLACE_MS) void this.#worker?.terminate();
+    if ((this.#beat.silentMs(monotonicMs()) ?? 0) > REPLACE_MS) this.#thread.terminate();
   }
 
   #tell(detail: string): void {
@@ -178,6 +156,6 @@ export class GuardTopics {
   }
 
   #post(request: GuardTopicsRequest): void {
-    this.#worker?.postMessage(request);
+    this.#thread.post(request);
   }
 }

@@ -1,17 +1,13 @@
-import { Worker } from 'node:worker_threads';
 import { RobotStopSignal, type RobotStopState } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
-import { Backoff } from '@farpoint/timing';
 import type { GraphOptions } from '../ros/open-graph.ts';
+import { KeptThread } from '../threads/kept-thread.ts';
 import { StopCells, type StopHeard } from './stop-cells.ts';
 import { STEADY_MS, type StopSource } from './stop-source.ts';
 import type { TopicStopReport, TopicStopSetup } from './topic-stop-worker.ts';
 
-const THREAD = new URL('./topic-stop-worker.ts', import.meta.url);
-const FIRST_RETRY_MS = 250;
+const PROGRAM = new URL('./topic-stop-worker.ts', import.meta.url);
 const MOST_RETRY_MS = 10_000;
-/** The time that the thread has to leave the graph, ms. */
-const CLOSE_MS = 1000;
 
 export interface TopicStopOptions {
   graph: GraphOptions;
@@ -28,21 +24,24 @@ export class TopicStop implements StopSource {
   readonly #options: TopicStopOptions;
   readonly #log: Pick<Logger, 'warn' | 'error'>;
   readonly #signal: RobotStopSignal;
-  readonly #backoff = new Backoff({ firstMs: FIRST_RETRY_MS, mostMs: MOST_RETRY_MS, random: Math.random });
+  readonly #thread: KeptThread<TopicStopReport>;
   #cells = new StopCells();
   #last: StopHeard | null = null;
-  #worker: Worker | null = null;
-  #ended: Promise<unknown> = Promise.resolve();
-  #retry: NodeJS.Timeout | null = null;
   #fault: string | null = null;
-  #closing = false;
 
   constructor(options: TopicStopOptions, log: Pick<Logger, 'warn' | 'error'>) {
     this.#options = options;
     this.#log = log;
     this.name = `topic ${options.topic}`;
     this.#signal = new RobotStopSignal({ silentMs: options.silentMs, steadyMs: STEADY_MS });
-    this.#start();
+    this.#thread = new KeptThread<TopicStopReport>({
+      ...{ program: PROGRAM, name: 'stop topic', mostRetryMs: MOST_RETRY_MS, closeMessage: 'close' },
+      data: () => this.#setup(),
+      onReport: (report) => this.#onReport(report),
+      onError: (detail) => this.#lose(detail),
+      onEnd: () => this.#onEnd(),
+    });
+    this.#thread.start();
   }
 
   get fault(): string | null {
@@ -61,35 +60,21 @@ export class TopicStop implements StopSource {
     return this.#signal.state(nowMs);
   }
 
-  async close(): Promise<void> {
-    this.#closing = true;
-    if (this.#retry !== null) clearTimeout(this.#retry);
-    const worker = this.#worker;
-    worker?.postMessage('close');
-    const late = setTimeout(() => void worker?.terminate(), CLOSE_MS);
-    await this.#ended;
-    clearTimeout(late);
+  close(): Promise<void> {
+    return this.#thread.close();
   }
 
-  #start(): void {
+  #setup(): TopicStopSetup {
     const { graph, topic } = this.#options;
     this.#cells = new StopCells();
     this.#last = null;
-    const workerData: TopicStopSetup = { graph, topic, cells: this.#cells.memory };
-    const worker = new Worker(THREAD, { name: 'stop topic', workerData });
-    this.#worker = worker;
-    worker.on('message', (report: TopicStopReport) => this.#onReport(report));
-    worker.on('error', (error: unknown) =>
-      this.#lose(error instanceof Error ? error.message : String(error)),
-    );
-    this.#ended = new Promise((resolve) => worker.once('exit', resolve));
-    worker.once('exit', () => this.#onExit());
+    return { graph, topic, cells: this.#cells.memory };
   }
 
   #onReport(report: TopicStopReport): void {
     if (report.type === 'changed') {
       this.#fault = null;
-      this.#backoff.reset();
+      this.#thread.isWell();
     } else if (report.type === 'failed') this.#lose(report.detail);
     else {
       this.#fault = report.detail;
@@ -105,11 +90,8 @@ export class TopicStop implements StopSource {
     this.onChange?.();
   }
 
-  #onExit(): void {
-    this.#worker = null;
-    if (this.#closing) return;
+  #onEnd(): void {
     this.#signal.lose();
     this.onChange?.();
-    this.#retry = setTimeout(() => this.#start(), this.#backoff.nextMs());
   }
 }
