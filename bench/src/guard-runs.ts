@@ -1,15 +1,28 @@
 /** `pnpm bench guard-runs`: seeded drives at full speed under the obstacle guard. */
+import { join } from 'node:path';
 import { parseArgs } from 'node:util';
-import { type GuardedRun, guardedRun, RUN_WORLDS } from '@farpoint/robot-node/testing/guarded-run';
+import {
+  type GuardedRun,
+  type GuardTimes,
+  guardedRun,
+  RUN_WORLDS,
+} from '@farpoint/robot-node/testing/guarded-run';
+import { roomRun } from '@farpoint/robot-node/testing/recorded-room';
+import { readRooms } from '@farpoint/robot-node/testing/room-files';
+import type { Codec } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench guard-runs [--runs 1000] [--seed 1] [--seconds 12] [--json]
+       pnpm bench guard-runs --rooms [--clouds ../shared/data/clouds] [--runs 1000] …
 
 Simulated time, in one process. In each run a robot somewhere in one of three worlds is told to go full speed ahead, at a
 speed up to its limit, on changing arcs, while people and carts cross its way; where the guard stops it, it turns on the spot
-and goes on. Counts what it drives into, and the commands for which it stopped although the way was free.`;
+and goes on. Counts what it drives into, and the commands for which it stopped although the way was free.
+
+With --rooms, the robot drives in recorded clouds that show a floor: its camera sees their points from where it is, and it
+starts where they were recorded, or up to half a metre from there. Contacts and false stops are those with their points.`;
 
 export const bench: Bench = {
   name: 'guard-runs',
@@ -21,6 +34,8 @@ export const bench: Bench = {
         runs: { type: 'string', default: '1000' },
         seed: { type: 'string', default: '1' },
         seconds: { type: 'string', default: '12' },
+        rooms: { type: 'boolean' },
+        clouds: { type: 'string', default: join(import.meta.dirname, '../../../shared/data/clouds') },
         json: { type: 'boolean' },
         help: { type: 'boolean' },
       },
@@ -32,10 +47,12 @@ export const bench: Bench = {
     const codec = await loadCodecFromDisk();
     const boundMs: number[] = [];
     const times = { now: () => performance.now(), boundMs };
+    const drives = values.rooms ? roomDrives(codec, values.clouds) : worldDrives(codec);
+    if (drives.length === 0) return;
     const runs: GuardedRun[] = [];
     for (let i = 0; i < count; i++) {
-      const world = RUN_WORLDS[i % RUN_WORLDS.length] as (typeof RUN_WORLDS)[number];
-      const run = await guardedRun(codec, world, seed + i, seconds, times);
+      const drive = drives[i % drives.length] as Drive;
+      const run = await drive(seed + i, seconds, times);
       runs.push(run);
       for (const { atS, speed } of run.contacts) {
         console.log(
@@ -43,8 +60,7 @@ export const bench: Bench = {
         );
       }
     }
-    const worlds = RUN_WORLDS.map((world) => world().name);
-    const rows = [...worlds, 'all'].map((world) =>
+    const rows = [...new Set(runs.map(({ world }) => world)), 'all'].map((world) =>
       summaryOf(
         world,
         runs.filter((run) => world === 'all' || run.world === world),
@@ -64,6 +80,21 @@ export const bench: Bench = {
     }
   },
 };
+
+/** One run in one of the places. */
+type Drive = (seed: number, seconds: number, times: GuardTimes) => GuardedRun | Promise<GuardedRun>;
+
+function worldDrives(codec: Codec): Drive[] {
+  return RUN_WORLDS.map((world) => (seed, seconds, times) => guardedRun(codec, world, seed, seconds, times));
+}
+
+function roomDrives(codec: Codec, folder: string): Drive[] {
+  const { rooms, skipped } = readRooms(folder);
+  for (const why of skipped) console.log(`skipped, ${why}`);
+  for (const { name, heightM, things } of rooms)
+    console.log(`${name}: camera ${heightM.toFixed(2)} m above the floor, ${things} points of things`);
+  return rooms.map((room) => (seed, seconds, times) => roomRun(codec, room, seed, seconds, times));
+}
 
 function summaryOf(world: string, runs: readonly GuardedRun[]) {
   const sum = (of: (run: GuardedRun) => number) => runs.reduce((total, run) => total + of(run), 0);

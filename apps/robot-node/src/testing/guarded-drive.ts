@@ -1,0 +1,214 @@
+/**
+ * A robot that is told to go full speed ahead under the obstacle guard alone: grid, guard and base as on the robot, in one
+ * thread and in simulated time. What is around it, and what its sensors see of that, is up to the stage.
+ */
+import { type Pose, zeroTwist } from '@farpoint/protocol';
+import { defaultObstacleGuardOptions, Footprint, ObstacleGuard, type SensorGrid } from '@farpoint/safety';
+import { DEFAULT_LIMITS, type SimulatedBase } from '@farpoint/sim';
+import type { Codec } from '@farpoint/wasm-codec';
+import type { SourceDescription } from '../capture/frame-source.ts';
+import { CloudGuard } from '../obstacles/cloud-guard.ts';
+import { GRID_SHAPE } from '../obstacles/guarded-sensors.ts';
+import { makeSharedGrid, SharedGridReader } from '../obstacles/shared-grid.ts';
+
+/** A depth camera on the robot. */
+export interface StageCamera {
+  description: SourceDescription;
+  /** Its optical frame in base_link. */
+  mount: Pose;
+  /** What it sees now. */
+  render(): { depth: Float32Array; cameraPose: Pose };
+}
+
+/** Where a robot drives. Distances are from the robot's edge, metres. */
+export interface GuardedStage {
+  name: string;
+  base: SimulatedBase;
+  cameras: readonly StageCamera[];
+  /** To the nearest thing, of a robot that would stand there; negative inside one. */
+  clearanceAt(x: number, y: number): number;
+  /** To the nearest hole or edge of the floor; infinite where there is none. */
+  edgeAt(x: number, y: number): number;
+  /** Whether the robot drove into something since the last step. */
+  touched(): boolean;
+  close(): void;
+}
+
+const TICK_S = 0.01;
+/** Ticks from one cloud to the next, and from its capture until the guard has it. */
+const CLOUD_TICKS = 5;
+const DELAY_TICKS = 3;
+/** Ticks between two commands. */
+const COMMAND_TICKS = 2;
+/** Stopped for so long, the driver turns on the spot, s. */
+const PATIENCE_S = 1;
+/** More than this free on the way, beyond the guard's margin, and a stop there is false: metres, s. */
+const AMPLE_M = 0.05;
+const AHEAD_S = 0.6;
+const BAND = { clearanceM: 0.04, heightM: 1.1, dropM: 0.15 };
+const NO_COLOUR = new Uint32Array();
+
+export interface GuardedRun {
+  world: string;
+  seed: number;
+  /** Speed that was asked for, m/s. */
+  speed: number;
+  seconds: number;
+  /** How far it went, metres. */
+  metres: number;
+  /** Times at which the robot drove into something, s. */
+  contacts: { atS: number; speed: number }[];
+  /** When its edge came over a hole or an edge of the floor, s; the run ends there. */
+  fellAtS: number | null;
+  /** How near its edge came to one, metres; infinite where there is none. */
+  nearestEdgeM: number;
+  /** Commands for which the way was free, and those of them for which the guard stopped the robot. */
+  freeCommands: number;
+  falseStops: number;
+  /** Commands for which the guard stopped the robot. */
+  stops: number;
+  commands: number;
+}
+
+/** How long the guard takes, for benchmarks: ms. */
+export interface GuardTimes {
+  now: () => number;
+  boundMs: number[];
+}
+
+export interface GuardedDriveOptions {
+  seed: number;
+  /** Continues the sequence that placed the robot. */
+  random: () => number;
+  /** Asked for, m/s. */
+  speed: number;
+  seconds: number;
+  times?: GuardTimes | null;
+}
+
+/** Uniform in [0, 1): mulberry32. */
+export function seeded(seed: number): () => number {
+  let state = seed >>> 0;
+  return () => {
+    state = (state + 0x6d2b79f5) >>> 0;
+    let mixed = Math.imul(state ^ (state >>> 15), state | 1);
+    mixed ^= mixed + Math.imul(mixed ^ (mixed >>> 7), mixed | 61);
+    return ((mixed ^ (mixed >>> 14)) >>> 0) / 4_294_967_296;
+  };
+}
+
+/** The guard's end of a camera. */
+class GuardedCamera implements Disposable {
+  readonly #camera: StageCamera;
+  readonly #clouds: CloudGuard;
+  readonly #reader: SharedGridReader;
+  #waiting: { grid: SensorGrid; due: number } | null = null;
+
+  constructor(codec: Codec, camera: StageCamera) {
+    const memory = makeSharedGrid(GRID_SHAPE);
+    const { description, mount } = camera;
+    this.#camera = camera;
+    this.#clouds = new CloudGuard(codec, description, {
+      ...{ memory, shape: GRID_SHAPE, mount, odometry: true, ...BAND },
+    });
+    this.#reader = new SharedGridReader(memory, GRID_SHAPE);
+  }
+
+  capture(capturedAtMs: number, tick: number): void {
+    const { depth, cameraPose } = this.#camera.render();
+    this.#clouds.take({ form: 'images', depth, colour: NO_COLOUR, cameraPose, capturedAtMs });
+    const grid = this.#reader.read();
+    if (grid !== null) this.#waiting = { grid, due: tick + DELAY_TICKS };
+  }
+
+  /** The grid that has reached the guard by now, once. */
+  arrived(tick: number): SensorGrid | null {
+    if (this.#waiting === null || tick < this.#waiting.due) return null;
+    const { grid } = this.#waiting;
+    this.#waiting = null;
+    return grid;
+  }
+
+  [Symbol.dispose](): void {
+    this.#clouds[Symbol.dispose]();
+  }
+}
+
+/** Drives on a stage. The same stage and options give the same run. Closes the stage. */
+export function guardedDrive(codec: Codec, stage: GuardedStage, options: GuardedDriveOptions): GuardedRun {
+  const { seed, random, speed, seconds, times = null } = options;
+  const { base, name } = stage;
+  using stack = new DisposableStack();
+  stack.defer(() => stage.close());
+  const cameras = stage.cameras.map((camera) => stack.use(new GuardedCamera(codec, camera)));
+  const guard = new ObstacleGuard(Footprint.disc(DEFAULT_LIMITS.radius), cameras.length);
+  const run: GuardedRun = {
+    ...{ world: name, seed, speed, seconds, metres: 0, contacts: [], fellAtS: null },
+    nearestEdgeM: Number.POSITIVE_INFINITY,
+    ...{ freeCommands: 0, falseStops: 0, stops: 0, commands: 0 },
+  };
+  const wish = zeroTwist();
+  const command = zeroTwist();
+  const phase = random() * CLOUD_TICKS;
+  let curvature = 0;
+  let [stoppedS, turningS, turn] = [0, 0, 1];
+  let touching = false;
+  const ticks = Math.round(seconds / TICK_S);
+  for (let tick = 0; tick < ticks && run.fellAtS === null; tick++) {
+    const nowMs = tick * TICK_S * 1000;
+    cameras.forEach((camera, sensor) => {
+      if (Math.floor(tick + phase) % CLOUD_TICKS === 0) camera.capture(nowMs, tick);
+      const grid = camera.arrived(tick);
+      if (grid !== null) guard.see(sensor, grid);
+    });
+    if (tick % COMMAND_TICKS === 0) {
+      const { pose, yaw, twist } = base.state;
+      guard.moved({ x: pose.position.x, y: pose.position.y, yaw }, twist, nowMs);
+      if (tick % 100 === 0) curvature = random() < 0.5 ? 0 : (random() * 2 - 1) * 1.2;
+      turningS = Math.max(0, turningS - TICK_S * COMMAND_TICKS);
+      wish.linear.x = turningS > 0 ? 0 : speed;
+      wish.angular.z = turningS > 0 ? turn : curvature * speed;
+      const began = times?.now() ?? 0;
+      const { factor } = guard.bound(wish, nowMs);
+      times?.boundMs.push(times.now() - began);
+      const stopped = factor === 0;
+      stoppedS = stopped ? stoppedS + TICK_S * COMMAND_TICKS : 0;
+      if (stoppedS > PATIENCE_S) {
+        [stoppedS, turningS, turn] = [0, 0.5 + 1.5 * random(), random() < 0.5 ? 1 : -1];
+      }
+      run.commands++;
+      if (stopped) run.stops++;
+      if (turningS === 0 && isFree(stage, wish.linear.x, wish.angular.z)) {
+        run.freeCommands++;
+        if (stopped) run.falseStops++;
+      }
+      command.linear.x = wish.linear.x * factor;
+      command.angular.z = wish.angular.z * factor;
+      base.setCommand(command);
+    }
+    const before = base.state.twist.linear.x;
+    base.step(TICK_S);
+    const touched = stage.touched();
+    if (touched && !touching) run.contacts.push({ atS: tick * TICK_S, speed: before });
+    touching = touched;
+    const { x, y } = base.state.pose.position;
+    run.nearestEdgeM = Math.min(run.nearestEdgeM, stage.edgeAt(x, y));
+    if (run.nearestEdgeM < 0) run.fellAtS = tick * TICK_S;
+  }
+  run.metres = base.state.odometryDistance;
+  return run;
+}
+
+/** Whether the arc is truly free: more than the guard's margin on all sides, as far as the robot needs to stop. */
+function isFree(stage: GuardedStage, v: number, w: number): boolean {
+  const { pose, yaw } = stage.base.state;
+  let [x, y, heading] = [pose.position.x, pose.position.y, yaw];
+  for (let t = 0; t <= AHEAD_S + v; t += 0.05) {
+    const room = Math.min(stage.clearanceAt(x, y), stage.edgeAt(x, y));
+    if (room < defaultObstacleGuardOptions.marginM + AMPLE_M) return false;
+    x += v * 0.05 * Math.cos(heading);
+    y += v * 0.05 * Math.sin(heading);
+    heading += w * 0.05;
+  }
+  return true;
+}
