@@ -82,9 +82,9 @@ export const bench: Bench = {
 };
 
 /** One run in one of the places. */
-type Drive = (seed: number, seconds: number, times: GuardTimes) => GuardedRun | Promise<GuardedRun>;
+export type Drive = (seed: number, seconds: number, times: GuardTimes) => GuardedRun | Promise<GuardedRun>;
 
-function worldDrives(codec: Codec): Drive[] {
+export function worldDrives(codec: Codec): Drive[] {
   return RUN_WORLDS.map((world) => (seed, seconds, times) => guardedRun(codec, world, seed, seconds, times));
 }
 
@@ -96,7 +96,7 @@ function roomDrives(codec: Codec, folder: string): Drive[] {
   return rooms.map((room) => (seed, seconds, times) => roomRun(codec, room, seed, seconds, times));
 }
 
-function summaryOf(world: string, runs: readonly GuardedRun[]) {
+export function summaryOf(world: string, runs: readonly GuardedRun[]) {
   const sum = (of: (run: GuardedRun) => number) => runs.reduce((total, run) => total + of(run), 0);
   const freeCommands = sum((run) => run.freeCommands);
   const falseStops = sum((run) => run.falseStops);

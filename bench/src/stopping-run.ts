@@ -50,7 +50,14 @@ export const RAMPS: Readonly<RampLimits> = Object.freeze({
   ...{ accelerationMps2: 1, decelerationMps2: 2, emergencyMps2: 4 },
   ...{ turnRadps2: 3, emergencyTurnRadps2: 6 },
 });
-const VIEW = { slowMs: 250, brakeMs: 400, stallMs: 150, mostM: 0.5, decelerationMps2: 2, radiusM: 0.25 };
+export const VIEW = {
+  slowMs: 250,
+  brakeMs: 400,
+  stallMs: 150,
+  mostM: 0.5,
+  decelerationMps2: 2,
+  radiusM: 0.25,
+};
 const WATCHDOG_MS = 150;
 const COMMAND_MS = 20;
 /** Between two velocities for the wheels while they change, and otherwise. */

@@ -1,0 +1,72 @@
+/** `pnpm bench safety`: what keeps the robot and others safe, in one run. */
+import { parseArgs } from 'node:util';
+import type { GuardedRun } from '@farpoint/robot-node/testing/guarded-run';
+import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { faultTimes, printFaults } from './faults.ts';
+import { simulatedGuardMs } from './guard.ts';
+import { type Drive, summaryOf, worldDrives } from './guard-runs.ts';
+import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { distribution, rounded } from './stats.ts';
+import { supervised } from './supervisor-cost.ts';
+
+const USAGE = `pnpm bench safety [--runs 1000] [--seed 1] [--seconds 12] [--no-faults] [--json]
+
+Simulated drives at full speed among walls, furniture and people (guard-runs has the details): contacts and false stops.
+Times the obstacle guard for a cloud of 230,400 points, and a command through every guard and ramp. Then the fault table at
+the real programs (faults), unless --no-faults.`;
+
+const CLOUDS = 300;
+
+export const bench: Bench = {
+  name: 'safety',
+  summary: 'contacts, false stops, cost of the guards, and from each fault to braking',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        runs: { type: 'string', default: '1000' },
+        seed: { type: 'string', default: '1' },
+        seconds: { type: 'string', default: '12' },
+        'no-faults': { type: 'boolean' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    const count = numberOption('runs', values.runs, 1);
+    const seed = numberOption('seed', values.seed);
+    const seconds = numberOption('seconds', values.seconds, 1);
+    const codec = await loadCodecFromDisk();
+    const drives = worldDrives(codec);
+    const commandMs: number[] = [];
+    const times = { now: () => performance.now(), boundMs: [], around: supervised(commandMs) };
+    const runs: GuardedRun[] = [];
+    for (let i = 0; i < count; i++)
+      runs.push(await (drives[i % drives.length] as Drive)(seed + i, seconds, times));
+    const { contacts, falseShare, metres } = summaryOf('all', runs);
+    const guardMs = await simulatedGuardMs(codec, CLOUDS);
+    const supervisorMs = rounded(distribution(commandMs), 4);
+    console.log(
+      `${count} runs, ${Math.round(metres)} m: ${contacts} contacts, ${(100 * falseShare).toFixed(2)} % false stops`,
+    );
+    printTable(
+      ['', 'p50 ms', 'p95', 'p99', 'max'],
+      [
+        ['the guard, for a cloud of 230,400 points', ...distributionCells(guardMs)],
+        ['a command, with all guards', ...distributionCells(supervisorMs)],
+      ],
+    );
+    const faults = values['no-faults'] ? [] : await faultTimes();
+    if (faults.length > 0) printFaults(faults);
+    if (values.json)
+      printJson({
+        bench: 'safety',
+        runs: count,
+        contacts,
+        falseStops: falseShare,
+        guardMs,
+        supervisorMs,
+        faults,
+      });
+  },
+};
