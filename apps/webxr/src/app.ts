@@ -45,6 +45,7 @@ import { applyAppearance } from './view/apply-appearance.ts';
 import { FrameLoop } from './view/frame-loop.ts';
 import type { PicturePointer } from './view/picture-pointer.ts';
 import { SensorClouds } from './view/sensor-clouds.ts';
+import { showDrivePath } from './view/show-drive-path.ts';
 import { Stage } from './view/stage.ts';
 import { showPicturesInVr } from './view/vr-pictures.ts';
 import { VrSession } from './view/vr-session.ts';
@@ -192,6 +193,7 @@ export class App {
       if (this.#left.tick(this.vr.active.value ? this.vr.hidden : document.hidden, nowMs))
         driver.letGo(nowMs);
       this.client.tick(performance.now());
+      showDrivePath(this.client, this.stage);
     }, DRIVE_TICK_MS);
     setInterval(() => {
       const nowMs = performance.now();

@@ -31,6 +31,7 @@ export type {
   Quaternion,
   Reading,
   ReadingLevel,
+  RobotBody,
   RobotListing,
   Role,
   Sample,

@@ -37,6 +37,16 @@ export const videoDescriptionSchema = z.strictObject({
 const MAX_LATENCY_MS = 60_000;
 const latencyMsSchema = z.number().check(z.minimum(0), z.maximum(MAX_LATENCY_MS));
 
+/** Corners farther from base_link are no robot's, m. */
+const MOST_REACH_M = 10;
+const reachSchema = z.number().check(z.minimum(-MOST_REACH_M), z.maximum(MOST_REACH_M));
+const bodySchema = z.strictObject({
+  footprint: z
+    .array(z.strictObject({ x: reachSchema, y: reachSchema }))
+    .check(z.minLength(3), z.maxLength(64)),
+  decelerationMps2: positive,
+});
+
 export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
   what: 'robot session message',
   schema: z.discriminatedUnion('type', [
@@ -52,6 +62,7 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
         maxCommandsPerSecond: positive,
         afterGap: z.optional(z.enum(afterGapChoices)),
       }),
+      body: z.optional(bodySchema),
       stream: z.strictObject({
         format: z.literal('points64'),
         width: z.int().check(z.positive()),

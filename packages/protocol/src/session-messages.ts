@@ -35,6 +35,19 @@ export const afterGapChoices = [
  */
 export type AfterGap = (typeof afterGapChoices)[number];
 
+/** What a robot takes of the floor, and how it stops. */
+export interface RobotBody {
+  /** Corners of the outline around base_link, counter-clockwise, metres: x forward, y to the left. */
+  footprint: readonly {
+    /** Metres ahead of base_link. */
+    x: number;
+    /** Metres to the left of base_link. */
+    y: number;
+  }[];
+  /** How hard the robot brakes in ordinary driving, m/s². */
+  decelerationMps2: number;
+}
+
 /** The robot's first message in every session. */
 export interface Welcome {
   /** Tells the message from others. */
@@ -50,6 +63,8 @@ export interface Welcome {
     /** Left out by older robots, which resume. */
     afterGap?: AfterGap | undefined;
   };
+  /** What the robot takes of the floor, and how it stops. Left out by older robots. */
+  body?: RobotBody | undefined;
   /** The first sensor's clouds before they are sampled. */
   stream: {
     /** The format that every operator reads. */

@@ -542,6 +542,10 @@ welcome = robot_session.good({"type": "welcome", "protocol": 1, "robotId": "sim-
                               "stream": {"format": "points64", "width": 480, "height": 480, "framesPerSecond": 30}})
 robot_session.good({**welcome, "resumeKey": "p5bGbAm3i8CqEIfnp0tqkg"}, "welcome with the key that resumes the session")
 admitted = robot_session.good({**welcome, "access": {"role": "drive", "name": "Ada", "expiresInS": 3600}}, "welcome to the holder of a grant")
+corners = [{"x": 0.35, "y": -0.28}, {"x": 0.35, "y": 0.28}, {"x": -0.25, "y": 0.28}, {"x": -0.25, "y": -0.28}]
+embodied = robot_session.good({**welcome, "body": {"footprint": corners, "decelerationMps2": 2}}, "welcome from a robot that tells its outline")
+robot_session.spoil(embodied, ("body.footprint", corners[:2]), ("body.footprint", corners * 17), ("body.footprint.0.x", 10.5), ("body.footprint.1.y", "0"),
+                    ("body.decelerationMps2", 0), ("body.decelerationMps2", ABSENT), ("body.mass", 12, "body"))
 for role in ["watch", "supervise"]:
     robot_session.good(changed(admitted, "access.role", role), "welcome, role: " + role)
 expires = robot_session.good({"type": "expires", "inS": 60})

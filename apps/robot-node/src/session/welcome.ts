@@ -1,4 +1,4 @@
-import { type Alarm, PROTOCOL_VERSION, type Quantity } from '@farpoint/protocol';
+import { type Alarm, PROTOCOL_VERSION, type Quantity, type RobotBody } from '@farpoint/protocol';
 import type { RobotOptions } from '../robot-configuration.ts';
 import type { CloudSensor } from '../sensors/cloud-sensor.ts';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
@@ -9,7 +9,7 @@ import type { OperatorSession } from './operator-session.ts';
 /** Of an elevation in radians: far finer than the angle between two rings of any LiDAR. */
 const ELEVATION_DIGITS = 5;
 
-export interface WelcomeFacts extends Pick<RobotOptions, 'id' | 'name' | 'limits' | 'afterGap' | 'sensors'> {
+export interface WelcomeFacts extends Pick<RobotOptions, 'id' | 'name' | 'limits' | 'afterGap' | 'sensors' | 'motion' | 'obstacleGuard'> {
   quantities: readonly Quantity[];
   /** Those that are raised. */
   alarms: readonly Alarm[];
@@ -20,10 +20,11 @@ export interface WelcomeFacts extends Pick<RobotOptions, 'id' | 'name' | 'limits
 /** Sends a session's first messages: what the robot is, who drives, and which cameras and sensors there are. */
 export function welcome(
   operator: OperatorSession,
-  { id, name, limits, afterGap, sensors: configured, quantities, alarms, nowS }: WelcomeFacts,
+  facts: WelcomeFacts,
   sensors: CloudSensors,
   videos: VideoHub,
 ): void {
+  const { id, name, limits, afterGap, sensors: configured, quantities, alarms, nowS } = facts;
   const { messages, resumeKey } = operator;
   const { description, cameras } = sensors.first.capture;
   const { width, height } = description;
@@ -36,6 +37,7 @@ export function welcome(
     robotId: id,
     name,
     limits: { ...limits, afterGap },
+    body: bodyOf(facts),
     stream: { format: 'points64', width, height, framesPerSecond },
     resumeKey: resumeKey.text,
     ...(role === null ? {} : { access: { role, name: operatorName, expiresInS } }),
@@ -49,6 +51,14 @@ export function welcome(
   }
   for (const sensor of sensors.all) tellRings(operator, sensor);
   tellVideos(operator, videos);
+}
+
+function bodyOf({ motion, obstacleGuard }: WelcomeFacts): RobotBody {
+  const round = (metres: number) => Number(metres.toFixed(3));
+  return {
+    footprint: obstacleGuard.footprint.map(({ x, y }) => ({ x: round(x), y: round(y) })),
+    decelerationMps2: motion.ramps.decelerationMps2,
+  };
 }
 
 /** Tells an operator the rings of a sensor, if they are known. */

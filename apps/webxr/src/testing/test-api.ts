@@ -14,6 +14,7 @@ import type {
 } from '@farpoint/operator';
 import type { DriveState, LatencyFrame } from '@farpoint/protocol';
 import type { PageStats } from '../status/page-stats.ts';
+import type { DrivePath } from '../view/drive-path.ts';
 
 export interface PageState {
   signaling: SignalingState;
@@ -40,6 +41,8 @@ export interface PageState {
   input: string | null;
   /** Why a grip that is held does not drive. */
   gripLost: GripLoss | null;
+  /** The way that is shown on the floor before the robot: metres until it stands, and how much of the wish it follows. */
+  path: DrivePath['shown'];
   vr: boolean;
 }
 

@@ -54,6 +54,7 @@ export function installTestApi(app: App): void {
         driving: driver.stream.held && driver.holder === 'you',
         input: driver.input?.name ?? null,
         gripLost: driver.lost,
+        path: app.stage.path.shown,
         vr: app.vr.active.value,
       };
     },

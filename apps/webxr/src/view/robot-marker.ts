@@ -21,6 +21,7 @@ export class RobotMarker {
   readonly object = new Group();
   readonly #outline: LineBasicMaterial;
   readonly #heading: MeshBasicMaterial;
+  readonly #box: LineSegments;
 
   constructor() {
     this.#outline = new LineBasicMaterial({ color: 0x35c9b5, transparent: true, opacity: 0.8 });
@@ -35,8 +36,14 @@ export class RobotMarker {
     );
     arrow.setIndex([0, 1, 2]);
     const heading = new Mesh(arrow, this.#heading);
+    this.#box = outline;
     this.object.add(outline, heading);
     this.object.visible = false;
+  }
+
+  /** Whether it has a box of a usual robot's size: not where the robot's own outline is shown. */
+  set boxed(boxed: boolean) {
+    this.#box.visible = boxed;
   }
 
   /** Whether points that are nearer do not hide it. */

@@ -1,7 +1,9 @@
 /** Renderer, scene and cameras. The frame loop only uploads new data, places the camera and draws. */
 
 import { bodyYaw, type CloudView, opticalYaw, RobotWorld } from '@farpoint/cloud-view';
+import type { RobotBody } from '@farpoint/protocol';
 import { type Camera, Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import { DrivePath } from './drive-path.ts';
 import { GroundGrid } from './ground-grid.ts';
 import { Look } from './look.ts';
 import { PoseFollower } from './pose-follower.ts';
@@ -30,6 +32,8 @@ export class Stage {
   readonly rig = new Group();
   readonly camera = new PerspectiveCamera(75, 1, NEAR_M, FAR_M);
   readonly look = new Look();
+  /** On the floor before the robot. */
+  readonly path = new DrivePath();
   /** From above, the robot's heading is up; otherwise north. */
   headingUp = true;
   readonly #marker = new RobotMarker();
@@ -50,6 +54,7 @@ export class Stage {
     // In VR, the head starts at the robot's camera.
     this.renderer.xr.setReferenceSpaceType('local');
     this.scene.background = new Color(BACKGROUND);
+    this.#marker.object.add(this.path.object);
     this.world.add(this.#marker.object);
     this.rig.add(this.camera);
     this.scene.add(this.world, this.rig, this.#grid.object);
@@ -100,6 +105,12 @@ export class Stage {
     this.#marker.object.visible = false;
   }
 
+  /** The robot's outline; `null` while it is not known. */
+  set robotBody(body: RobotBody | null) {
+    this.path.body = body;
+    this.#marker.boxed = body === null;
+  }
+
   /** Sets the pose of the robot's body, from telemetry. */
   setBody(pose: BodyPose): void {
     const { object } = this.#marker;
@@ -124,6 +135,7 @@ export class Stage {
     }
     this.#grid.centreOn(this.rig.position.x, this.rig.position.z);
     this.#marker.onTop = this.#isFromAbove;
+    this.path.onTop = this.#isFromAbove;
     if (this.#isFromAbove) this.#placeTopDown(elapsed);
     else if (!this.renderer.xr.isPresenting) this.#placeFlatCamera();
   }

@@ -3,7 +3,7 @@
  * rate. When the grip is released, it sends a few zero commands, since any of them may be lost, and then nothing. Time
  * is an argument.
  */
-import { type Command, type DriveLimits, nextSequence32, zeroTwist } from '@farpoint/protocol';
+import { type Command, type DriveLimits, nextSequence32, type Twist, zeroTwist } from '@farpoint/protocol';
 import { type DriveWish, REST, toTwist } from './velocity-mapping.ts';
 
 export const COMMANDS_PER_SECOND = 40;
@@ -72,6 +72,12 @@ export class CommandStream {
   /** The next grip starts with zero commands: the robot may not have heard that the grip was released in between. */
   restFirst(): void {
     this.#restsLeft = FIRST_RESTS;
+  }
+
+  /** The velocity that the hand asks for now; `null` while it drives nothing. */
+  get asked(): Twist | null {
+    if (!this.#held || this.#limits === null || this.#lease === null) return null;
+    return toTwist(this.#wish, this.#limits);
   }
 
   /** The command due now, if any. */
