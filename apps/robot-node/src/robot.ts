@@ -257,7 +257,7 @@ export class Robot {
     this.#sendLoop.close();
     await this.signaling.close();
     await broadcastClosed;
-    for (const part of [this.stops, this.cameras, this.sound, this.sensors, this.recording])
+    for (const part of [this.stops, this.returns, this.cameras, this.sound, this.sensors, this.recording])
       await part?.close();
     this.#logs.write();
     await reported;
