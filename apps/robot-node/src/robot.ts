@@ -252,12 +252,12 @@ export class Robot {
     this.reference?.close();
     const broadcastClosed = this.broadcast?.close();
     this.drive.close();
-    await this.sink.close();
-    await this.base?.close();
+    for (const part of [this.sink, this.base]) await part?.close();
     this.#sendLoop.close();
     await this.signaling.close();
     await broadcastClosed;
-    for (const part of [this.stops, this.obstacles, this.cameras, this.sound, this.sensors, this.recording])
+    const { stops, obstacles, driving, cameras, sound, sensors, recording } = this;
+    for (const part of [stops, obstacles, driving.returns, cameras, sound, sensors, recording])
       await part?.close();
     this.#logs.write();
     await reported;

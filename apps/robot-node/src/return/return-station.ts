@@ -6,6 +6,7 @@ import type { RobotAudit } from '../audit/robot-audit.ts';
 import type { TimedBaseState } from '../base/base.ts';
 import { ReasonCounts } from '../telemetry/robot-counters.ts';
 import { measuredPose } from './measured-pose.ts';
+import { ReturnAnnouncer } from './return-announcer.ts';
 import type { ReturnConfiguration } from './return-configuration.ts';
 
 /** Odometry may say that the robot is by so much faster than it is allowed to be. */
@@ -28,10 +29,10 @@ export class ReturnStation {
   begun = 0;
   /** How often that ended, by reason; a return that never began counts too. */
   readonly ends = new ReasonCounts();
-  /** Whenever the robot begins or ceases to say that it drives back. */
-  onAnnounce: ((isActive: boolean) => void) | null = null;
   readonly #configuration: ReturnConfiguration;
   readonly #parts: ReturnStationParts;
+  /** `null` if it is said on no topic. */
+  readonly #announcer: ReturnAnnouncer | null;
   #metres = 0;
 
   constructor(configuration: ReturnConfiguration, parts: ReturnStationParts) {
@@ -40,6 +41,8 @@ export class ReturnStation {
     this.#parts = parts;
     const most = { mostMps: maxLinear * FASTER, mostRadps: maxAngular * FASTER };
     this.drive = new ReturnDrive(configuration.options, most, parts.lookout);
+    const { topic } = configuration;
+    this.#announcer = topic === null ? null : new ReturnAnnouncer(topic, parts.log);
     this.drive.onPhase = (phase, end) => this.#tell(phase, end);
   }
 
@@ -68,6 +71,10 @@ export class ReturnStation {
     return wasActive && !this.drive.isActive;
   }
 
+  async close(): Promise<void> {
+    await this.#announcer?.close();
+  }
+
   #tell(phase: ReturnPhase, end: ReturnEnd | null): void {
     const { log, audit } = this.#parts;
     const { afterMs, announceMs } = this.#configuration.options;
@@ -93,6 +100,6 @@ export class ReturnStation {
       default:
         break;
     }
-    this.onAnnounce?.(this.drive.isActive);
+    this.#announcer?.say(this.drive.isActive);
   }
 }

@@ -8,3 +8,10 @@ export function saysStop(version: 1 | 2, bytes: Uint8Array): boolean {
   const content = bytes.length - ENCAPSULATION_BYTES;
   return content < 1 || content > 4 || bytes[ENCAPSULATION_BYTES] !== 0;
 }
+
+/** A serialised std_msgs/Bool. */
+export function boolMessage(version: 1 | 2, value: boolean): Uint8Array {
+  const data = value ? 1 : 0;
+  // Little-endian CDR.
+  return Uint8Array.from(version === 1 ? [data] : [0, 1, 0, 0, data]);
+}

@@ -1,5 +1,6 @@
 /** What the robot says about its own bounds on motion, for people. */
 import type { Intervention, MotionState, Telemetry } from '@farpoint/protocol';
+import { returnWords } from './return-words.ts';
 import type { Words } from './tone.ts';
 
 type Explain = (motion: MotionState) => string;
@@ -25,8 +26,12 @@ const explanations: Record<Intervention, Explain> = {
   fence: () => 'Held: the edge of the permitted area',
 };
 
-/** Why the robot does less than it is told, the strictest reason; `null` if it does not. */
+/**
+ * What the robot does or has done by itself; or else why it does less than it is told, the strictest reason; `null` if it does
+ * what it is told.
+ */
 export function motionWords(motion: MotionState | undefined): Words | null {
+  if (motion?.return !== undefined) return returnWords(motion.return);
   const reason = motion?.reasons[0];
   if (motion === undefined || reason === undefined) return null;
   return { text: explanations[reason](motion), tone: motion.factor === 0 ? 'bad' : 'warning' };
