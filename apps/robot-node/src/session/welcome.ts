@@ -9,7 +9,8 @@ import type { OperatorSession } from './operator-session.ts';
 /** Of an elevation in radians: far finer than the angle between two rings of any LiDAR. */
 const ELEVATION_DIGITS = 5;
 
-export interface WelcomeFacts extends Pick<RobotOptions, 'id' | 'name' | 'limits' | 'afterGap' | 'sensors' | 'motion' | 'obstacleGuard'> {
+export interface WelcomeFacts
+  extends Pick<RobotOptions, 'id' | 'name' | 'limits' | 'afterGap' | 'sensors' | 'motion' | 'obstacleGuard'> {
   quantities: readonly Quantity[];
   /** Those that are raised. */
   alarms: readonly Alarm[];

@@ -22,7 +22,7 @@ export interface KeptThreadOptions<Report> {
   /** It failed, and ends. @param detail why */
   onError(detail: string): void;
   /** It has ended, and was not asked to; another one is started in `inMs`. */
-  onEnd(inMs: number): void;
+  onEnd?(inMs: number): void;
 }
 
 /** A worker thread in whose place another one is started when it ends, at once at first and then ever more rarely. */
@@ -87,7 +87,7 @@ export class KeptThread<Report> {
     if (monotonicMs() - this.#startedMs > wellAfterMs) this.isWell();
     const inMs = this.#backoff.nextMs();
     this.restarts++;
-    this.#options.onEnd(inMs);
+    this.#options.onEnd?.(inMs);
     this.#retry = setTimeout(() => this.start(), inMs);
   }
 }
