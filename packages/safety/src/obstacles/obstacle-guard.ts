@@ -115,13 +115,15 @@ export class ObstacleGuard implements MotionGuard {
     // Where the wide outline meets nothing, the narrow one does not either.
     const met = wide.contactS < Number.POSITIVE_INFINITY;
     const narrow = met ? { ...this.#search.look(sweep, NARROW) } : wide;
-    const deeper = this.#search.deeper(sweep, NARROW);
+    const deeper = this.#search.deeper(sweep, NARROW, WIDE);
     if (deeper !== null) [narrow.contactS, narrow.cause] = [0, deeper];
 
     const hard = { reactionS, slowS: slowingS(wish, emergency) };
     if (this.#mustBrake(narrow, speed, hard)) return stopFor(interventionOf(narrow));
 
-    const creeping = CREEPING_MPS / speed;
+    // Nor is a robot that creeps let nearer to an edge.
+    const isEdge = wide.cause === 'drop-off';
+    const creeping = isEdge ? 0 : CREEPING_MPS / speed;
     const near = Math.min(
       this.#shareBefore(narrow.contactS, comfort),
       Math.max(this.#shareBefore(wide.contactS, comfort), creeping),
@@ -131,7 +133,7 @@ export class ObstacleGuard implements MotionGuard {
     // A wish that is itself slower than that need not become faster.
     if (near < 1 && near * speed < Math.min(least, speed)) {
       this.#stopped = direction;
-      return stopFor(interventionOf(narrow));
+      return stopFor(isEdge ? 'drop-off' : interventionOf(narrow));
     }
     this.#stopped = null;
 
