@@ -232,6 +232,20 @@ describe('the obstacle guard', () => {
       }
     });
 
+    test('a scanner in another frame than the clouds is silent, and takes nothing away', () => {
+      const guard = withScanner();
+      guard.see(0, wall(0.32));
+      const scan = new PaintedGrid(1010);
+      scan.placed = false;
+      guard.see(1, scan);
+      expect(guard.bound(go(1), 1020)).toMatchObject({ factor: 0, reason: 'obstacle' });
+      expect(guard.sensors(1020)[1]?.silent).toBe(true);
+      // Without clouds, it is all that there is.
+      scan.capturedAtMs = 1500;
+      guard.see(1, scan);
+      expect(guard.sensors(1510)[1]?.silent).toBe(false);
+    });
+
     test('its silence is that of a sensor', () => {
       const guard = withScanner();
       guard.see(0, new PaintedGrid(1400));

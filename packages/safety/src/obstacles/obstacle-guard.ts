@@ -52,15 +52,14 @@ export class ObstacleGuard implements MotionGuard {
   /** Takes what a sensor's newest cloud says. @param sensor its number, from 0 */
   see(sensor: number, grid: SensorGrid): void {
     if (!(grid.capturedAtMs > (this.#lastMs[sensor] ?? Number.POSITIVE_INFINITY))) return;
+    const firstPlane = this.#lastMs.length - this.#options.planes;
+    const plane = sensor < firstPlane ? null : sensor - firstPlane;
+    // Grids in two frames cannot be one map. The clouds' frame counts; a scanner in another is silent.
+    if (plane !== null && grid.placed !== this.#map.placed && this.#cloudsLive(grid.capturedAtMs)) return;
     this.#lastMs[sensor] = grid.capturedAtMs;
     const half = grid.side / 2;
     this.#map.centreOn(grid.firstX + half, grid.firstY + half);
-    const firstPlane = this.#lastMs.length - this.#options.planes;
-    this.#map.merge(
-      grid,
-      grid.placed ? 0 : this.#whereabouts.travelAt(grid.capturedAtMs),
-      sensor < firstPlane ? null : sensor - firstPlane,
-    );
+    this.#map.merge(grid, grid.placed ? 0 : this.#whereabouts.travelAt(grid.capturedAtMs), plane);
   }
 
   /** Takes odometry: the pose of base_link, its velocity, and when they were measured. */
@@ -175,6 +174,11 @@ export class ObstacleGuard implements MotionGuard {
   #someSilent(nowMs: number, placed: boolean): boolean {
     if (placed && this.#whereabouts.silent(nowMs)) return true;
     return this.#lastMs.some((lastMs) => this.#isSilent(lastMs, nowMs));
+  }
+
+  #cloudsLive(nowMs: number): boolean {
+    const clouds = this.#lastMs.length - this.#options.planes;
+    return this.#lastMs.some((lastMs, sensor) => sensor < clouds && !this.#isSilent(lastMs, nowMs));
   }
 
   #isSilent(lastMs: number, nowMs: number): boolean {
