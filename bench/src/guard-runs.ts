@@ -14,12 +14,12 @@ import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
-const USAGE = `pnpm bench guard-runs [--runs 1000] [--seed 1] [--seconds 12] [--json]
+const USAGE = `pnpm bench guard-runs [--runs 1000] [--seed 1] [--seconds 12] [--world NAME] [--json]
        pnpm bench guard-runs --rooms [--clouds ../shared/data/clouds] [--runs 1000] …
 
-Simulated time, in one process. In each run a robot somewhere in one of three worlds is told to go full speed ahead, at a
+Simulated time, in one process. In each run a robot somewhere in one of four worlds is told to go full speed ahead, at a
 speed up to its limit, on changing arcs, while people and carts cross its way; where the guard stops it, it turns on the spot
-and goes on. Counts what it drives into, and the commands for which it stopped although the way was free.
+and goes on. Counts what it drives into, where it goes over an edge, and the commands for which it stopped although the way was free.
 
 With --rooms, the robot drives in recorded clouds that show a floor: its camera sees their points from where it is, and it
 starts where they were recorded, or up to half a metre from there. Contacts and false stops are those with their points.`;
@@ -34,6 +34,7 @@ export const bench: Bench = {
         runs: { type: 'string', default: '1000' },
         seed: { type: 'string', default: '1' },
         seconds: { type: 'string', default: '12' },
+        world: { type: 'string' },
         rooms: { type: 'boolean' },
         clouds: { type: 'string', default: join(import.meta.dirname, '../../../shared/data/clouds') },
         json: { type: 'boolean' },
@@ -47,7 +48,7 @@ export const bench: Bench = {
     const codec = await loadCodecFromDisk();
     const boundMs: number[] = [];
     const times = { now: () => performance.now(), boundMs };
-    const drives = values.rooms ? roomDrives(codec, values.clouds) : worldDrives(codec);
+    const drives = values.rooms ? roomDrives(codec, values.clouds) : worldDrives(codec, values.world);
     if (drives.length === 0) return;
     const runs: GuardedRun[] = [];
     for (let i = 0; i < count; i++) {
@@ -59,6 +60,8 @@ export const bench: Bench = {
           `${run.world}, seed ${run.seed}: contact at ${atS.toFixed(2)} s, ${speed.toFixed(2)} m/s`,
         );
       }
+      if (run.fellAtS !== null)
+        console.log(`${run.world}, seed ${run.seed}: over an edge at ${run.fellAtS.toFixed(2)} s`);
     }
     const rows = [...new Set(runs.map(({ world }) => world)), 'all'].map((world) =>
       summaryOf(
@@ -67,9 +70,22 @@ export const bench: Bench = {
       ),
     );
     printTable(
-      ['world', 'runs', 'metres', 'contacts', 'stops', 'free commands', 'false stops', '%'],
-      rows.map(({ world, runs: n, metres, contacts, stops, freeCommands, falseStops, falseShare }) => [
-        ...[world, n, Math.round(metres), contacts, stops, freeCommands, falseStops, 100 * falseShare],
+      [
+        'world',
+        'runs',
+        'metres',
+        'contacts',
+        'falls',
+        'edge cm',
+        'stops',
+        'free commands',
+        'false stops',
+        '%',
+      ],
+      rows.map((row) => [
+        ...[row.world, row.runs, Math.round(row.metres), row.contacts, row.falls],
+        row.nearestEdgeM === null ? '' : (100 * row.nearestEdgeM).toFixed(1),
+        ...[row.stops, row.freeCommands, row.falseStops, 100 * row.falseShare],
       ]),
     );
     const bound = rounded(distribution(boundMs), 4);
@@ -84,8 +100,10 @@ export const bench: Bench = {
 /** One run in one of the places. */
 export type Drive = (seed: number, seconds: number, times: GuardTimes) => GuardedRun | Promise<GuardedRun>;
 
-export function worldDrives(codec: Codec): Drive[] {
-  return RUN_WORLDS.map((world) => (seed, seconds, times) => guardedRun(codec, world, seed, seconds, times));
+export function worldDrives(codec: Codec, name?: string): Drive[] {
+  const worlds = RUN_WORLDS.filter((world) => name === undefined || world().name === name);
+  if (worlds.length === 0) throw new Error(`no world is named ${name}`);
+  return worlds.map((world) => (seed, seconds, times) => guardedRun(codec, world, seed, seconds, times));
 }
 
 function roomDrives(codec: Codec, folder: string): Drive[] {
@@ -100,9 +118,12 @@ export function summaryOf(world: string, runs: readonly GuardedRun[]) {
   const sum = (of: (run: GuardedRun) => number) => runs.reduce((total, run) => total + of(run), 0);
   const freeCommands = sum((run) => run.freeCommands);
   const falseStops = sum((run) => run.falseStops);
+  const nearest = Math.min(...runs.map(({ nearestEdgeM }) => nearestEdgeM));
   return {
     ...{ world, runs: runs.length, metres: sum((run) => run.metres) },
     ...{ contacts: sum((run) => run.contacts.length), stops: sum((run) => run.stops) },
+    falls: runs.filter(({ fellAtS }) => fellAtS !== null).length,
+    nearestEdgeM: Number.isFinite(nearest) ? nearest : null,
     ...{ freeCommands, falseStops, falseShare: freeCommands === 0 ? 0 : falseStops / freeCommands },
   };
 }

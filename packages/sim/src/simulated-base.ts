@@ -153,6 +153,18 @@ export class SimulatedBase {
     return this.#collisions.clearance(x, y) - this.#drive.limits.radius;
   }
 
+  /** Metres between the edge of a robot that would stand at (x, y) and the nearest hole in the floor; infinite without. */
+  edgeAt(x: number, y: number): number {
+    let nearest = Number.POSITIVE_INFINITY;
+    for (const { fromX, toX, fromY, toY } of this.world.holes ?? []) {
+      const [outX, outY] = [Math.max(fromX - x, x - toX), Math.max(fromY - y, y - toY)];
+      const inside = Math.max(outX, outY);
+      const distance = inside <= 0 ? inside : Math.hypot(Math.max(0, outX), Math.max(0, outY));
+      nearest = Math.min(nearest, distance - this.#drive.limits.radius);
+    }
+    return nearest;
+  }
+
   get state(): BaseState {
     return {
       time: this.#steps * TIME_STEP,

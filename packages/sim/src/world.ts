@@ -21,6 +21,18 @@ export interface WorldDescription {
   ellipsoids: Ellipsoid[];
   /** People and carts that move along closed paths. */
   movers: Mover[];
+  /** Where the floor is missing, if it is anywhere. What shows them are the panels and boxes; these say where they are. */
+  holes?: Hole[];
+}
+
+/** A rectangle without a floor, along the axes. */
+export interface Hole {
+  fromX: number;
+  toX: number;
+  fromY: number;
+  toY: number;
+  /** Of what is below it. */
+  depth: number;
 }
 
 export interface PlanarPose {

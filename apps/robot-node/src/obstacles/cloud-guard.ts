@@ -4,6 +4,7 @@ import { type Codec, CodecError, ObstacleGrid } from '@farpoint/wasm-codec';
 import type { SourceDescription, SourceFrame } from '../capture/frame-source.ts';
 import { STATIC_CAMERA_POSE } from '../capture/playback-source.ts';
 import { monotonicMs } from '../clock.ts';
+import { BlankFloor } from './blank-floor.ts';
 import { type GridShape, SharedGridWriter } from './shared-grid.ts';
 
 /** Plain data, so that it can be passed to the capture thread. Lengths in metres. */
@@ -20,6 +21,8 @@ export interface CloudGuardOptions {
   heightM: number;
   /** What is lower than this below the floor is no floor. */
   dropM: number;
+  /** Whether floor that a camera should see and does not counts as missing. */
+  blankIsMissing?: boolean;
 }
 
 /** How much wider the floor's band becomes with each metre of distance: a tilt of half a degree. */
@@ -38,6 +41,7 @@ export class CloudGuard implements Disposable {
   readonly #writer: SharedGridWriter;
   readonly #options: CloudGuardOptions;
   readonly #fromOptical: Pose;
+  readonly #blankFloor: BlankFloor | null;
   /** The cell that base_link was in at the last cloud. */
   #last: readonly [number, number] | null = null;
 
@@ -58,6 +62,8 @@ export class CloudGuard implements Disposable {
     this.#writer = new SharedGridWriter(memory, shape);
     this.#options = options;
     this.#fromOptical = inverse(mount);
+    const looks = camera !== null && options.blankIsMissing === true;
+    this.#blankFloor = looks ? new BlankFloor({ ...camera, width, height }, mount, shape) : null;
   }
 
   /** Judges a cloud and hands the grid on. */
@@ -92,6 +98,10 @@ export class CloudGuard implements Disposable {
       // A pose that is none: without a grid, the sensor counts as silent.
       if (error instanceof CodecError) return;
       throw error;
+    }
+    if (frame.form === 'images') {
+      const yaw = 2 * Math.atan2(heading.z, heading.w);
+      this.#blankFloor?.mark(frame.depth, { x: within.x, y: within.y, yaw }, grid.classes);
     }
     this.#writer.write({
       ...{ capturedAtMs: frame.capturedAtMs, placed, classes: grid.classes },

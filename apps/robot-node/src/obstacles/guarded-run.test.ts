@@ -1,4 +1,4 @@
-/** Full speed ahead among walls, furniture and people: a few runs. `pnpm bench guard-runs` makes a thousand. */
+/** Full speed ahead among walls, furniture, people and holes: a few runs. `pnpm bench guard-runs` makes a thousand. */
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { expect, it } from 'vitest';
 import { type GuardedRun, guardedRun, RUN_WORLDS } from '../testing/guarded-run.ts';
@@ -12,6 +12,8 @@ it.each(RUN_WORLDS.map((world) => [world().name, world] as const))(
     expect(runs.flatMap(({ contacts, seed }) => contacts.map((contact) => ({ ...contact, seed })))).toEqual(
       [],
     );
+    // Nor over an edge, nor near one.
+    expect(Math.min(...runs.map(({ nearestEdgeM }) => nearestEdgeM))).toBeGreaterThan(0.12);
     const sum = (of: (run: GuardedRun) => number) => runs.reduce((total, run) => total + of(run), 0);
     expect(sum(({ falseStops }) => falseStops)).toBeLessThanOrEqual(
       0.02 * sum(({ freeCommands }) => freeCommands),

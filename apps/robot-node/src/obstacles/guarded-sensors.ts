@@ -24,6 +24,8 @@ export interface ObstacleGuardConfiguration {
   brakes: { linear: number; angular: number };
   /** The topics of the robot's ROS graph that bound its motion as well. */
   topics?: GuardTopicsOptions | null | undefined;
+  /** Whether floor that a camera should see and does not counts as missing. */
+  blankIsMissing?: boolean | undefined;
   /** Whether floor over which a laser scan passes counts as seen. */
   scansShowFloor?: boolean | undefined;
 }
@@ -43,7 +45,7 @@ export function guardedSensors(
   sensors: readonly CloudSensorOptions[],
   configuration: ObstacleGuardConfiguration,
 ): GuardedSensors {
-  const { mode, clearanceM, heightM, dropM } = configuration;
+  const { mode, clearanceM, heightM, dropM, blankIsMissing = false } = configuration;
   if (mode === 'off') return { sensors, grids: [] };
   const grids: { sensor: number; reader: SharedGridReader }[] = [];
   const guarded = sensors.map((sensor) => {
@@ -53,7 +55,8 @@ export function guardedSensors(
     const memory = makeSharedGrid(GRID_SHAPE);
     grids.push({ sensor: sensor.capture.sensor, reader: new SharedGridReader(memory, GRID_SHAPE) });
     const odometry = hasOdometry(source);
-    const guard = { memory, shape: GRID_SHAPE, mount, odometry, clearanceM, heightM, dropM };
+    const band = { clearanceM, heightM, dropM, blankIsMissing };
+    const guard = { memory, shape: GRID_SHAPE, mount, odometry, ...band };
     return { ...sensor, capture: { ...sensor.capture, guard } };
   });
   return { sensors: guarded, grids };

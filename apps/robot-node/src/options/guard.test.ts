@@ -15,7 +15,8 @@ function optionsIn(yaml: string, ...argv: string[]) {
 
 describe('the options of the obstacle guard', () => {
   it('are those of the simulated robot by default', () => {
-    const { mode, footprint, mount, marginM } = options();
+    const { mode, footprint, mount, marginM, blankIsMissing } = options();
+    expect([blankIsMissing, options('--guard-blank-floor', 'unseen').blankIsMissing]).toEqual([true, false]);
     expect([mode, mount, marginM]).toEqual(['auto', null, 0.15]);
     expect(footprint.length).toBe(24);
   });

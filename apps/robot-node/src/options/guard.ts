@@ -81,6 +81,13 @@ export const guardOptions = optionGroup('guard', {
     file: 'dropM',
     help: 'what lies lower than this below the floor is a drop-off',
   }),
+  guardBlankFloor: defineOption({
+    schema: schema.choice(['missing', 'unseen']),
+    default: 'missing',
+    argument: 'CHOICE',
+    file: 'blankFloor',
+    help: 'what floor is of which a depth camera gives nothing, behind floor that it does see: missing (the robot brakes, as before a drop-off) or unseen (it is slow)',
+  }),
   guardMarginM: defineOption({
     schema: schema.number({ min: 0.02, max: 1 }),
     default: defaultObstacleGuardOptions.marginM,
@@ -103,6 +110,7 @@ export interface GuardValues {
   footprint: string;
   guardMount: SensorMount | null;
   guardScanFloor: 'unseen' | 'seen';
+  guardBlankFloor: 'missing' | 'unseen';
   guardClearanceM: number;
   guardHeightM: number;
   guardDropM: number;
@@ -133,6 +141,7 @@ export function toObstacleGuard(
     unseenMps: values.guardUnseenMps,
     mount: guardMount,
     topics,
+    blankIsMissing: values.guardBlankFloor === 'missing',
     scansShowFloor: values.guardScanFloor === 'seen',
     brakes: { linear: values.decelerationMps2, angular: values.turnRadps2 },
   };

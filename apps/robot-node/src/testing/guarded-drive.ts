@@ -22,6 +22,8 @@ export interface StageCamera {
   description: SourceDescription;
   /** Its optical frame in base_link. */
   mount: Pose;
+  /** Whether floor that it should see and does not is missing. */
+  blankIsMissing: boolean;
   /** What it sees now. */
   render(): { depth: Float32Array; cameraPose: Pose };
 }
@@ -118,6 +120,7 @@ class GuardedCamera implements Disposable {
     this.#camera = camera;
     this.#clouds = new CloudGuard(codec, description, {
       ...{ memory, shape: GRID_SHAPE, mount, odometry: true, ...BAND },
+      blankIsMissing: camera.blankIsMissing,
     });
     this.#reader = new SharedGridReader(memory, GRID_SHAPE);
   }

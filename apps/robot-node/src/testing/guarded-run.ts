@@ -1,6 +1,7 @@
 /** A simulated robot among the walls, furniture and people of a simulated world, under the obstacle guard alone. */
 import {
   concourseWorld,
+  dockWorld,
   officeWorld,
   SimulatedBase,
   SimulatedCamera,
@@ -14,7 +15,12 @@ import { type GuardedRun, type GuardTimes, guardedDrive, type StageCamera, seede
 
 export type { GuardedRun, GuardTimes } from './guarded-drive.ts';
 
-export const RUN_WORLDS: readonly (() => WorldDescription)[] = [officeWorld, warehouseWorld, concourseWorld];
+export const RUN_WORLDS: readonly (() => WorldDescription)[] = [
+  officeWorld,
+  warehouseWorld,
+  concourseWorld,
+  dockWorld,
+];
 
 /** Pixels: fewer than the robot's own camera has, so that a run takes a second. */
 const SIZE = 160;
@@ -49,7 +55,8 @@ function placed(world: WorldDescription, random: () => number): SimulatedBase {
   const base = new SimulatedBase(world);
   for (let tries = 0; tries < 1000; tries++) {
     const [x, y] = [random() * 20, random() * 14];
-    if (base.clearanceAt(x, y) < 0.4 || !indoors(world, x, y)) continue;
+    const room = Math.min(base.clearanceAt(x, y), base.edgeAt(x, y));
+    if (room < 0.4 || !indoors(world, x, y)) continue;
     base.teleport(x, y, (random() * 2 - 1) * Math.PI);
     return base;
   }
@@ -74,6 +81,7 @@ async function cameraOf(world: WorldDescription, base: SimulatedBase, seed: numb
       camera: { fx, fy, cx, cy },
     },
     mount,
+    blankIsMissing: true,
     render: () => camera.render(base.snapshot, { points: false }),
   };
   return { staged, close: () => camera.close() };
@@ -96,7 +104,7 @@ export async function guardedRun(
     {
       ...{ name: world.name, base, cameras: [staged], close },
       clearanceAt: (x, y) => base.clearanceAt(x, y),
-      edgeAt: () => Number.POSITIVE_INFINITY,
+      edgeAt: (x, y) => base.edgeAt(x, y),
       touched: () => base.state.collision,
     },
     { seed, random, speed, seconds, times },

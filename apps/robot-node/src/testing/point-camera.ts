@@ -20,6 +20,8 @@ const FAR_M = 15;
 export class PointCamera implements StageCamera {
   readonly description: SourceDescription;
   readonly mount: Pose;
+  /** What the recording did not see is not missing. */
+  readonly blankIsMissing = false;
   readonly #points: Float32Array;
   readonly #options: PointCameraOptions;
   readonly #base: SimulatedBase;

@@ -20,8 +20,12 @@ export interface RecordedCloud {
   width: number;
 }
 
-/** Of the robot that drives in it, metres: what it would drive into. Lower and higher points are floor, or passed under. */
-const LOW_M = 0.05;
+/**
+ * What is higher than the first is a reason to stop, as the guard is told; touching what is higher than the second is a
+ * contact: cameras are wrong by some centimetres. Higher than the third, it is passed under, metres.
+ */
+const LOW_M = 0.04;
+const CONTACT_M = 0.08;
 const HIGH_M = 1.1;
 /** Points within a cell of this size, and how many of them are something that stands there. */
 const CELL_M = 0.05;
@@ -42,8 +46,9 @@ export class RecordedRoom {
   readonly heightM: number;
   /** x, y, z in the world, whose origin is base_link where it was recorded. */
   readonly #points: Float32Array;
-  /** x, y of what stands on the floor. */
+  /** x, y of what stands on the floor, and of what of it is a contact. */
   readonly #things: Float64Array;
+  readonly #solid: Float64Array;
   readonly #focal: number;
 
   private constructor(name: string, mount: Pose, points: Float32Array, focal: number) {
@@ -51,7 +56,8 @@ export class RecordedRoom {
     this.mount = mount;
     this.heightM = mount.position.z;
     this.#points = points;
-    this.#things = thingsOf(points);
+    this.#things = thingsOf(points, LOW_M);
+    this.#solid = thingsOf(points, CONTACT_M);
     this.#focal = focal;
   }
 
@@ -74,13 +80,12 @@ export class RecordedRoom {
 
   /** From the edge of a robot that stands there to the nearest thing, metres; negative inside one. */
   clearanceAt(x: number, y: number): number {
-    let nearest = Number.POSITIVE_INFINITY;
-    const things = this.#things;
-    for (let i = 0; i < things.length; i += 2) {
-      const [dx, dy] = [(things[i] as number) - x, (things[i + 1] as number) - y];
-      nearest = Math.min(nearest, dx * dx + dy * dy);
-    }
-    return Math.sqrt(nearest) - DEFAULT_LIMITS.radius;
+    return nearest(this.#things, x, y) - DEFAULT_LIMITS.radius;
+  }
+
+  /** Whether a robot that stands there touches something. */
+  isTouched(x: number, y: number): boolean {
+    return nearest(this.#solid, x, y) < DEFAULT_LIMITS.radius;
   }
 
   /** A base in it, somewhere near where it was recorded, that looks about where the camera looked. */
@@ -124,11 +129,21 @@ export function roomRun(
       edgeAt: () => Number.POSITIVE_INFINITY,
       touched: () => {
         const { x, y } = base.state.pose.position;
-        return room.clearanceAt(x, y) < 0;
+        return room.isTouched(x, y);
       },
     },
     { seed, random, speed, seconds, times },
   );
+}
+
+/** The distance of the nearest of these places. */
+function nearest(places: Float64Array, x: number, y: number): number {
+  let squared = Number.POSITIVE_INFINITY;
+  for (let i = 0; i < places.length; i += 2) {
+    const [dx, dy] = [(places[i] as number) - x, (places[i + 1] as number) - y];
+    squared = Math.min(squared, dx * dx + dy * dy);
+  }
+  return Math.sqrt(squared);
 }
 
 /** The points in the world, one of each cube. */
@@ -149,11 +164,11 @@ function placed(points: Float32Array, { position, orientation }: Pose): Float32A
 }
 
 /** Where something stands: points that the robot would hit, in cells that have several. */
-function thingsOf(points: Float32Array): Float64Array {
+function thingsOf(points: Float32Array, low: number): Float64Array {
   const cells = new Map<string, number[]>();
   for (let i = 0; i < points.length; i += 3) {
     const [x, y, z] = [points[i] as number, points[i + 1] as number, points[i + 2] as number];
-    if (z < LOW_M || z > HIGH_M) continue;
+    if (z < low || z > HIGH_M) continue;
     const cell = `${Math.floor(x / CELL_M)},${Math.floor(y / CELL_M)}`;
     const there = cells.get(cell);
     if (there === undefined) cells.set(cell, [x, y]);

@@ -33,6 +33,8 @@ const HALF_DIAGONAL = Math.SQRT1_2;
 const OWN_BODY_M = 0.05;
 /** A motion goes towards an obstacle if more than this share of it does. */
 const TOWARDS = 0.35;
+/** And towards an edge of the floor: nothing holds a robot that slips. */
+const TOWARDS_EDGE = 0.1;
 /** What is by less than this farther than the nearest obstacle counts as equally near, cells. */
 const NEAREST_CELLS = 0.25;
 
@@ -57,7 +59,8 @@ export class FreeWaySearch {
 
   /**
    * How far the footprint, grown by the margin of that index, can go. If something is already within the margin, the
-   * margin shrinks until nothing is: the robot may go along an obstacle, and away from it.
+   * margin shrinks until nothing is: the robot may go along an obstacle, and away from it. For a missing floor it does not
+   * shrink: the robot may only go away from it.
    *
    * @returns an object that the next call overwrites
    */
@@ -71,23 +74,34 @@ export class FreeWaySearch {
     return way;
   }
 
-  /** What a motion brings the robot nearer to, of what is nearest within that margin; `null` if nothing. */
-  deeper(sweep: Sweep, index: number): 'obstacle' | 'drop-off' | null {
+  /**
+   * What a motion brings the robot nearer to, of what is nearest within a margin; `null` if nothing.
+   *
+   * @param index of the margin for obstacles @param edgeIndex of that for a missing floor
+   */
+  deeper(sweep: Sweep, index: number, edgeIndex: number): 'obstacle' | 'drop-off' | null {
+    return (
+      this.#deeper(sweep, edgeIndex, floorClasses.dropOff, TOWARDS_EDGE) ??
+      this.#deeper(sweep, index, floorClasses.occupied, TOWARDS)
+    );
+  }
+
+  #deeper(sweep: Sweep, index: number, kind: number, towards: number): 'obstacle' | 'drop-off' | null {
     const { wish } = sweep;
     const { margin } = this.#outlines[index] as Outline;
     let least = Number.POSITIVE_INFINITY;
-    this.#within(margin, sweep, (_x, _y, { distance }) => {
-      least = Math.min(least, distance);
+    this.#within(margin, sweep, (_x, _y, { distance }, known) => {
+      if (known === kind) least = Math.min(least, distance);
     });
     if (least === Number.POSITIVE_INFINITY) return null;
     let found: 'obstacle' | 'drop-off' | null = null;
     this.#within(margin, sweep, (x, y, near, known) => {
       // What lies ahead along a wall comes no nearer than the wall is: the sweep looks after the rest.
-      if (near.distance > least + NEAREST_CELLS * this.#map.cellM) return;
+      if (known !== kind || near.distance > least + NEAREST_CELLS * this.#map.cellM) return;
       // How a thing that stands still moves, seen from the robot.
       const dx = -wish.linear.x + wish.angular.z * y;
       const dy = -wish.linear.y - wish.angular.z * x;
-      if (near.x * dx + near.y * dy < -TOWARDS * Math.hypot(dx, dy)) found ??= causeOf(known);
+      if (near.x * dx + near.y * dy < -towards * Math.hypot(dx, dy)) found ??= causeOf(known);
     });
     return found;
   }
@@ -97,11 +111,12 @@ export class FreeWaySearch {
     return Math.hypot(linear.x, linear.y) + Math.abs(angular.z) * this.#footprint.reach;
   }
 
-  /** The widest outline from `index` on that touches nothing. */
+  /** The widest outline from `index` on that touches no obstacle. */
   #levelAt(sweep: Sweep, index: number): number {
     let level = index;
     const last = this.#outlines.length - 1;
-    this.#within((this.#outlines[index] as Outline).margin, sweep, (_x, _y, { distance }) => {
+    this.#within((this.#outlines[index] as Outline).margin, sweep, (_x, _y, { distance }, known) => {
+      if (known === floorClasses.dropOff) return;
       const slack = distance - HALF_DIAGONAL * this.#map.cellM;
       while (level < last && slack < (this.#outlines[level] as Outline).margin) level++;
     });

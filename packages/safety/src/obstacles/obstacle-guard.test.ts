@@ -120,6 +120,17 @@ describe('the obstacle guard', () => {
     expect(guard.bound(go(-0.5), 1010).factor).toBe(1);
   });
 
+  test('keeps the whole margin to a missing floor also when it creeps, and only lets the robot go away from it', () => {
+    // Nearer than the margin, straight ahead and beside.
+    const ahead = standing(floor().paint('dropOff', 0.38, 0.8, -1, 1));
+    expect(ahead.bound(go(0.15), 1010)).toMatchObject({ factor: 0, reason: 'drop-off' });
+    expect(standing(wall(0.38)).bound(go(0.15), 1010).factor).toBeGreaterThan(0);
+    for (const wish of [go(-0.3), go(0, 1), go(0, -1)]) expect(ahead.bound(wish, 1010).factor).toBe(1);
+    const beside = standing(floor().paint('dropOff', -4, 4, 0.36, 1));
+    expect(beside.bound(go(0.3, 0.3), 1010)).toMatchObject({ factor: 0, reason: 'drop-off' });
+    expect(beside.bound(go(0.2, -1), 1010).factor).toBeGreaterThan(0);
+  });
+
   test('is slow towards where nobody sees, and lets the robot come there at a fitting speed', () => {
     const near = standing(floor().paint('unknown', 0.4, 4, -2, 2)).bound(go(1), 1010);
     expect(near).toEqual({ factor: 0.3, reason: 'unseen-space', urgent: false });
@@ -221,6 +232,20 @@ describe('the obstacle guard', () => {
       }
     });
 
+    test('a scanner in another frame than the clouds is silent, and takes nothing away', () => {
+      const guard = withScanner();
+      guard.see(0, wall(0.32));
+      const scan = new PaintedGrid(1010);
+      scan.placed = false;
+      guard.see(1, scan);
+      expect(guard.bound(go(1), 1020)).toMatchObject({ factor: 0, reason: 'obstacle' });
+      expect(guard.sensors(1020)[1]?.silent).toBe(true);
+      // Without clouds, it is all that there is.
+      scan.capturedAtMs = 1500;
+      guard.see(1, scan);
+      expect(guard.sensors(1510)[1]?.silent).toBe(false);
+    });
+
     test('its silence is that of a sensor', () => {
       const guard = withScanner();
       guard.see(0, new PaintedGrid(1400));
@@ -304,6 +329,41 @@ describe('whatever it has seen', () => {
         }
       }),
       { seed: 11, numRuns: 400 },
+    );
+  });
+
+  test('however it is driven for a while, the robot keeps away from a missing floor', () => {
+    const arc = fc.tuple(fc.double({ min: -1, max: 1, noNaN: true }), speed);
+    const holes = fc.array(rectangle, { minLength: 1, maxLength: 3 });
+    fc.assert(
+      fc.property(holes, fc.array(arc, { minLength: 4, maxLength: 8 }), (rectangles, arcs) => {
+        const edges = rectangles.map((each) => ({ ...each, kind: 'dropOff' }));
+        const grid = painted(edges).paint('free', -0.6, 0.6, -0.6, 0.6);
+        const guard = standing(grid);
+        let [x, y, yaw] = [0, 0, 0];
+        let nearest = Number.POSITIVE_INFINITY;
+        const missing: [number, number][] = [];
+        grid.classes.forEach((known, at) => {
+          if (known === floorClasses.dropOff)
+            missing.push([((at % 160) - 79.5) * 0.05, (Math.floor(at / 160) - 79.5) * 0.05]);
+        });
+        arcs.forEach(([v, w], i) => {
+          for (let k = 0; k < 50; k++) {
+            const ms = 1000 + (i * 50 + k) * 20;
+            guard.moved({ x, y, yaw }, zeroTwist(), ms);
+            grid.capturedAtMs = ms;
+            guard.see(0, grid);
+            const { factor } = guard.bound(go(v, w), ms);
+            x += v * factor * 0.02 * Math.cos(yaw);
+            y += v * factor * 0.02 * Math.sin(yaw);
+            yaw += w * factor * 0.02;
+          }
+          for (const [dx, dy] of missing) nearest = Math.min(nearest, Math.hypot(dx - x, dy - y) - 0.25);
+        });
+        // To the middle of a cell, which is up to 3.5 cm from its edge.
+        expect(nearest).toBeGreaterThan(0.12);
+      }),
+      { seed: 13, numRuns: 60 },
     );
   });
 

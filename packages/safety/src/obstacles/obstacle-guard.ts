@@ -52,15 +52,14 @@ export class ObstacleGuard implements MotionGuard {
   /** Takes what a sensor's newest cloud says. @param sensor its number, from 0 */
   see(sensor: number, grid: SensorGrid): void {
     if (!(grid.capturedAtMs > (this.#lastMs[sensor] ?? Number.POSITIVE_INFINITY))) return;
+    const firstPlane = this.#lastMs.length - this.#options.planes;
+    const plane = sensor < firstPlane ? null : sensor - firstPlane;
+    // Grids in two frames cannot be one map. The clouds' frame counts; a scanner in another is silent.
+    if (plane !== null && grid.placed !== this.#map.placed && this.#cloudsLive(grid.capturedAtMs)) return;
     this.#lastMs[sensor] = grid.capturedAtMs;
     const half = grid.side / 2;
     this.#map.centreOn(grid.firstX + half, grid.firstY + half);
-    const firstPlane = this.#lastMs.length - this.#options.planes;
-    this.#map.merge(
-      grid,
-      grid.placed ? 0 : this.#whereabouts.travelAt(grid.capturedAtMs),
-      sensor < firstPlane ? null : sensor - firstPlane,
-    );
+    this.#map.merge(grid, grid.placed ? 0 : this.#whereabouts.travelAt(grid.capturedAtMs), plane);
   }
 
   /** Takes odometry: the pose of base_link, its velocity, and when they were measured. */
@@ -130,13 +129,15 @@ export class ObstacleGuard implements MotionGuard {
     // Where the wide outline meets nothing, the narrow one does not either.
     const met = wide.contactS < Number.POSITIVE_INFINITY;
     const narrow = met ? { ...this.#search.look(sweep, NARROW) } : wide;
-    const deeper = this.#search.deeper(sweep, NARROW);
+    const deeper = this.#search.deeper(sweep, NARROW, WIDE);
     if (deeper !== null) [narrow.contactS, narrow.cause] = [0, deeper];
 
     const hard = { reactionS, slowS: slowingS(wish, emergency) };
     if (this.#mustBrake(narrow, speed, hard)) return stopFor(interventionOf(narrow));
 
-    const creeping = CREEPING_MPS / speed;
+    // Nor is a robot that creeps let nearer to an edge.
+    const isEdge = wide.cause === 'drop-off';
+    const creeping = isEdge ? 0 : CREEPING_MPS / speed;
     const near = Math.min(
       this.#shareBefore(narrow.contactS, comfort),
       Math.max(this.#shareBefore(wide.contactS, comfort), creeping),
@@ -146,7 +147,7 @@ export class ObstacleGuard implements MotionGuard {
     // A wish that is itself slower than that need not become faster.
     if (near < 1 && near * speed < Math.min(least, speed)) {
       this.#stopped = direction;
-      return stopFor(interventionOf(narrow));
+      return stopFor(isEdge ? 'drop-off' : interventionOf(narrow));
     }
     this.#stopped = null;
 
@@ -188,6 +189,11 @@ export class ObstacleGuard implements MotionGuard {
   #someSilent(nowMs: number, placed: boolean): boolean {
     if (placed && this.#whereabouts.silent(nowMs)) return true;
     return this.#lastMs.some((lastMs) => this.#isSilent(lastMs, nowMs));
+  }
+
+  #cloudsLive(nowMs: number): boolean {
+    const clouds = this.#lastMs.length - this.#options.planes;
+    return this.#lastMs.some((lastMs, sensor) => sensor < clouds && !this.#isSilent(lastMs, nowMs));
   }
 
   #isSilent(lastMs: number, nowMs: number): boolean {

@@ -4,9 +4,10 @@ import { MovingBody } from '../movers.ts';
 import { SimulatedBase } from '../simulated-base.ts';
 import { SimulatedCamera } from '../simulated-camera.ts';
 import { concourseWorld } from './concourse.ts';
+import { dockWorld } from './dock.ts';
 import { warehouseWorld } from './warehouse.ts';
 
-const worlds = [warehouseWorld(), concourseWorld()].map((world) => [world.name, world] as const);
+const worlds = [warehouseWorld(), concourseWorld(), dockWorld()].map((world) => [world.name, world] as const);
 
 test.each(worlds)('people and carts walk through nothing stationary: %s', (_, world) => {
   const obstacles = new CollisionWorld(staticObstacles(world), []);
