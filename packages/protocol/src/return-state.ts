@@ -19,6 +19,7 @@ export const returnEnds = [
   'service-back', // an operator was heard again
   'estop', // the emergency stop was latched
   'track-end', // it is where its track begins
+  'moved', // something else moved it while it waited
   'no-track', // it knows no way back
   'off-track', // it came too far from its track
   'odometry-silent', // it does not know where it is

@@ -705,7 +705,7 @@ for reason in ["view-unknown", "view-late", "view-lost", "blind-travel", "obstac
     telemetry.good({**state, "motion": {**motion, "reasons": [reason]}}, "telemetry: " + reason)
 for told in [{"phase": "announcing", "metres": 0}, {"phase": "returning", "metres": 2.75}]:
     telemetry.good({**state, "motion": {**motion, "return": told}}, "telemetry: return " + told["phase"])
-for end in ["service-back", "estop", "track-end", "no-track", "off-track", "odometry-silent", "sensor-silent", "unseen", "blocked",
+for end in ["service-back", "estop", "track-end", "moved", "no-track", "off-track", "odometry-silent", "sensor-silent", "unseen", "blocked",
             "no-wheels", "too-long"]:
     telemetry.good({**state, "motion": {**motion, "return": {"phase": "ended", "metres": 4.5, "end": end}}}, "telemetry: return ended, " + end)
 returned = {**state, "motion": {**motion, "return": {"phase": "ended", "metres": 4.5, "end": "blocked"}}}

@@ -6,6 +6,7 @@ const ends: Readonly<Record<ReturnEnd, string>> = {
   'service-back': 'until somebody was heard again',
   estop: 'until the emergency stop',
   'track-end': 'to the beginning of its track',
+  moved: 'something else moved it',
   'no-track': 'it knew no way',
   'off-track': 'until it was off its track',
   'odometry-silent': 'until it did not know where it was',

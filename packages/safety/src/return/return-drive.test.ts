@@ -247,6 +247,17 @@ describe('it does not begin', () => {
       },
     ],
     [
+      'after something else has moved it',
+      'moved',
+      (robot) => {
+        robot.onTick = () => {
+          robot.base.pose = { ...robot.base.pose, x: robot.base.pose.x + 0.001 };
+        };
+        robot.wait(4);
+        robot.onTick = null;
+      },
+    ],
+    [
       'without a track',
       'no-track',
       (robot) => {

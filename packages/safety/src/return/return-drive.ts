@@ -33,6 +33,9 @@ const LEAST_TRACK_M = 0.2;
 /** Less is no progress, m and rad. */
 const PROGRESS_M = 0.05;
 const PROGRESS_RAD = 0.1;
+/** While it waits, more than this is the doing of something else, m and rad. */
+const STRANGE_M = 0.1;
+const STRANGE_RAD = 0.2;
 
 /**
  * Drives the robot back along its track after it has lost all operators, once for each time that somebody has driven it.
@@ -64,7 +67,7 @@ export class ReturnDrive implements UnattendedDrive {
   /** By the track's measure, when the return began, m. */
   #beganM = 0;
   #metres = 0;
-  /** Where it was when it last got anywhere. */
+  /** Where it was when it began to wait, or last got anywhere. */
   #mark: Readonly<FloorPose & { atMs: number }> | null = null;
   /** Why it does not ask for motion although it is on its way. */
   #held: ReturnEnd | null = null;
@@ -138,7 +141,11 @@ export class ReturnDrive implements UnattendedDrive {
     if (facts.latched) this.#armed = false;
     switch (this.#phase) {
       case 'standby':
-        if (this.#armed && nowMs - this.#heardMs >= LOST_MS) this.#become('waiting', nowMs);
+        if (this.#armed && nowMs - this.#heardMs >= LOST_MS) {
+          const { pose } = this.#track;
+          this.#mark = pose === null ? null : { ...pose, atMs: nowMs };
+          this.#become('waiting', nowMs);
+        }
         return null;
       case 'waiting':
         this.#wait(nowMs, facts);
@@ -155,6 +162,7 @@ export class ReturnDrive implements UnattendedDrive {
 
   #wait(nowMs: number, facts: Readonly<UnattendedFacts>): void {
     if (!this.#armed) this.#become('standby', nowMs);
+    else if (this.#isBeyond(STRANGE_M, STRANGE_RAD)) this.#finish('moved', nowMs);
     else if (nowMs - this.#heardMs >= this.#options.afterMs && !facts.leased) {
       this.#metres = 0;
       const fault = this.#fault(nowMs, facts);
@@ -167,6 +175,7 @@ export class ReturnDrive implements UnattendedDrive {
   #announce(nowMs: number, facts: Readonly<UnattendedFacts>): void {
     const fault = this.#fault(nowMs, facts);
     if (fault !== null) this.#finish(fault, nowMs);
+    else if (this.#isBeyond(STRANGE_M, STRANGE_RAD)) this.#finish('moved', nowMs);
     else if (nowMs - this.#sinceMs < this.#options.announceMs) return;
     else if (!this.#lookout.live(nowMs)) this.#finish('sensor-silent', nowMs);
     else {
@@ -209,12 +218,17 @@ export class ReturnDrive implements UnattendedDrive {
 
   #isStuck(pose: Readonly<FloorPose>, nowMs: number): boolean {
     const mark = this.#mark;
-    const gotOn =
-      mark === null ||
-      Math.hypot(pose.x - mark.x, pose.y - mark.y) >= PROGRESS_M ||
-      Math.abs(turnBetween(mark.yaw, pose.yaw)) >= PROGRESS_RAD;
+    const gotOn = mark === null || this.#isBeyond(PROGRESS_M, PROGRESS_RAD);
     if (gotOn) this.#mark = { ...pose, atMs: nowMs };
     return !gotOn && nowMs - mark.atMs > this.#options.blockedMs;
+  }
+
+  /** Whether the robot is farther from its mark than this, m, or turned by more, rad. */
+  #isBeyond(metres: number, turn: number): boolean {
+    const [mark, { pose }] = [this.#mark, this.#track];
+    if (mark === null || pose === null) return false;
+    if (Math.hypot(pose.x - mark.x, pose.y - mark.y) >= metres) return true;
+    return Math.abs(turnBetween(mark.yaw, pose.yaw)) >= turn;
   }
 
   #finish(end: ReturnEnd, nowMs: number): null {
