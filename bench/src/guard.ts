@@ -3,8 +3,10 @@ import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { decodeDepthPng, decodePcd, parseIntrinsics } from '@farpoint/cloud-formats';
+import { BlankFloor } from '@farpoint/robot-node/obstacles/blank-floor';
+import { opticalMount } from '@farpoint/robot-node/obstacles/sensor-mount';
 import { guardedRun, RUN_WORLDS } from '@farpoint/robot-node/testing/guarded-run';
-import { officeWorld, SimulatedBase, SimulatedCamera } from '@farpoint/sim';
+import { DEFAULT_CAMERA, dockWorld, officeWorld, SimulatedBase, SimulatedCamera } from '@farpoint/sim';
 import { type Codec, ObstacleGrid, type SeenCells } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
@@ -12,14 +14,16 @@ import { type Distribution, distribution, rounded, timeCalls } from './stats.ts'
 
 const USAGE = `pnpm bench guard [--rounds 300] [--clouds ../shared/data/clouds] [--json]
 
-Kernel benchmark, in one process. Times the step from a whole cloud to the grid of the floor, the copy into WASM included,
-for the simulated camera's 480 × 480 pixels as an image and as points, and for recorded clouds where the folder has them;
-then the guard's decision for one command, in a simulated drive.`;
+Kernel benchmark, in one process. Times the step from a whole cloud to the grid of the floor, for the simulated camera's
+480 × 480 pixels as an image and as points, and for recorded clouds where the folder has them. The copy into WASM is
+included, and so is the search for missing floor of which an image has no depth. Then the guard's decision for one command, in a simulated drive.`;
 
 const SETTINGS = {
   ...{ side: 160, cellM: 0.05, clearanceM: 0.04, heightM: 1.1, dropM: 0.15, slope: 0.01, lowRayM: 0.15 },
   ...{ nearPoints: 14, leastPoints: 2, confirm: false },
 };
+
+const HERE = { x: 0, y: 0, yaw: 0 };
 
 interface Row {
   cloud: string;
@@ -77,15 +81,18 @@ export async function simulatedGuardMs(codec: Codec, rounds: number): Promise<Di
 }
 
 async function simulated(codec: Codec, rounds: number): Promise<Row[]> {
-  const world = officeWorld();
-  const camera = await SimulatedCamera.create({ world, seed: 1 });
-  const { depth, points, intrinsics } = camera.render(new SimulatedBase(world).snapshot);
-  const pose = poseOf(0.9, 0.2);
-  const rows = [
-    timeImage(codec, 'simulated, image', depth, intrinsics, pose, rounds),
-    timePoints(codec, 'simulated, points', points, pose, rounds),
-  ];
-  camera.close();
+  const pose = poseOf(DEFAULT_CAMERA.up, DEFAULT_CAMERA.pitch);
+  const rows: Row[] = [];
+  for (const world of [officeWorld(), dockWorld()]) {
+    const camera = await SimulatedCamera.create({ world, seed: 1 });
+    const base = new SimulatedBase(world);
+    // Before the edge.
+    if (world.name === 'dock') base.teleport(12.4, 9, 0);
+    const { depth, points, intrinsics } = camera.render(base.snapshot);
+    rows.push(timeImage(codec, `${world.name}, image`, depth, intrinsics, pose, rounds));
+    if (world.name !== 'dock') rows.push(timePoints(codec, `${world.name}, points`, points, pose, rounds));
+    camera.close();
+  }
   return rows;
 }
 
@@ -122,9 +129,14 @@ function timeImage(
   using grid = new ObstacleGrid(codec, depth.length, SETTINGS);
   grid.setCamera(camera, camera);
   grid.pose.set(pose);
+  const { up: z, pitch } = DEFAULT_CAMERA;
+  const mount = opticalMount({ x: 0, y: 0, z, roll: 0, pitch, yaw: 0 });
+  const blank = new BlankFloor(camera, mount, SETTINGS);
   const look = () => {
     grid.depth.set(depth);
-    return grid.look('image');
+    const seen = grid.look('image');
+    blank.mark(depth, HERE, grid.classes);
+    return seen;
   };
   return {
     ...{ cloud, points: depth.length, seen: look() },

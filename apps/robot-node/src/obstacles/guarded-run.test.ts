@@ -1,4 +1,5 @@
 /** Full speed ahead among walls, furniture, people and holes: a few runs. `pnpm bench guard-runs` makes a thousand. */
+import { dockWorld } from '@farpoint/sim';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { expect, it } from 'vitest';
 import { type GuardedRun, guardedRun, RUN_WORLDS } from '../testing/guarded-run.ts';
@@ -23,3 +24,14 @@ it.each(RUN_WORLDS.map((world) => [world().name, world] as const))(
   },
   30_000,
 );
+
+it('keeps away from holes of whose insides the camera gives nothing', async () => {
+  const codec = await loadCodecFromDisk();
+  // Past the corner of a hatch, and along its edge.
+  for (const seed of [100, 132]) {
+    const run = await guardedRun(codec, dockWorld, seed, 8);
+    expect([run.fellAtS, run.contacts]).toEqual([null, []]);
+    expect(run.nearestEdgeM).toBeLessThan(0.4);
+    expect(run.nearestEdgeM).toBeGreaterThan(0.12);
+  }
+}, 30_000);

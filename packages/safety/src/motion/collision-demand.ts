@@ -53,9 +53,9 @@ export class CollisionDemand implements MotionGuard {
     const silent = this.state(nowMs) === 'silent';
     const most = silent ? silentMps : this.#mostMps;
     const pace = Math.max(Math.hypot(linear.x, linear.y), Math.abs(angular.z) * reachM);
-    // A wish that is no number is fast.
-    if (pace <= most) return FREE;
-    const factor = Number.isFinite(pace) ? most / pace : 0;
+    // A wish that is no number is fast. A stop is urgent also for a robot that was told to stand still and has not yet.
+    if (pace <= most && most > 0) return FREE;
+    const factor = Number.isFinite(pace) && most > 0 ? most / pace : 0;
     return { factor, reason: silent ? 'collision-silent' : 'collision-topic', urgent: factor === 0 };
   }
 }
