@@ -14,12 +14,13 @@ import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
-const USAGE = `pnpm bench guard-runs [--runs 1000] [--seed 1] [--seconds 12] [--world NAME] [--json]
+const USAGE = `pnpm bench guard-runs [--runs 1000] [--seed 1] [--seconds 12] [--world NAME] [--floor-camera] [--json]
        pnpm bench guard-runs --rooms [--clouds ../shared/data/clouds] [--runs 1000] …
 
 Simulated time, in one process. In each run a robot somewhere in one of four worlds is told to go full speed ahead, at a
 speed up to its limit, on changing arcs, while people and carts cross its way; where the guard stops it, it turns on the spot
 and goes on. Counts what it drives into, where it goes over an edge, and the commands for which it stopped although the way was free.
+With --floor-camera, a second camera looks down at the floor around the robot.
 
 With --rooms, the robot drives in recorded clouds that show a floor: its camera sees their points from where it is, and it
 starts where they were recorded, or up to half a metre from there. Contacts and false stops are those with their points.`;
@@ -35,6 +36,7 @@ export const bench: Bench = {
         seed: { type: 'string', default: '1' },
         seconds: { type: 'string', default: '12' },
         world: { type: 'string' },
+        'floor-camera': { type: 'boolean' },
         rooms: { type: 'boolean' },
         clouds: { type: 'string', default: join(import.meta.dirname, '../../../shared/data/clouds') },
         json: { type: 'boolean' },
@@ -48,7 +50,9 @@ export const bench: Bench = {
     const codec = await loadCodecFromDisk();
     const boundMs: number[] = [];
     const times = { now: () => performance.now(), boundMs };
-    const drives = values.rooms ? roomDrives(codec, values.clouds) : worldDrives(codec, values.world);
+    const drives = values.rooms
+      ? roomDrives(codec, values.clouds)
+      : worldDrives(codec, values.world, values['floor-camera'] === true);
     if (drives.length === 0) return;
     const runs: GuardedRun[] = [];
     for (let i = 0; i < count; i++) {
@@ -100,10 +104,12 @@ export const bench: Bench = {
 /** One run in one of the places. */
 export type Drive = (seed: number, seconds: number, times: GuardTimes) => GuardedRun | Promise<GuardedRun>;
 
-export function worldDrives(codec: Codec, name?: string): Drive[] {
+export function worldDrives(codec: Codec, name?: string, floorCamera = false): Drive[] {
   const worlds = RUN_WORLDS.filter((world) => name === undefined || world().name === name);
   if (worlds.length === 0) throw new Error(`no world is named ${name}`);
-  return worlds.map((world) => (seed, seconds, times) => guardedRun(codec, world, seed, seconds, times));
+  return worlds.map(
+    (world) => (seed, seconds, times) => guardedRun(codec, world, seed, { seconds, times, floorCamera }),
+  );
 }
 
 function roomDrives(codec: Codec, folder: string): Drive[] {

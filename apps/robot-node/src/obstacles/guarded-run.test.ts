@@ -9,7 +9,7 @@ it.each(RUN_WORLDS.map((world) => [world().name, world] as const))(
   async (_, world) => {
     const codec = await loadCodecFromDisk();
     const runs: GuardedRun[] = [];
-    for (let seed = 1; seed <= 5; seed++) runs.push(await guardedRun(codec, world, seed, 8));
+    for (let seed = 1; seed <= 5; seed++) runs.push(await guardedRun(codec, world, seed, { seconds: 8 }));
     expect(runs.flatMap(({ contacts, seed }) => contacts.map((contact) => ({ ...contact, seed })))).toEqual(
       [],
     );
@@ -29,9 +29,17 @@ it('keeps away from holes of whose insides the camera gives nothing', async () =
   const codec = await loadCodecFromDisk();
   // Past the corner of a hatch, and along its edge.
   for (const seed of [100, 132]) {
-    const run = await guardedRun(codec, dockWorld, seed, 8);
+    const run = await guardedRun(codec, dockWorld, seed, { seconds: 8 });
     expect([run.fellAtS, run.contacts]).toEqual([null, []]);
     expect(run.nearestEdgeM).toBeLessThan(0.4);
     expect(run.nearestEdgeM).toBeGreaterThan(0.12);
   }
+}, 30_000);
+
+it('sees a hole beside which it begins with a camera that looks down', async () => {
+  const codec = await loadCodecFromDisk();
+  const nearest = async (floorCamera: boolean) =>
+    (await guardedRun(codec, dockWorld, 564, { seconds: 4, floorCamera })).nearestEdgeM;
+  expect(await nearest(false)).toBeLessThan(0.1);
+  expect(await nearest(true)).toBeGreaterThan(0.12);
 }, 30_000);

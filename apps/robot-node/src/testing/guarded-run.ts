@@ -1,6 +1,8 @@
 /** A simulated robot among the walls, furniture and people of a simulated world, under the obstacle guard alone. */
 import {
+  type CameraOptions,
   concourseWorld,
+  DEFAULT_CAMERA,
   dockWorld,
   officeWorld,
   SimulatedBase,
@@ -10,7 +12,7 @@ import {
   warehouseWorld,
 } from '@farpoint/sim';
 import type { Codec } from '@farpoint/wasm-codec';
-import { mountOf } from '../obstacles/guarded-sensors.ts';
+import { opticalMount } from '../obstacles/sensor-mount.ts';
 import { type GuardedRun, type GuardTimes, guardedDrive, type StageCamera, seeded } from './guarded-drive.ts';
 
 export type { GuardedRun, GuardTimes } from './guarded-drive.ts';
@@ -70,39 +72,63 @@ function indoors(world: WorldDescription, x: number, y: number): boolean {
   );
 }
 
-async function cameraOf(world: WorldDescription, base: SimulatedBase, seed: number) {
-  const camera = await SimulatedCamera.create({ world, seed, camera: { width: SIZE, height: SIZE } });
+/** Looks down at the floor around the robot, which the other camera does not see: in the robot's front, tilted. */
+const FLOOR_CAMERA = { forward: 0.25, left: 0, up: 0.9, pitch: 1.2, yaw: 0, fieldOfView: 2 };
+const FLOOR_SIZE = 120;
+
+async function cameraOf(
+  { world, base, seed }: { world: WorldDescription; base: SimulatedBase; seed: number },
+  size: number,
+  placed: Pick<CameraOptions, 'forward' | 'left' | 'up' | 'pitch' | 'yaw' | 'fieldOfView'>,
+) {
+  const camera = await SimulatedCamera.create({
+    world,
+    seed,
+    camera: { width: size, height: size, ...placed },
+  });
   const { fx, fy, cx, cy } = camera.intrinsics;
-  const mount = mountOf({ kind: 'sim', seed, size: SIZE }, null);
-  if (mount === null) throw new Error('the simulated camera has a mount');
+  const { forward: x, left: y, up: z, pitch, yaw } = { ...DEFAULT_CAMERA, ...placed };
   const staged: StageCamera = {
     description: {
-      ...{ kind: 'sim', width: SIZE, height: SIZE, capacity: SIZE * SIZE, depthMeasure: 'z' },
+      ...{ kind: 'sim', width: size, height: size, capacity: size * size, depthMeasure: 'z' },
       camera: { fx, fy, cx, cy },
     },
-    mount,
+    mount: opticalMount({ x, y, z, roll: 0, pitch, yaw }),
     blankIsMissing: true,
     render: () => camera.render(base.snapshot, { points: false }),
   };
   return { staged, close: () => camera.close() };
 }
 
-/** One run. The same world and seed give the same run. */
+export interface GuardedRunOptions {
+  seconds?: number;
+  times?: GuardTimes | null;
+  /** Whether a second camera looks down at the floor around the robot. */
+  floorCamera?: boolean;
+}
+
+/** One run. The same world, seed and options give the same run. */
 export async function guardedRun(
   codec: Codec,
   makeWorld: () => WorldDescription,
   seed: number,
-  seconds = 12,
-  times: GuardTimes | null = null,
+  { seconds = 12, times = null, floorCamera = false }: GuardedRunOptions = {},
 ): Promise<GuardedRun> {
   const random = seeded(seed);
   const { world, base } = begun(makeWorld(), random);
   const speed = 0.2 + 0.8 * random();
-  const { staged, close } = await cameraOf(world, base, seed);
+  const begins = { world, base, seed };
+  const cameras = [await cameraOf(begins, SIZE, {})];
+  // Another seed, so that no two cameras have the same noise.
+  if (floorCamera)
+    cameras.push(await cameraOf({ ...begins, seed: seed + 100_000 }, FLOOR_SIZE, FLOOR_CAMERA));
   return guardedDrive(
     codec,
     {
-      ...{ name: world.name, base, cameras: [staged], close },
+      ...{ name: world.name, base, cameras: cameras.map(({ staged }) => staged) },
+      close: () => {
+        for (const { close } of cameras) close();
+      },
       clearanceAt: (x, y) => base.clearanceAt(x, y),
       edgeAt: (x, y) => base.edgeAt(x, y),
       touched: () => base.state.collision,
