@@ -17,6 +17,9 @@ import { hangingFaults, type ReturningFault, returningFaults } from './testing/f
 /** By so much a busy machine may delay a robot, ms. */
 const BUSY_MS = 500;
 
+/** So long without a frame, a robot brakes soon, and only a busy machine makes it so long, ms. */
+const LATE_FRAME_MS = 300;
+
 /** The robot brakes because its program ends or hangs: the wheels are told zero, or nothing any more. */
 const ending: { name: string; signal: NodeJS.Signals; saysZero: boolean }[] = [
   { name: 'the robot is asked to end', signal: 'SIGTERM', saysZero: true },
@@ -96,9 +99,11 @@ describe.skipIf(!isAvailable())(
       await rig.wheels.beats(40);
       // What chance makes of a bad link may stop it for a moment.
       if (how.behindLink) return await rig.untilDriving(driving.hand);
-      const braked = rig.wheels.brakingAfter(causeMs);
-      // Unless the machine kept the hand or the robot waiting, which stops a robot as any silence does.
-      if (braked !== null && braked.blindMs < 50 && braked.silentMs < 80) expect(braked).toBe(null);
+      // Somebody who joins delays a picture, and a robot whose pictures are late may go slower for a moment.
+      const stopped = rig.wheels.stopAfter(causeMs);
+      // Unless the machine kept the hand, its picture or the robot waiting, which stops a robot as any silence does.
+      const wasKept = (stopped?.blindMs ?? 0) >= 50 || (stopped?.silentMs ?? 0) >= 80;
+      if (!wasKept && driving.hand.longestWithoutFrame(causeMs) < LATE_FRAME_MS) expect(stopped).toBe(null);
       expect(rig.wheels.fastest).toBeLessThanOrEqual(SPEED);
     });
 
@@ -128,8 +133,8 @@ describe.skipIf(!isAvailable())(
       const causeMs = performance.now();
       await rig.stack.signaling.kill();
       await rig.wheels.beats(40);
-      const braked = rig.wheels.brakingAfter(causeMs);
-      if (braked !== null && braked.blindMs < 50 && braked.silentMs < 80) expect(braked).toBe(null);
+      const stopped = rig.wheels.stopAfter(causeMs);
+      if (stopped !== null && stopped.blindMs < 50 && stopped.silentMs < 80) expect(stopped).toBe(null);
       await rig.stack.startSignaling();
     });
 

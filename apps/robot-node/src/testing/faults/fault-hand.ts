@@ -9,6 +9,7 @@ import {
 import type { OperatorClient } from '../operator-client.ts';
 
 const COMMAND_MS = 20;
+const FRAMES_KEPT = 500;
 export const SPEED = 0.25;
 
 /** A hand that holds on, whatever the robot says, and whose commands a fault can change. */
@@ -23,6 +24,8 @@ export class FaultHand {
   readonly #timer: NodeJS.Timeout;
   #sequence = 0;
   #seenUs: number | null = null;
+  /** When each frame began to arrive, `performance.now()`. */
+  readonly #framesMs: number[] = [];
 
   constructor(client: OperatorClient, lease: string) {
     this.#client = client;
@@ -32,8 +35,7 @@ export class FaultHand {
     client.onCloudPacket = ({ buffer, byteOffset, byteLength }) => {
       readCloudPayload(new DataView(buffer, byteOffset, byteLength), header, placement);
       const { captureTimeUs } = placement;
-      if (this.#seenUs === null || sequenceDelta32(captureTimeUs, this.#seenUs) > 0)
-        this.#seenUs = captureTimeUs;
+      if (this.#seenUs === null || sequenceDelta32(captureTimeUs, this.#seenUs) > 0) this.#see(captureTimeUs);
     };
     this.#timer = setInterval(() => this.send(), COMMAND_MS);
   }
@@ -75,7 +77,19 @@ export class FaultHand {
     this.#deadMan = true;
   }
 
+  /** The longest time without a new frame since then, ms. @param fromMs `performance.now()` */
+  longestWithoutFrame(fromMs: number): number {
+    const times = [fromMs, ...this.#framesMs.filter((ms) => ms > fromMs), performance.now()];
+    return Math.max(...times.slice(1).map((ms, i) => ms - (times[i] as number)));
+  }
+
   stop(): void {
     clearInterval(this.#timer);
+  }
+
+  #see(captureTimeUs: number): void {
+    this.#seenUs = captureTimeUs;
+    this.#framesMs.push(performance.now());
+    if (this.#framesMs.length > FRAMES_KEPT) this.#framesMs.shift();
   }
 }
