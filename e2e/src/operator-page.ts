@@ -15,6 +15,8 @@ export interface OpenOptions {
   mode?: 'points64';
   /** Draw only every n-th point of coded clouds. */
   every?: string;
+  /** `1`: draw clouds of depth cameras as surfaces, which a software renderer does not by default. */
+  surface?: '0' | '1';
   /** Take the stream from this bridge. */
   bridge?: string;
   /** `1`: videos carry their capture time in the picture. */
@@ -79,6 +81,7 @@ export class OperatorPage {
       'canvas',
       'mode',
       'every',
+      'surface',
       'barcode',
       'sync',
       'cues',

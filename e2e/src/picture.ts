@@ -112,17 +112,30 @@ async function compareParts(input: { base64: string; a: Part; b: Part }): Promis
 /** Red, green and blue, 0–255. */
 export type Rgb = readonly [red: number, green: number, blue: number];
 
-/** For each colour, the share of a part's pixels that differ from it by at most 20 in every channel, 0–1. */
-export async function sharesNear(page: Page, png: Buffer, part: Part, colours: Rgb[]): Promise<number[]> {
+/**
+ * For each colour, the share of a part's pixels that differ from it by at most `tolerance` in every channel, 0–1.
+ */
+export async function sharesNear(
+  page: Page,
+  png: Buffer,
+  part: Part,
+  colours: Rgb[],
+  tolerance = 20,
+): Promise<number[]> {
   const reader = await page.context().newPage();
   try {
-    return await reader.evaluate(readShares, { base64: png.toString('base64'), part, colours });
+    return await reader.evaluate(readShares, { base64: png.toString('base64'), part, colours, tolerance });
   } finally {
     await reader.close();
   }
 }
 
-async function readShares(input: { base64: string; part: Part; colours: Rgb[] }): Promise<number[]> {
+async function readShares(input: {
+  base64: string;
+  part: Part;
+  colours: Rgb[];
+  tolerance: number;
+}): Promise<number[]> {
   const blob = await (await fetch(`data:image/png;base64,${input.base64}`)).blob();
   const bitmap = await createImageBitmap(blob);
   const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
@@ -137,7 +150,9 @@ async function readShares(input: { base64: string; part: Part; colours: Rgb[] })
   return input.colours.map((colour) => {
     let near = 0;
     for (let i = 0; i < data.length; i += 4) {
-      if (colour.every((value, channel) => Math.abs(value - (data[i + channel] as number)) <= 20)) near++;
+      const isNear = (value: number, channel: number): boolean =>
+        Math.abs(value - (data[i + channel] as number)) <= input.tolerance;
+      if (colour.every(isNear)) near++;
     }
     return near / (data.length / 4);
   });

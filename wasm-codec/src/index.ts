@@ -8,7 +8,13 @@ export {
   type ObstacleGridSettings,
   type SeenCells,
 } from './obstacle-grid.ts';
-export { OrganisedDecoder, type PacketFault, type PutResult } from './organised-decoder.ts';
+export {
+  OrganisedDecoder,
+  type PacketFault,
+  type PutResult,
+  TILE,
+  TILE_SAMPLES,
+} from './organised-decoder.ts';
 export {
   type GridResult,
   type Misfit,

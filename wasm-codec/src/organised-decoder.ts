@@ -13,7 +13,12 @@ export type PacketFault =
   | 'duplicate' // tiles that have already arrived in this frame
   | 'corrupt'; // coded as no encoder would
 
-export type PutResult = { points: number } | { fault: PacketFault };
+/** `firstTile` and `tiles` say which of the image's tiles the packet had, numbered row by row. */
+export type PutResult = { points: number; firstTile: number; tiles: number } | { fault: PacketFault };
+
+/** Pixels along a tile's side, and samples of a tile. */
+export const TILE = 16;
+export const TILE_SAMPLES = TILE * TILE;
 
 const FAULTS: readonly PacketFault[] = [
   'too-short',
@@ -37,6 +42,7 @@ export class OrganisedDecoder implements Disposable {
   readonly #images: boolean;
   #buffer: ArrayBuffer | undefined;
   #packets: readonly [Uint8Array, Uint8Array] = [new Uint8Array(0), new Uint8Array(0)];
+  #tiles = new Uint32Array(0);
 
   /**
    * @param options.images also produce depth and colour images
@@ -55,6 +61,28 @@ export class OrganisedDecoder implements Disposable {
     this.height = binding.height();
   }
 
+  /**
+   * Whether frames that begin from now on are surfaces instead of points: {@link samples} then has their tiles, and
+   * {@link unpack} and the images have nothing.
+   */
+  set surface(wanted: boolean) {
+    this.#binding.want_surface(wanted);
+  }
+
+  /** Whether the frame is a surface. */
+  get isSurface(): boolean {
+    return this.#binding.sample_count() > 0;
+  }
+
+  /**
+   * A view of the surface's samples, {@link TILE_SAMPLES} for each tile of the image: in the lower 16 bits the inverse
+   * depth as a half float, 1/m, 0 where nothing was seen; in the upper the colour, 5-6-5 bits, R highest. Only those of
+   * tiles that have arrived in the frame mean anything.
+   */
+  get samples(): Uint32Array {
+    return new Uint32Array(this.#memory.buffer, this.#binding.samples_ptr(), this.#binding.sample_count());
+  }
+
   /** Begins a frame: no points, empty images. */
   begin(): void {
     this.#binding.begin();
@@ -64,7 +92,7 @@ export class OrganisedDecoder implements Disposable {
   put(packet: Uint8Array): PutResult {
     if (packet.length >= PACKET_ROOM) return { fault: 'too-long' };
     this.#rooms[0].set(packet);
-    return resultOf(this.#binding.put(packet.length));
+    return this.#resultOf(this.#binding.put(packet.length), 0);
   }
 
   /** Like {@link put} of one and then the other, but faster: the best way to put the packets of a frame. */
@@ -76,7 +104,7 @@ export class OrganisedDecoder implements Disposable {
     room.set(first);
     secondRoom.set(second);
     const points = this.#binding.put_two(first.length, second.length);
-    return [resultOf(points), resultOf(this.#binding.second())];
+    return [this.#resultOf(points, 0), this.#resultOf(this.#binding.second(), 1)];
   }
 
   /** Where packets are written; recreated when the module's memory has grown. */
@@ -89,8 +117,20 @@ export class OrganisedDecoder implements Disposable {
         new Uint8Array(buffer, start, PACKET_ROOM),
         new Uint8Array(buffer, start + PACKET_ROOM, PACKET_ROOM),
       ];
+      this.#tiles = new Uint32Array(buffer, this.#binding.tiles_ptr(), 4);
     }
     return this.#packets;
+  }
+
+  #resultOf(points: number, packet: 0 | 1): PutResult {
+    if (points < 0) return { fault: FAULTS[-1 - points] ?? 'corrupt' };
+    // Current after any call: the views are renewed with the memory.
+    void this.#rooms;
+    return {
+      points,
+      firstTile: this.#tiles[2 * packet] as number,
+      tiles: this.#tiles[2 * packet + 1] as number,
+    };
   }
 
   /** Points of the frame so far. */
@@ -127,8 +167,4 @@ export class OrganisedDecoder implements Disposable {
   [Symbol.dispose](): void {
     this.#binding.free();
   }
-}
-
-function resultOf(points: number): PutResult {
-  return points >= 0 ? { points } : { fault: FAULTS[-1 - points] ?? 'corrupt' };
 }

@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';
 import { CodecError } from './errors.ts';
 import { loadCodecFromDisk } from './load-node.ts';
-import { OrganisedDecoder } from './organised-decoder.ts';
+import { OrganisedDecoder, TILE_SAMPLES } from './organised-decoder.ts';
 import { OrganisedEncoder, type Pinhole } from './organised-encoder.ts';
 
 const codec = await loadCodecFromDisk();
@@ -53,6 +53,56 @@ describe('OrganisedEncoder and OrganisedDecoder', () => {
     decoder.begin();
     expect(decoder.count).toBe(0);
     expect(decoder.depth.every((z) => z === 0)).toBe(true);
+  });
+
+  test('decode a frame as a surface: the same depths and colours, tile by tile', () => {
+    const { header, packets, report } = encoded({ depthLevel: 2, colour: { quality: 0, chroma: 'full' } });
+    const images = new OrganisedDecoder(codec, header, { images: true });
+    const [surface, inPairs] = [new OrganisedDecoder(codec, header), new OrganisedDecoder(codec, header)];
+    for (const decoder of [surface, inPairs]) {
+      decoder.surface = true;
+      expect(decoder.isSurface).toBe(false);
+      decoder.begin();
+      expect(decoder.isSurface).toBe(true);
+    }
+    const results = packets.map((packet) => (images.put(packet), surface.put(packet)));
+    for (let i = 0; i + 1 < packets.length; i += 2) {
+      const pair = inPairs.putTwo(packets[i] as Uint8Array, packets[i + 1] as Uint8Array);
+      expect(pair).toEqual(results.slice(i, i + 2));
+    }
+    if (packets.length % 2 === 1) inPairs.put(packets.at(-1) as Uint8Array);
+    const samples = surface.samples.slice();
+    expect(samples).toEqual(inPairs.samples);
+    const columns = Math.ceil(size.width / 16);
+    expect(samples).toHaveLength(columns * Math.ceil(size.height / 16) * TILE_SAMPLES);
+    let seen = 0;
+    samples.forEach((sample, i) => {
+      const tile = Math.floor(i / TILE_SAMPLES);
+      const u = (tile % columns) * 16 + (i % 16);
+      const v = Math.floor(tile / columns) * 16 + (Math.floor(i / 16) % 16);
+      const depth = u < size.width && v < size.height ? (images.depth[v * size.width + u] as number) : 0;
+      if (depth === 0) expect(sample).toBe(0);
+      else {
+        seen++;
+        const bits = sample & 0xffff;
+        const inverse = 2 ** ((bits >> 10) - 15) * (1 + (bits & 1023) / 1024);
+        expect(Math.abs(inverse * depth - 1)).toBeLessThan(1 / 2048);
+        const rgba = images.colour[v * size.width + u] as number;
+        const bits565 = ((rgba & 0xf8) << 8) | ((rgba >> 5) & 0x7e0) | ((rgba >> 19) & 31);
+        expect(sample >>> 16).toBe(bits565);
+      }
+    });
+    expect(seen).toBe(report.points);
+    const tiles = results.map((result) => ('tiles' in result ? [result.firstTile, result.tiles] : []));
+    expect(tiles.reduce((end, [first, count]) => (first === end ? end + (count ?? 0) : Number.NaN), 0)).toBe(
+      samples.length / TILE_SAMPLES,
+    );
+    // Points again, from the next frame on.
+    surface.surface = false;
+    surface.begin();
+    surface.put(packets[0] as Uint8Array);
+    expect(surface.isSurface).toBe(false);
+    expect(surface.unpack().length).toBeGreaterThan(0);
   });
 
   test('process two packets at once like one after the other, including refused ones', () => {

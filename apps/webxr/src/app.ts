@@ -1,5 +1,5 @@
 /** The page: shows on the screen what the robot sends, and sends the robot what the operator's hands do. */
-import { CloudView } from '@farpoint/cloud-view';
+import { CloudView, isSoftwareRenderer } from '@farpoint/cloud-view';
 import { RobotClient, type TransformSupport } from '@farpoint/operator';
 import { effect, untracked } from '@preact/signals-core';
 import { StoredRobots } from './access/known-robots.ts';
@@ -65,7 +65,7 @@ export class App {
   readonly client: RobotClient;
   /** Reads and presents the robot's videos. */
   readonly videos: VideoFeed;
-  readonly appearance = new CloudAppearance(loadAppearance(), storeAppearance);
+  readonly appearance: CloudAppearance;
   readonly stats = new PageStatistics();
   /** The capture instant of what is shown. */
   readonly presented = new PresentedInstant();
@@ -81,6 +81,7 @@ export class App {
   readonly #inputs: OperatorInputs;
   readonly #controls: ControlsUi;
   readonly #cloudPanel: CloudPanel;
+  readonly #surfaceByDefault: boolean;
   /** The panel on the wrist in VR. */
   wrist: WristPanel | null = null;
   #pictures: PicturePointer | null = null;
@@ -92,6 +93,11 @@ export class App {
   /** @throws {Error} without WebGL 2 */
   constructor(settings: Settings, transform: TransformSupport, notices: Notices) {
     this.settings = settings;
+    const stored = loadAppearance();
+    this.appearance = new CloudAppearance(
+      { ...stored, surface: settings.surface ?? stored.surface },
+      storeAppearance,
+    );
     this.stage = new Stage(elements.stage, settings.canvas);
     const { renderer, world } = this.stage;
     this.#inputs = new OperatorInputs({
@@ -151,7 +157,9 @@ export class App {
     this.#controls = new ControlsUi({
       ...{ client, state, stage, vr, appearance, estop: this.#estop, choose, toggleDashboard },
     });
-    this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all });
+    this.#surfaceByDefault = !isSoftwareRenderer(renderer.getContext());
+    const surfaceByDefault = this.#surfaceByDefault;
+    this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all, surfaceByDefault });
     this.#sound = new SoundUi({
       ...{ client, player: this.player, state: state.sound },
       tell: ({ text, tone }) => notices.tell(text, tone),
@@ -239,6 +247,8 @@ export class App {
       clouds,
       stage,
       inVr: vr.active,
+      client: this.client,
+      surfaceByDefault: this.#surfaceByDefault,
     });
     const panel = new WristPanel(stage.renderer, stage.rig);
     this.wrist = panel;

@@ -48,6 +48,8 @@ export interface Settings {
   mode: 'auto' | 'points64';
   /** Draw only every n-th point, for benchmarks with an emulated GPU; `null`: draw as many as possible. */
   drawEvery: number | null;
+  /** Whether clouds of depth cameras are drawn as surfaces; `null`: as was chosen before, or as suits the renderer. */
+  surface: boolean | null;
   pointScale: number;
   /** Whether videos are presented in step: frames wait for what was captured at the same time. */
   synchronised: boolean;
@@ -107,6 +109,7 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
     canvas: parseCanvas(query.get('canvas')),
     mode: query.get('mode') === 'points64' ? 'points64' : 'auto',
     drawEvery: parseEvery(query.get('every')),
+    surface: parseSwitch(query.get('surface')) ?? null,
     pointScale: clampScale(stored.pointScale),
     synchronised: parseSwitch(query.get('sync')) ?? stored.synchronised ?? true,
     cues: parseSwitch(query.get('cues')) ?? stored.cues ?? true,

@@ -13,12 +13,14 @@ import type {
 import { BufferGeometry, Points, type RawShaderMaterial, Sphere, Vector3, type WebGLRenderer } from 'three';
 import type { CloudColouring } from './cloud-colouring.ts';
 import type { CloudSource, CloudViewOptions } from './cloud-source.ts';
+import { CloudSurface } from './cloud-surface.ts';
 import type { DrawnPoints, FramePose } from './drawn-points.ts';
 import { FrameWindow } from './frame-window.ts';
 import { GpuCompletion } from './gpu-completion.ts';
 import { PointColouring } from './point-colouring.ts';
 import { createPointMaterial, spacingPerMetre } from './point-material.ts';
 import { PointRing } from './point-ring.ts';
+import { TileSampler } from './tile-sampler.ts';
 
 const FIRST_CAPACITY = 1 << 19;
 /** 128 MiB on the GPU. */
@@ -57,6 +59,8 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
   readonly #source: CloudSource;
   readonly #completion: GpuCompletion;
   readonly #ring: PointRing;
+  readonly #surface: CloudSurface;
+  readonly #sampler = new TileSampler();
   readonly #uniforms: ReturnType<typeof createPointMaterial>['uniforms'];
   readonly #waiting: Batch[] = [];
   readonly #stop: (() => void)[];
@@ -84,6 +88,8 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
         this.geometry.setAttribute('position', attribute as never);
       },
     );
+    this.#surface = new CloudSurface(renderer, uniforms);
+    this.add(this.#surface);
     this.geometry.boundingSphere = new Sphere(new Vector3(), Number.POSITIVE_INFINITY);
     this.frustumCulled = false;
     this.visible = false;
@@ -107,20 +113,44 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
 
   /** Number of vertices that the next display frame draws, including hidden ones of late packets. */
   get drawn(): number {
-    return this.window.tail - this.window.head;
+    return this.window.tail - this.window.head + this.#surface.drawn;
+  }
+
+  /** Draws about one of this many samples of a surface. Points are thinned where they are decoded. */
+  set every(every: number) {
+    this.#surface.every = every;
+  }
+
+  /** Whether what is drawn is a surface. */
+  get isSurface(): boolean {
+    return this.#surface.visible;
+  }
+
+  /** The newest frame that has ended: its last packet has arrived, or a newer frame has overtaken it. */
+  get endedFrame(): number | null {
+    return this.#surface.map.endedFrame ?? this.window.endedFrame;
   }
 
   /** Position of the newest frame's camera, metres, REP-103 world. */
   get cameraPosition(): Position {
-    return this.#uniforms.framePosition.value[this.window.newestSlot]!;
+    return this.#uniforms.framePosition.value[this.#newestSlot]!;
   }
   /** Orientation of the newest frame's camera: its optical frame (z forward, x right, y down), a unit quaternion. */
   get cameraOrientation(): Quaternion {
-    return this.#uniforms.frameOrientation.value[this.window.newestSlot]!;
+    return this.#uniforms.frameOrientation.value[this.#newestSlot]!;
+  }
+  /** Number of the newest frame; `null` before the first. */
+  get newestFrame(): number | null {
+    return this.#surface.map.newestFrame ?? this.window.newestFrame;
   }
   /** Whether any frame has been received in this session. */
   get hasPoints(): boolean {
-    return this.window.newestFrame !== null;
+    return this.newestFrame !== null;
+  }
+
+  /** Which of the two poses the newest frame has. */
+  get #newestSlot(): number {
+    return this.#surface.map.newestFrame === null ? this.window.newestSlot : this.#surface.map.newestSlot & 1;
   }
 
   /** Height of one eye's picture, pixels. */
@@ -138,7 +168,8 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
   update(nowMs: number): void {
     this.#nowMs = nowMs;
     for (const batch of this.#waiting) {
-      this.#upload(batch);
+      if (batch.packets > 0 && batch.tilesOf(0) > 0) this.#uploadTiles(batch);
+      else this.#upload(batch);
       this.#source.release(batch);
     }
     this.#waiting.length = 0;
@@ -149,7 +180,9 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.#uniforms.freshness.value = 1 - Math.min(Math.max(stale, 0), 1);
     this.#colouring.update(nowMs);
     this.geometry.setDrawRange(head, tail - head);
-    this.visible = tail > head;
+    this.#surface.update(nowMs);
+    // The surface is a child, so it is drawn only if this is.
+    this.visible = tail > head || this.#surface.visible;
   }
 
   /** Reports when the points that {@link update} uploaded were drawn. Call it in the frame loop, after rendering. */
@@ -167,6 +200,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.geometry.dispose();
     this.material.dispose();
     this.#ring.dispose();
+    this.#surface.dispose();
   }
 
   /** Does nothing: the points exist only on the GPU, so rays cannot hit them. */
@@ -195,6 +229,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     for (const batch of this.#waiting) this.#source.release(batch);
     this.#waiting.length = 0;
     this.window.reset();
+    this.#surface.forget();
     this.#colouring.forget();
     this.visible = false;
     for (const reason of Object.keys(this.drops)) delete this.drops[reason as DropReason];
@@ -207,13 +242,15 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
   #recreate(): void {
     this.#ring.recreate();
     this.window.reset();
+    this.#surface.recreate();
   }
 
-  /** Copies the drawn points out, for tests: x, y, z, colour int16 each. */
+  /** Copies the drawn points out, for tests: x, y, z, colour int16 each. A surface has none. */
   readBack(): DrawnPoints {
-    const points = new Int16Array(this.drawn * 4);
-    if (points.length > 0) this.#ring.read(this.window.head, points);
-    const slots = Array.from({ length: this.drawn }, (_, i) => this.window.slotOf(this.window.head + i));
+    const drawn = this.window.tail - this.window.head;
+    const points = new Int16Array(drawn * 4);
+    if (drawn > 0) this.#ring.read(this.window.head, points);
+    const slots = Array.from({ length: drawn }, (_, i) => this.window.slotOf(this.window.head + i));
     return { points, slots };
   }
 
@@ -230,8 +267,30 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     };
   }
 
+  #uploadTiles(batch: Batch): void {
+    const surface = this.#surface;
+    if (this.window.newestFrame !== null) this.window.reset();
+    let at = 0;
+    for (let packet = 0; packet < batch.packets; packet++) {
+      const before = surface.map.newestFrame;
+      // Of a frame from before surfaces were wanted.
+      const isPoints = batch.tilesOf(packet) === 0;
+      if (isPoints) this.#drop('superseded');
+      else if (surface.take(batch, packet, at, this.#nowMs)) {
+        const slot = surface.map.newestSlot & 1;
+        if (surface.map.newestFrame !== before) this.#beginFrame(batch, packet, slot, this.#sampler.total);
+        this.#sampler.sample(batch, packet, at, this.#colouring, slot);
+        this.packets++;
+        this.points += batch.pointsCame(packet);
+        this.#source.noteUploaded(batch, packet);
+      } else this.#drop('late');
+      at += batch.pointsOf(packet);
+    }
+  }
+
   #upload(batch: Batch): void {
     const { window } = this;
+    if (this.#surface.map.newestFrame !== null) this.#surface.forget();
     const move = window.reserve(batch.pointCount);
     if (move !== null) this.#ring.relocate(move);
     // Adjacent packets are uploaded in one write.
@@ -251,7 +310,8 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
         points,
       );
       if (drop === null) {
-        if (window.newestFrame !== before) this.#beginFrame(batch, packet);
+        if (window.newestFrame !== before)
+          this.#beginFrame(batch, packet, window.newestSlot, window.newestTotal);
         const newest = window.newestSlot;
         this.#colouring.sample(batch.points, at, points, frame === window.newestFrame ? newest : 1 - newest);
         count += points;
@@ -270,17 +330,16 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     if (count > 0) this.#ring.write(batch.points, first, count, vertex);
   }
 
-  #beginFrame(batch: Batch, packet: number): void {
+  #beginFrame(batch: Batch, packet: number, slot: number, total: number): void {
     this.frames++;
     this.imageExtent = batch.imageExtent(packet);
-    const slot = this.window.newestSlot;
-    this.#colouring.beginFrame(slot, this.window.newestTotal, this.#nowMs);
+    this.#colouring.beginFrame(slot, total, this.#nowMs);
     this.#uniforms.frameUnit.value[slot] = batch.unit(packet);
     this.#uniforms.framePosition.value[slot]!.set(
       batch.poseComponent(packet, 0),
       batch.poseComponent(packet, 1),
       batch.poseComponent(packet, 2),
-      spacingPerMetre(this.window.newestTotal, this.imageExtent, batch.cover(packet)),
+      spacingPerMetre(total, this.imageExtent, batch.cover(packet)),
     );
     this.#uniforms.frameOrientation.value[slot]!.set(
       batch.poseComponent(packet, 3),

@@ -21,3 +21,5 @@ export type { DrawnPoints, FramePose } from './drawn-points.ts';
 export { GpuCompletion } from './gpu-completion.ts';
 export { RING_COLOURS, ringColours } from './ring-colours.ts';
 export { RobotWorld } from './robot-world.ts';
+export { isSoftwareRenderer } from './software-renderer.ts';
+export { type Stride, strideFor } from './tile-geometry.ts';

@@ -8,22 +8,14 @@
  * close their gaps at any resolution, eye and density of the frame. m keeps the nearest points from vanishing.
  */
 import { type DataTexture, GLSL3, RawShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
-import { COLOUR_STOPS, colourStops } from './colour-map.ts';
+import { colourStops } from './colour-map.ts';
+import { COLOUR_FUNCTIONS, COLOUR_UNIFORMS } from './colour-shader.ts';
 import { MAX_RUNS, RUN_FIELDS } from './frame-window.ts';
-import { INTENSITY_LUMAS, LUMA_WEIGHTS } from './point-values.ts';
-import { RING_TEXELS } from './ring-table.ts';
+import { ROTATE } from './pose-shader.ts';
 import { ringTexture } from './ring-texture.ts';
 
 /** m: metres added to every point's size. */
 export const SIZE_OFFSET_M = 0.002;
-/** Share of its brightness that the oldest point loses when colours show ages. */
-export const AGE_FADE = 0.75;
-
-/** Adds up how far a brightness has come on each stretch of the intensity's map. */
-const intensityTerms = INTENSITY_LUMAS.slice(1).map((to, i) => {
-  const from = INTENSITY_LUMAS[i] as number;
-  return `clamp((luma - ${from.toFixed(3)}) / ${(to - from).toFixed(3)}, 0.0, 1.0)`;
-});
 
 const vertexShader = /* glsl */ `
 precision highp float;
@@ -40,55 +32,14 @@ uniform vec4 frameOrientation[2];
 uniform float frameUnit[2];
 uniform float viewportHeight;
 uniform float sizeScale;
-uniform float freshness;
-// What colours mean: captured, height, distance, intensity, age, ring (cloud-colouring.ts).
-uniform int colourMode;
-// The value with the first colour, and 1 / the values' span.
-uniform vec2 colourRange;
-// The colour of the ring at each elevation (ring-table.ts), and the lowest elevation and texels per radian; 0: no rings.
-uniform sampler2D ringMap;
-uniform vec2 ringScale;
-uniform vec3 colourMap[${COLOUR_STOPS}];
-// Height of the robot's ground in the world, metres.
-uniform float groundHeight;
-// The lowest and the highest height in the world that is drawn, metres.
-uniform vec2 heightCut;
+${COLOUR_UNIFORMS}
 // Seconds since the frame began to arrive.
 uniform float frameAge[2];
 in ivec4 position;
 flat out vec3 pointColour;
 flat out float pointSize;
 
-vec3 rotate(vec4 q, vec3 v) {
-  return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
-}
-
-// The intensity from its colour (point-values.ts).
-float intensityOf(vec3 rgb) {
-  float luma = 255.0 * dot(rgb, vec3(${LUMA_WEIGHTS.join(', ')}));
-  return (${intensityTerms.join(' + ')}) / ${(INTENSITY_LUMAS.length - 1).toFixed(1)};
-}
-
-vec3 ringColour(vec3 rgb, vec3 fromSensor) {
-  if (ringScale.y == 0.0) return rgb;
-  float elevation = atan(-fromSensor.y, length(fromSensor.xz));
-  int texel = clamp(int((elevation - ringScale.x) * ringScale.y), 0, ${RING_TEXELS - 1});
-  return texelFetch(ringMap, ivec2(texel, 0), 0).rgb;
-}
-
-vec3 coloured(vec3 rgb, vec3 fromSensor, float height, float age) {
-  if (colourMode == 5) return ringColour(rgb, fromSensor);
-  float value = colourMode == 1 ? height
-    : colourMode == 2 ? length(fromSensor)
-    : colourMode == 3 ? intensityOf(rgb)
-    : age;
-  float level = clamp((value - colourRange.x) * colourRange.y, 0.0, 1.0);
-  if (colourMode == 4) return rgb * (1.0 - ${AGE_FADE} * level);
-  float place = level * ${(COLOUR_STOPS - 1).toFixed(1)};
-  int low = min(int(place), ${COLOUR_STOPS - 2});
-  return mix(colourMap[low], colourMap[low + 1], place - float(low));
-}
-
+${ROTATE}${COLOUR_FUNCTIONS}
 void main() {
   int run = runCount - 1;
   while (run > 0 && gl_VertexID < runs[run].x) run--;
@@ -122,9 +73,7 @@ void main() {
   if (colourMode != 0) rgb = coloured(rgb, camera, world.z - groundHeight, frameAge[slot]);
   // The latency test's green has no grey in it.
   if (colour == 0x03f0u) rgb = vec3(0.0, 1.0, 0.0);
-  // A picture that is no longer fed turns grey: nobody may take it for the present.
-  float grey = dot(rgb, vec3(0.3, 0.59, 0.11)) * 0.6;
-  pointColour = mix(vec3(grey), rgb, freshness);
+  pointColour = faded(rgb);
 }
 `;
 

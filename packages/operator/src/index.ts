@@ -65,7 +65,15 @@ export type { RobotClientOptions } from './client/client-options.ts';
 export { ConnectError, type ConnectFailure, type ConnectOptions, connect } from './client/connect.ts';
 export { RobotClient } from './client/robot-client.ts';
 export type { ClientFailure, RobotEvents } from './client/robot-events.ts';
-export { BATCH_BYTES, BATCH_PACKETS, BATCH_POINTS, Batch, type PointLook } from './cloud/batch.ts';
+export {
+  BATCH_BYTES,
+  BATCH_PACKETS,
+  BATCH_POINTS,
+  BATCH_TILES,
+  Batch,
+  type PointLook,
+  type TileGrid,
+} from './cloud/batch.ts';
 export { DEFAULT_EXTENT } from './cloud/image-extent.ts';
 export type { DropCounts, DropReason } from './cloud/packet-intake.ts';
 export type { IntakeReport } from './cloud/worker-messages.ts';

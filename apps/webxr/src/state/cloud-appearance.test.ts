@@ -28,12 +28,14 @@ describe('the appearance of clouds', () => {
     appearance.cut.value = { below: -0.2, above: null };
     appearance.cutFromAbove.value = { below: null, above: null };
     appearance.headingUp.value = false;
+    appearance.surface.value = true;
     const again: StoredAppearance = parseAppearance(text);
     expect([...again.looks]).toEqual([['LiDAR', { mode: 'distance', fixed: { min: 1, max: 8 } }]]);
     expect(again).toMatchObject({
       cut: { below: -0.2, above: null },
       cutFromAbove: { below: null, above: null },
       headingUp: false,
+      surface: true,
     });
   });
 
@@ -50,7 +52,7 @@ describe('the appearance of clouds', () => {
     '7',
     'null',
     '{"looks":[1],"cut":3,"cutFromAbove":null,"headingUp":"no"}',
-    '{"looks":{"a":{"mode":"rings"},"b":null}}',
+    '{"looks":{"a":{"mode":"rings"},"b":null},"surface":1}',
   ])('ignores %s', (text) => expect(parseAppearance(text)).toEqual(nothing));
 
   test('ignores a range that is none', () => {

@@ -18,6 +18,8 @@ export interface StoredAppearance {
   readonly cutFromAbove: Readonly<HeightCut>;
   /** Seen from above, the robot's heading is up; otherwise north (the world's y axis). */
   readonly headingUp: boolean;
+  /** Whether clouds of depth cameras are drawn as surfaces; `null`: as suits the renderer. */
+  readonly surface: boolean | null;
 }
 
 /** The cloud of a robot with one sensor, which has no name. */
@@ -42,6 +44,7 @@ export class CloudAppearance {
   readonly cut: Signal<Readonly<HeightCut>>;
   readonly cutFromAbove: Signal<Readonly<HeightCut>>;
   readonly headingUp: Signal<boolean>;
+  readonly surface: Signal<boolean | null>;
   /** Whether the flat screen shows the surroundings from above. Each visit begins with the robot's own view. */
   readonly fromAbove = signal(false);
 
@@ -51,12 +54,14 @@ export class CloudAppearance {
     this.cut = signal(stored.cut);
     this.cutFromAbove = signal(stored.cutFromAbove);
     this.headingUp = signal(stored.headingUp);
+    this.surface = signal(stored.surface);
     let first = true;
     effect(() => {
-      const { looks, cut, cutFromAbove, headingUp } = this;
+      const { looks, cut, cutFromAbove, headingUp, surface } = this;
       const now = {
         ...{ looks: looks.value, cut: cut.value },
         ...{ cutFromAbove: cutFromAbove.value, headingUp: headingUp.value },
+        surface: surface.value,
       };
       if (!first) store(now);
       first = false;
@@ -93,6 +98,7 @@ export function parseAppearance(text: string | null): StoredAppearance {
     cut: parseCut(record.cut) ?? { below: null, above: null },
     cutFromAbove: parseCut(record.cutFromAbove) ?? CEILING,
     headingUp: record.headingUp !== false,
+    surface: typeof record.surface === 'boolean' ? record.surface : null,
   };
 }
 

@@ -6,7 +6,7 @@ import { wristLines } from './wrist-lines.ts';
 
 const figures = {
   ...{ pointsPerFrame: 12_345.6, framesPerSecond: 10, bitsPerSecond: 3_210_000, lossRate: 0 },
-  ...{ minRttMs: 42, frameLatencyMs: null, mtpMs: null },
+  ...{ drawnOneOf: 1, minRttMs: 42, frameLatencyMs: null, mtpMs: null },
 } as PageStats;
 const telemetry = {
   drive: 'idle',
@@ -42,6 +42,13 @@ describe('the table of figures', () => {
     });
     const bare = sessionFacts({ ...session, name: null, telemetry: null });
     expect(bare.map(({ name }) => name)).toEqual(['Points', 'Rate', 'Loss', 'Round trip', 'Frame age']);
+  });
+
+  test('says what a slow computer leaves out', () => {
+    const slow = { ...figures, pointsPerFrame: 210_040, drawnOneOf: 8 };
+    expect(values(sessionFacts({ ...session, figures: slow })).Drawn).toBe(
+      '26,300 of 210,000: this computer is slow',
+    );
   });
 
   test('shows an emergency stop before telemetry does, and who pressed it', () => {

@@ -92,6 +92,7 @@ function streamFacts(figures: PageStats): Fact[] {
       name: 'Points',
       value: `${Math.round(figures.pointsPerFrame).toLocaleString('en')} × ${figures.framesPerSecond.toFixed(0)}/s`,
     },
+    ...thinningFacts(figures),
     { name: 'Rate', value: `${mbps(figures)} Mbit/s` },
     { name: 'Loss', value: `${(figures.lossRate * 100).toFixed(1)} %`, tone: lossTone(figures) },
     { name: 'Round trip', value: ms(figures.minRttMs) },
@@ -102,6 +103,17 @@ function streamFacts(figures: PageStats): Fact[] {
     facts.push({ name: 'Motion to photon', value: `${ms(p50)}  p95 ${ms(p95)}` });
   }
   return facts;
+}
+
+/** What is left out because this computer is too slow. */
+function thinningFacts({ pointsPerFrame, drawnOneOf }: PageStats): Fact[] {
+  if (drawnOneOf === 1) return [];
+  const [drawn, came] = [pointsPerFrame / drawnOneOf, pointsPerFrame].map(hundreds);
+  return [{ name: 'Drawn', value: `${drawn} of ${came}: this computer is slow`, tone: 'warning' }];
+}
+
+function hundreds(points: number): string {
+  return (Math.round(points / 100) * 100).toLocaleString('en');
 }
 
 export function lossTone({ lossRate }: PageStats): Tone {

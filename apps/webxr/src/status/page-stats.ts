@@ -11,6 +11,8 @@ export interface PageStats extends StreamStats {
   /** Over the last second. */
   framesPerSecond: number;
   pointsPerFrame: number;
+  /** Only about one of this many points is drawn, because this computer is too slow for more; 1: all. */
+  drawnOneOf: number;
   /** Milliseconds of the frame loop's own work. With `?canvas=` it includes the time until the GPU has finished. */
   renderMs: Distribution | null;
   displayFramesPerSecond: number;
@@ -32,6 +34,8 @@ export class PageStatistics {
   readonly #points = new RateMeter();
   readonly #display = new RateMeter();
   #displayFrames = 0;
+  /** Set by what governs the drawing. */
+  drawnOneOf = 1;
 
   /** Starts a new session. */
   reset(): void {
@@ -79,6 +83,7 @@ export class PageStatistics {
       framesPerSecond: frames,
       pointsPerFrame: frames > 0 ? this.#points.perSecond / frames : 0,
       renderMs: this.#render.distribution(),
+      drawnOneOf: this.drawnOneOf,
       displayFramesPerSecond: this.#display.perSecond,
       canvas: { width: canvas.width, height: canvas.height },
       videos,

@@ -50,7 +50,9 @@ export type { PageStats };
 
 /** What is currently drawn. */
 export interface DrawnProbe {
-  /** Points drawn, and how many of them have the green of the latency test. */
+  /** Whether a surface is drawn instead of points. */
+  surface: boolean;
+  /** Points or samples of a surface that are drawn, and how many of the points have the green of the latency test. */
   points: number;
   green: number;
   /** Bounds of the drawn points in the world (REP-103), metres. */

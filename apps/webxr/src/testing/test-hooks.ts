@@ -183,11 +183,12 @@ function probe({ cloud }: App): DrawnProbe {
   }
   const { x, y, z } = cloud.cameraPosition;
   return {
-    points: count,
+    surface: cloud.isSurface,
+    points: cloud.isSurface ? cloud.drawn : count,
     green,
     bounds: count === 0 ? null : { min: min.toArray(), max: max.toArray() },
     camera: cloud.hasPoints ? { x, y, z, yaw: opticalYaw(cloud.cameraOrientation, 0) } : null,
-    newestFrame: cloud.window.newestFrame,
+    newestFrame: cloud.newestFrame,
   };
 }
 

@@ -11,12 +11,14 @@ import { cutControls } from './cut-controls.ts';
 import { elements } from './elements.ts';
 import { type Legend, legendOf } from './legend.ts';
 import { quietButton } from './panel-parts.ts';
+import { surfaceControls } from './surface-controls.ts';
 
 export interface CloudPanelParts {
   readonly appearance: CloudAppearance;
   /** Empty for a robot with one sensor. */
   readonly sensors: Switches;
   readonly views: ReadonlySignal<readonly CloudView[]>;
+  readonly surfaceByDefault: boolean;
 }
 
 export class CloudPanel {
@@ -52,7 +54,7 @@ export class CloudPanel {
       legends.replaceChildren(...this.#legends.map((legend) => legend.element));
     });
     const ofSensors = element('');
-    controls.append(ofSensors, cutControls(appearance));
+    controls.append(ofSensors, surfaceControls(appearance, parts.surfaceByDefault), cutControls(appearance));
     effect(() => {
       const parts = this.#names().map((name, i) =>
         untracked(() =>

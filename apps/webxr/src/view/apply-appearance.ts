@@ -1,4 +1,5 @@
 /** Applies what people have chosen about clouds to what draws them. */
+import type { RobotClient } from '@farpoint/operator';
 import { effect, type ReadonlySignal } from '@preact/signals-core';
 import { type CloudAppearance, UNNAMED } from '../state/cloud-appearance.ts';
 import type { Switches } from '../state/switches.ts';
@@ -13,9 +14,14 @@ export interface AppearanceParts {
   readonly clouds: SensorClouds;
   readonly stage: Pick<Stage, 'look' | 'headingUp'>;
   readonly inVr: ReadonlySignal<boolean>;
+  readonly client: Pick<RobotClient, 'drawSurface'>;
+  /** Whether clouds are drawn as surfaces until somebody chooses. */
+  readonly surfaceByDefault: boolean;
 }
 
-export function applyAppearance({ appearance, sensors, rings, clouds, stage, inVr }: AppearanceParts): void {
+export function applyAppearance(parts: AppearanceParts): void {
+  const { appearance, sensors, rings, clouds, stage, inVr, client, surfaceByDefault } = parts;
+  effect(() => client.drawSurface(appearance.surface.value ?? surfaceByDefault));
   const { fromAbove, headingUp, cut, cutFromAbove } = appearance;
   effect(() => {
     for (const [i, { colouring }] of clouds.all.value.entries()) {

@@ -37,8 +37,11 @@ export class FrameLoop {
   }
 
   start(): void {
-    const { client, settings, stage } = this.#parts;
-    if (settings.drawEvery !== null) client.drawEvery(settings.drawEvery, settings.drawEvery);
+    const { client, clouds, settings, stage } = this.#parts;
+    if (settings.drawEvery !== null) {
+      client.drawEvery(settings.drawEvery, settings.drawEvery);
+      clouds.every = settings.drawEvery;
+    }
     stage.renderer.setAnimationLoop((nowMs) => this.#frame(nowMs));
   }
 
@@ -49,13 +52,17 @@ export class FrameLoop {
 
   /** Call this a few times a second. Draws less if the machine cannot keep up. */
   govern(nowMs: number): void {
-    const { client, settings, stage, stats } = this.#parts;
+    const { client, clouds, settings, stage, stats } = this.#parts;
     if (document.hidden || client.phase !== 'live') this.#governor.pause();
     else if (this.#governor.update(stats.displayFramesPerSecond, nowMs)) {
       const { scale, every } = this.#governor.step;
       stage.resolution = scale;
       // A sampled cloud is not thinned further: a few thousand points are not what slows the machine down.
-      if (settings.drawEvery === null) client.drawEvery(every);
+      if (settings.drawEvery === null) {
+        client.drawEvery(every);
+        clouds.every = every;
+        stats.drawnOneOf = clouds.drawnOneOf(every);
+      }
     }
   }
 
@@ -71,8 +78,8 @@ export class FrameLoop {
     const beganMs = performance.now();
     cloud.update(beganMs);
     clouds.update(beganMs);
-    if (!inVr && !this.#gate.mayDraw(cloud.window.endedFrame, beganMs)) return;
-    this.#gate.onDraw(cloud.window.endedFrame, beganMs);
+    if (!inVr && !this.#gate.mayDraw(cloud.endedFrame, beganMs)) return;
+    this.#gate.onDraw(cloud.endedFrame, beganMs);
     if (inVr) this.#parts.readHeadset();
     stage.prepare(cloud, nowMs);
     stage.renderer.render(stage.scene, stage.viewCamera);

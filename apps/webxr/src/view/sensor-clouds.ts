@@ -1,5 +1,5 @@
 /** Draws the clouds of a robot with several sensors, except the first sensor's, which has an object of its own. */
-import { type CloudSource, CloudView } from '@farpoint/cloud-view';
+import { type CloudSource, CloudView, strideFor } from '@farpoint/cloud-view';
 import { effect, type ReadonlySignal, signal } from '@preact/signals-core';
 import type { Object3D, WebGLRenderer } from 'three';
 import type { Switches } from '../state/switches.ts';
@@ -28,6 +28,7 @@ export class SensorClouds {
   #views: readonly CloudView[] = [];
   readonly #all = signal<readonly CloudView[]>([]);
   #ground = 0;
+  #every = 1;
 
   constructor(parts: SensorCloudsParts) {
     this.#parts = parts;
@@ -45,6 +46,17 @@ export class SensorClouds {
   set ground(height: number) {
     this.#ground = height;
     for (const { colouring } of this.#all.peek()) colouring.ground = height;
+  }
+
+  /** Draws about one of this many samples of surfaces. */
+  set every(every: number) {
+    this.#every = every;
+    for (const view of this.#all.peek()) view.every = every;
+  }
+
+  /** Of how many points about one is drawn if one of `every` is wanted. */
+  drawnOneOf(every: number): number {
+    return this.#parts.first.isSurface ? strideFor(every) ** 2 : every;
   }
 
   /** Call this in the frame loop, before rendering. */
@@ -72,6 +84,7 @@ export class SensorClouds {
     this.#views = sensors === 0 ? [] : [first, ...others];
     this.#all.value = [first, ...others];
     this.ground = this.#ground;
+    this.every = this.#every;
     this.#scale(pointScale.peek());
   }
 

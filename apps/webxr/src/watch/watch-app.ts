@@ -148,6 +148,7 @@ export class WatchApp {
       const { scale, every } = this.#governor.step;
       this.#stage.resolution = scale;
       this.watcher.drawEvery(every);
+      this.#clouds.every = every;
     }
   }
 

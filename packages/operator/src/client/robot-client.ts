@@ -246,6 +246,11 @@ export class RobotClient {
     this.#parts.receiver.drawEvery(every, everySample);
   }
 
+  /** Whether clouds on a camera's grid come as tiles of a surface, from their next frame on. Default: as points. */
+  drawSurface(wanted: boolean): void {
+    this.#parts.receiver.drawSurface(wanted);
+  }
+
   /** The stream's present rates, losses, round trips and latencies. */
   stats(): StreamStats {
     return this.statistics.snapshot(this.link.session.clock);

@@ -40,6 +40,7 @@ export class BatchAssembler implements BatchWriter {
   generation = -1;
   every = 1;
   everySample = 1;
+  surface = false;
   readonly #port: BatchAssemblerPort;
   readonly #backlog = new DecoderBacklog();
   #intake = new PacketIntake();
@@ -119,6 +120,11 @@ export class BatchAssembler implements BatchWriter {
     this.#flush();
     this.every = every;
     this.everySample = everySample;
+  }
+
+  /** From the next frames on hands clouds on a camera's grid on as tiles of a surface, or as points. */
+  drawSurface(wanted: boolean): void {
+    this.surface = wanted;
   }
 
   /** The page returned a buffer. */

@@ -36,6 +36,23 @@ describe('Batch', () => {
     expect(Array.from({ length: 7 }, (_, i) => page.poseComponent(1, i))).toEqual([0, 1.5, 0, 0, 0, 0.25, 1]);
   });
 
+  test('the page reads tiles and the image that they belong to', () => {
+    const worker = new Batch(new ArrayBuffer(BATCH_BYTES));
+    const header = { frameNumber: 1, frameLength: 800, sequenceOffset: 0, sequenceLength: 800 };
+    const grid = { width: 640, height: 481, fx: 400.5, fy: 399.5, cx: 320, cy: 240.25 };
+    worker.samples[256 * 3 - 1] = 0xf800_3c00;
+    worker.addTiles(header, emptyPlacement(), 40, 3, 5, LOOK, grid);
+    worker.add(header, emptyPlacement(), 2, 5, LOOK);
+    const page = new Batch(worker.buffer, worker.packets, worker.pointCount);
+    expect([page.firstTile(0), page.tilesOf(0), page.pointsOf(0), page.pointsCame(0)]).toEqual([40, 3, 384, 100]);
+    expect([page.tilesOf(1), page.pointsOf(1)]).toEqual([0, 2]);
+    const read = { width: 0, height: 0, fx: 0, fy: 0, cx: 0, cy: 0 };
+    page.readGrid(0, read);
+    expect(read).toEqual(grid);
+    expect(page.samples[256 * 3 - 1]).toBe(0xf800_3c00);
+    expect(page.room).toBe(BATCH_POINTS - 386);
+  });
+
   test('holds a full points64 packet for each entry', () => {
     const batch = new Batch(new ArrayBuffer(BATCH_BYTES));
     expect(batch.points.length).toBeGreaterThanOrEqual(BATCH_PACKETS * 150 * 4);

@@ -50,6 +50,9 @@ export class CloudDecoding {
         return;
       case 'drawEvery':
         this.#assembler.drawEvery(message.every, message.everySample);
+        return;
+      case 'drawSurface':
+        this.#assembler.drawSurface(message.wanted);
     }
   }
 

@@ -49,6 +49,11 @@ export class CloudReceiver {
     this.#post({ type: 'drawEvery', every, everySample }, []);
   }
 
+  /** Whether clouds on a camera's grid come as tiles of a surface, from their next frame on, or as points. */
+  drawSurface(wanted: boolean): void {
+    this.#post({ type: 'drawSurface', wanted }, []);
+  }
+
   close(): void {
     this.worker.terminate();
   }

@@ -15,6 +15,7 @@ const placement = emptyPlacement();
 class Batches implements BatchWriter {
   every = 1;
   readonly everySample = 1;
+  surface = false;
   readonly all: Batch[] = [];
   readonly drops: DropReason[] = [];
   readonly #most: number;
@@ -68,6 +69,11 @@ function organisedFrames(frames: readonly { number: number; depth: number }[]): 
     });
   });
   return { header: header as unknown as Uint8Array, packets };
+}
+
+/** The value of a positive half float (IEEE 754 binary16) that is not subnormal. */
+function half(bits: number): number {
+  return 2 ** ((bits >> 10) - 15) * (1 + (bits & 1023) / 1024);
 }
 
 describe('OrganisedPacketDecoder', () => {
@@ -186,6 +192,46 @@ describe('OrganisedPacketDecoder', () => {
     for (let i = 0; i < Math.floor(a.pointsOf(0) / 8); i++) {
       expect(Array.from({ length: 8 }, (_, k) => point(a, i * 8 + k))).toContain(point(b, i));
     }
+  });
+
+  it('hands tiles on from the next frame after a surface is wanted: every tile once, each sample in its place', () => {
+    const decoder = new OrganisedPacketDecoder(codec, header);
+    const batches = new Batches();
+    add(decoder, first[0] as Packet, batches);
+    batches.surface = true;
+    add(decoder, first[1] as Packet, batches);
+    decoder.settle(batches);
+    expect(batches.all[0]?.tilesOf(1)).toBe(0);
+    const tiled = new Batches();
+    tiled.surface = true;
+    for (const packet of second) add(decoder, packet, tiled);
+    decoder.settle(tiled);
+    expect(tiled.drops).toEqual([]);
+    const grid = { width: 0, height: 0, fx: 0, fy: 0, cx: 0, cy: 0 };
+    const seen = new Set<number>();
+    let points = 0;
+    for (const batch of tiled.all) {
+      let at = 0;
+      for (let packet = 0; packet < batch.packets; packet++) {
+        batch.readGrid(packet, grid);
+        expect(grid).toEqual({ width: WIDTH, height: HEIGHT, ...CAMERA });
+        points += batch.pointsCame(packet);
+        for (let i = 0; i < batch.tilesOf(packet); i++) {
+          const tile = batch.firstTile(packet) + i;
+          expect(seen.has(tile)).toBe(false);
+          seen.add(tile);
+          const [u, v] = [(tile % 30) * 16 + 5, Math.floor(tile / 30) * 16 + 9];
+          const sample = batch.samples[at * 2 + 256 * i + 9 * 16 + 5] as number;
+          const inverse = half(sample & 0xffff);
+          if (u > 300 && v > 400) expect(sample).toBe(0);
+          else expect(1 / inverse).toBeCloseTo(2 + u / 200 + ((u * 7 + v * 13) % 5) / 500, 1);
+        }
+        at += batch.pointsOf(packet);
+      }
+      expect(at).toBe(batch.pointCount);
+    }
+    expect(seen.size).toBe(900);
+    expect(points * 8).toBe((second[0] as Packet).header.frameLength);
   });
 
   it('refuses a wrong count and foreign bytes, and reports a missing buffer', () => {

@@ -8,14 +8,15 @@ import {
   sequenceDelta32,
 } from '@farpoint/protocol';
 import { type Codec, OrganisedDecoder, type PutResult } from '@farpoint/wasm-codec';
-import type { PointLook } from './batch.ts';
+import type { PointLook, TileGrid } from './batch.ts';
 import { DecodedPoints } from './decoded-points.ts';
+import { DecodedTiles } from './decoded-tiles.ts';
 import type { BatchWriter, PacketDecoder } from './packet-decoder.ts';
 
 /** Neighbours on the grid are one mean distance apart: circles as wide as a cell's diagonal close the gaps. */
 const COVER = Math.SQRT2;
-/** Where the stream header has the image's size and focal lengths (docs/organised-codec.md). */
-const [WIDTH_AT, HEIGHT_AT, FX_AT, FY_AT] = [8, 10, 12, 16];
+/** Where the stream header has the image's size and the camera (docs/organised-codec.md). */
+const [WIDTH_AT, HEIGHT_AT, FX_AT, FY_AT, CX_AT, CY_AT] = [8, 10, 12, 16, 20, 24];
 
 /** One frame being decoded. */
 interface FrameDecoder {
@@ -55,7 +56,9 @@ class HeldPacket {
 export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
   readonly #open: [FrameDecoder, FrameDecoder];
   readonly #points = new DecodedPoints();
+  readonly #tiles = new DecodedTiles();
   readonly #look: PointLook;
+  readonly #grid: TileGrid;
   readonly #held = new HeldPacket();
   #newest = 0;
 
@@ -64,8 +67,13 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
     const make = () => ({ decoder: new OrganisedDecoder(codec, header), frameNumber: null });
     this.#open = [make(), make()];
     const view = new DataView(header.buffer, header.byteOffset, header.byteLength);
-    const [width, height] = [view.getUint16(WIDTH_AT, true), view.getUint16(HEIGHT_AT, true)];
-    const area = (width / view.getFloat32(FX_AT, true)) * (height / view.getFloat32(FY_AT, true));
+    const float = (at: number) => view.getFloat32(at, true);
+    this.#grid = {
+      ...{ width: view.getUint16(WIDTH_AT, true), height: view.getUint16(HEIGHT_AT, true) },
+      ...{ fx: float(FX_AT), fy: float(FY_AT), cx: float(CX_AT), cy: float(CY_AT) },
+    };
+    const { width, height, fx, fy } = this.#grid;
+    const area = (width / fx) * (height / fy);
     this.#look = { imageExtent: Math.sqrt(area), unit: 0.001, cover: COVER };
   }
 
@@ -79,7 +87,7 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
     const held = this.#held;
     // A new frame may replace the held packet's frame.
     if (held.header.frameNumber !== header.frameNumber) this.settle(writer);
-    const decoder = this.#frame(header.frameNumber);
+    const decoder = this.#frame(header.frameNumber, writer.surface);
     if (decoder === null) {
       writer.drop('late');
       return;
@@ -133,6 +141,13 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
       writer.drop('bad-count');
       return;
     }
+    if (decoder.isSurface) {
+      this.#tiles.write(
+        ...[decoder.samples, result.firstTile, result.tiles, header, placement, receivedAtMs] as const,
+        ...[this.#look, this.#grid, writer] as const,
+      );
+      return;
+    }
     const bytes = decoder.unpack();
     const at = bytes.byteOffset + start * 4 * Int16Array.BYTES_PER_ELEMENT;
     const points = new Int16Array(bytes.buffer, at, result.points * 4);
@@ -141,13 +156,14 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
   }
 
   /** The decoder of a frame; a new frame replaces the older of the two. `null` for a frame before them. */
-  #frame(frameNumber: number): OrganisedDecoder | null {
+  #frame(frameNumber: number, surface: boolean): OrganisedDecoder | null {
     const newest = this.#open[this.#newest] as FrameDecoder;
     if (newest.frameNumber === frameNumber) return newest.decoder;
     const other = this.#open[1 - this.#newest] as FrameDecoder;
     if (other.frameNumber === frameNumber) return other.decoder;
     if (newest.frameNumber !== null && sequenceDelta32(frameNumber, newest.frameNumber) < 0) return null;
     other.frameNumber = frameNumber;
+    other.decoder.surface = surface;
     other.decoder.begin();
     this.#newest = 1 - this.#newest;
     return other.decoder;

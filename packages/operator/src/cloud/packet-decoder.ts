@@ -11,6 +11,8 @@ export interface BatchWriter {
   readonly every: number;
   /** The same for `points64`, which is already a sample. Changes only between batches. */
   readonly everySample: number;
+  /** Whether clouds on a camera's grid are handed on as tiles of a surface, from their next frame on. */
+  readonly surface: boolean;
   /** Counts a packet that yields no points. */
   drop(reason: DropReason): void;
 }

@@ -18,7 +18,9 @@ export type ToCloudWorker =
       header: Uint8Array;
     }
   /** Hand on only one of this many points, of coded frames and of `points64`: the machine draws too slowly for more. */
-  | { type: 'drawEvery'; every: number; everySample: number };
+  | { type: 'drawEvery'; every: number; everySample: number }
+  /** Hand on clouds on a camera's grid as tiles of a surface, or as points. */
+  | { type: 'drawSurface'; wanted: boolean };
 
 /** Options of the `RTCRtpScriptTransform`. */
 export interface CloudTransformOptions {

@@ -138,6 +138,11 @@ export class RobotWatcher {
     this.#receiver.drawEvery(every, everySample);
   }
 
+  /** Whether clouds on a camera's grid come as tiles of a surface, from their next frame on. Default: as points. */
+  drawSurface(wanted: boolean): void {
+    this.#receiver.drawSurface(wanted);
+  }
+
   /** For `CloudView`; does nothing, because there is nothing to measure. */
   noteUploaded(): void {}
 

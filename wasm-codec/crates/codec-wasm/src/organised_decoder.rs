@@ -11,6 +11,8 @@ pub struct OrganisedDecoder {
     packets: Box<[[u8; PACKET_ROOM]; 2]>,
     second: i32,
     latency_test: bool,
+    /// First tile and number of tiles of each of the packets put last.
+    tiles: [u32; 4],
 }
 
 /// One more than a packet may have: so one that is too long is told.
@@ -22,7 +24,7 @@ impl OrganisedDecoder {
     /// nothing.
     pub fn create(header: &[u8], images: bool) -> Option<OrganisedDecoder> {
         let decoder = Decoder::new(StreamHeader::parse(header).ok()?, images)?;
-        Some(Self { decoder, packets: Box::new([[0; PACKET_ROOM]; 2]), second: 0, latency_test: false })
+        Some(Self { decoder, packets: Box::new([[0; PACKET_ROOM]; 2]), second: 0, latency_test: false, tiles: [0; 4] })
     }
 
     /// 0, or what is wrong with a header: 1 length, 2 magic, 3 version, 4 check value, 5 a value.
@@ -45,6 +47,26 @@ impl OrganisedDecoder {
     /// Points of the frame, 8 bytes each.
     pub fn points_ptr(&self) -> *const u64 {
         self.decoder.point_buffer().as_ptr()
+    }
+
+    /// Whether frames that begin from now on are surfaces.
+    pub fn want_surface(&mut self, wanted: bool) {
+        self.decoder.want_surface(wanted);
+    }
+
+    /// Samples of a surface, 4 bytes each, 256 for each tile of the image.
+    pub fn samples_ptr(&self) -> *const u32 {
+        self.decoder.samples().as_ptr()
+    }
+
+    /// How many samples there are: 0 where the frame is no surface.
+    pub fn sample_count(&self) -> usize {
+        self.decoder.samples().len()
+    }
+
+    /// Where the first tile and the number of tiles stand, of each of the packets put last.
+    pub fn tiles_ptr(&self) -> *const u32 {
+        self.tiles.as_ptr()
     }
 
     /// Depth in metres, a float a pixel.
@@ -87,16 +109,16 @@ impl OrganisedDecoder {
     /// stream, −6 tiles, −7 duplicate, −8 corrupt.
     pub fn put(&mut self, length: usize) -> i32 {
         let put = self.decoder.put(&self.packets[0][..length.min(PACKET_ROOM)]);
-        self.tell(put)
+        self.tell(0, put)
     }
 
     /// Decodes both packets. As [`OrganisedDecoder::put`] of the first; of the second [`OrganisedDecoder::second`] tells.
     pub fn put_two(&mut self, length: usize, second_length: usize) -> i32 {
         let [packet, second] = self.packets.each_ref();
         let packets = [&packet[..length.min(PACKET_ROOM)], &second[..second_length.min(PACKET_ROOM)]];
-        let [put, second] = self.decoder.put_two(packets).map(|put| self.tell(put));
-        self.second = second;
-        put
+        let [put, second] = self.decoder.put_two(packets);
+        self.second = self.tell(1, second);
+        self.tell(0, put)
     }
 
     /// See [`OrganisedDecoder::put_two`].
@@ -106,9 +128,10 @@ impl OrganisedDecoder {
 }
 
 impl OrganisedDecoder {
-    fn tell(&mut self, put: Result<Put, PacketError>) -> i32 {
+    fn tell(&mut self, packet: usize, put: Result<Put, PacketError>) -> i32 {
         match put {
             Ok(put) => {
+                self.tiles[2 * packet..][..2].copy_from_slice(&[put.first_tile as u32, put.tiles as u32]);
                 self.latency_test |= put.latency_test;
                 put.points as i32
             }

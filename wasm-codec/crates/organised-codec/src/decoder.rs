@@ -2,10 +2,11 @@
 
 use core::ops::Range;
 
-use crate::emit::Images;
+use crate::emit::{Images, Outputs};
 use crate::open_packet::{OpenPacket, Room, Scene};
 use crate::packet::{PacketError, PacketHeader};
 use crate::stream::StreamHeader;
+use crate::surface::Surface;
 use crate::tables::DecoderTables;
 use crate::tile::{ColourMode, TILE};
 
@@ -14,8 +15,12 @@ use crate::tile::{ColourMode, TILE};
 pub struct Put {
     /// Where its points begin among the decoder's.
     pub start: usize,
-    /// How many.
+    /// How many. Of a surface: how many of its pixels came, the others being filled in.
     pub points: usize,
+    /// The first of the tiles that it says it has.
+    pub first_tile: usize,
+    /// How many tiles.
+    pub tiles: usize,
     /// True where every point is pure green (a latency test).
     pub latency_test: bool,
 }
@@ -32,7 +37,9 @@ pub struct Decoder {
     second_points: Vec<u64>,
     /// A bit for each tile that has come.
     come: Vec<u64>,
-    images: Option<Images>,
+    outputs: Outputs,
+    wants_surface: bool,
+    has_images: bool,
 }
 
 impl Decoder {
@@ -53,7 +60,12 @@ impl Decoder {
             count: 0,
             second_points: vec![0; pixels + TILE],
             come: vec![0; scene.grid.tiles().div_ceil(64)],
-            images: images.then(|| Images { depth: vec![0.0; pixels], colour: vec![0; pixels] }),
+            outputs: Outputs {
+                images: images.then(|| Images { depth: vec![0.0; pixels], colour: vec![0; pixels] }),
+                surface: None,
+            },
+            wants_surface: false,
+            has_images: images,
             scene,
         })
     }
@@ -68,10 +80,29 @@ impl Decoder {
     pub fn begin(&mut self) {
         self.count = 0;
         self.come.fill(0);
-        if let Some(images) = &mut self.images {
+        if self.wants_surface != self.outputs.surface.is_some() {
+            let Scene { grid, header, .. } = &self.scene;
+            self.outputs.surface = self.wants_surface.then(|| Surface::new(*grid, header.intrinsics.fx));
+            let wants_rgba = self.wants_surface || self.has_images;
+            self.rooms.iter_mut().for_each(|room| room.want_rgba(wants_rgba));
+        }
+        if let Some(images) = &mut self.outputs.images {
             images.depth.fill(0.0);
             images.colour.fill(0);
         }
+    }
+
+    /// Whether frames that begin from now on are surfaces instead of points and images.
+    pub fn want_surface(&mut self, wanted: bool) {
+        self.wants_surface = wanted;
+    }
+
+    /// The samples of a frame that is a surface, [`crate::TILE_SAMPLES`] for each tile: the inverse depth as a half float, 1/m, 0
+    /// where nothing was seen, in the lower 16 bits, and the colour in 5-6-5 bits, R highest, in the upper. Only those of
+    /// tiles that have come in the frame mean anything. Empty where the frame is none.
+    #[must_use]
+    pub fn samples(&self) -> &[u32] {
+        self.outputs.surface.as_ref().map_or(&[], |surface| &surface.samples)
     }
 
     /// The points of the frame so far, in the order of the packets.
@@ -89,13 +120,13 @@ impl Decoder {
     /// Depth in metres, 0 where there is none; empty where the decoder makes no images.
     #[must_use]
     pub fn depth(&self) -> &[f32] {
-        self.images.as_ref().map_or(&[], |images| &images.depth)
+        self.outputs.images.as_ref().map_or(&[], |images| &images.depth)
     }
 
     /// Colours, R lowest.
     #[must_use]
     pub fn colour(&self) -> &[u32] {
-        self.images.as_ref().map_or(&[], |images| &images.colour)
+        self.outputs.images.as_ref().map_or(&[], |images| &images.colour)
     }
 
     /// Decodes a packet and adds its points.
@@ -104,12 +135,13 @@ impl Decoder {
     /// See [`PacketError`]; nothing of the packet is kept then, save in the images, where a corrupt packet may have left pixels.
     pub fn put(&mut self, packet: &[u8]) -> Result<Put, PacketError> {
         let header = self.header_of(packet)?;
-        let Self { scene, tables, rooms: [room, _], points, count, come, images, .. } = self;
+        let Self { scene, tables, rooms: [room, _], points, count, come, outputs, .. } = self;
         tables.choose(header.sets());
         let mut open = OpenPacket::new(header, packet, room, tables, scene, come, &mut points[*count..])?;
         let tiles = open.tiles();
+        outputs.clear(&tiles);
         while open.has_tile() {
-            open.decode_tile(images.as_mut());
+            open.decode_tile(outputs);
         }
         let points = open.finish()?;
         Ok(self.keep(&header, tiles, points))
@@ -130,7 +162,7 @@ impl Decoder {
         if (first.sets(), first.mode) != (second.sets(), second.mode) {
             return None;
         }
-        let Self { scene, tables, rooms: [room, other_room], points, count, second_points, come, images } =
+        let Self { scene, tables, rooms: [room, other_room], points, count, second_points, come, outputs, .. } =
             self;
         tables.choose(first.sets());
         let points = &mut points[*count..];
@@ -141,19 +173,23 @@ impl Decoder {
         if tiles.start < other_tiles.end && other_tiles.start < tiles.end {
             return None;
         }
+        outputs.clear(&tiles);
+        outputs.clear(&other_tiles);
         while one.has_tile() && other.has_tile() {
-            OpenPacket::decode_tiles([&mut one, &mut other], images);
+            OpenPacket::decode_tiles([&mut one, &mut other], outputs);
         }
         for rest in [&mut one, &mut other] {
             while rest.has_tile() {
-                rest.decode_tile(images.as_mut());
+                rest.decode_tile(outputs);
             }
         }
         let (points, other_points) = (one.finish(), other.finish());
         let put = points.map(|points| self.keep(&first, tiles, points));
         let other_put = other_points.map(|points| {
-            let own = &self.second_points[..points];
-            self.points[self.count..][..points].copy_from_slice(own);
+            if self.outputs.surface.is_none() {
+                let own = &self.second_points[..points];
+                self.points[self.count..][..points].copy_from_slice(own);
+            }
             self.keep(&second, other_tiles, points)
         });
         Some([put, other_put])
@@ -166,11 +202,18 @@ impl Decoder {
 
     /// Keeps what a packet has written.
     fn keep(&mut self, header: &PacketHeader, tiles: Range<usize>, points: usize) -> Put {
+        let (first_tile, tile_count) = (tiles.start, tiles.len());
         for tile in tiles {
             self.come[tile / 64] |= 1 << (tile % 64);
         }
         let start = self.count;
         self.count += points;
-        Put { start, points, latency_test: header.mode == ColourMode::None }
+        Put {
+            start,
+            points,
+            first_tile,
+            tiles: tile_count,
+            latency_test: header.mode == ColourMode::None,
+        }
     }
 }

@@ -1,11 +1,31 @@
 //! From a tile to points and pixels.
 
+use core::ops::Range;
+
 use bytemuck::must_cast;
 use wide::{f32x4, i16x8, i32x4};
 
 use crate::lanes::{interleave, round_low};
 use crate::paint::Colours;
+use crate::surface::Surface;
 use crate::tile::{Grid, Place, TILE, Tile};
+
+/// What is written beside the points or instead of them.
+#[derive(Default)]
+pub(crate) struct Outputs {
+    pub images: Option<Images>,
+    /// In place of points.
+    pub surface: Option<Surface>,
+}
+
+impl Outputs {
+    /// Empties a surface's tiles.
+    pub fn clear(&mut self, tiles: &Range<usize>) {
+        if let Some(surface) = &mut self.surface {
+            surface.clear(tiles.clone());
+        }
+    }
+}
 
 /// Depth and colour images beside the points.
 pub(crate) struct Images {
@@ -35,6 +55,15 @@ fn millimetres(metres: f32x4) -> i32x4 {
     round_low(limited)
 }
 
+/// False where a pixel outside the image is said to be valid.
+pub(crate) fn lies_within(tile: &Tile, grid: Grid, place: Place) -> bool {
+    let (x0, y0) = (place.column * TILE, place.row * TILE);
+    (0..tile.pattern.height()).filter(|y| tile.rows[*y] != 0).all(|y| {
+        let (x, v) = tile.pattern.pixel(15 - tile.rows[y].leading_zeros() as usize, y);
+        x0 + x < grid.width && y0 + v < grid.height
+    })
+}
+
 /// Writes a tile's points from `count` on; `None` where a pixel outside the image is said to be valid, or there is no
 /// room for a whole row.
 #[inline(never)]
@@ -52,6 +81,9 @@ pub(crate) fn emit(
     let odd = usize::from(tile.pattern.0 & 1);
     let (x0, y0) = (place.column * TILE, place.row * TILE);
     let tile_columns: &[f32; TILE] = columns[x0..][..TILE].first_chunk()?;
+    if !lies_within(tile, grid, place) {
+        return None;
+    }
     for y in 0..height {
         let valid = tile.rows[y];
         if valid == 0 {
@@ -60,10 +92,6 @@ pub(crate) fn emit(
         let v = y0 + (y << shift);
         let first = (odd & y) << shift;
         let step = 1 << (usize::from(shift) + odd);
-        let last = x0 + first + (15 - valid.leading_zeros() as usize) * step;
-        if v >= grid.height || last >= grid.width {
-            return None;
-        }
         let mut rays = *tile_columns;
         if step > 1 {
             for (x, ray) in rays.iter_mut().enumerate().take(width) {

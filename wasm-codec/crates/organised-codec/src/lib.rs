@@ -37,6 +37,7 @@ mod rung_costs;
 mod sampling;
 pub mod stream;
 mod stream_palette;
+mod surface;
 pub mod syntax;
 pub mod tables;
 mod thinning;
@@ -55,6 +56,7 @@ pub use load::{Left, Source};
 pub use packet::{PacketError, seal};
 pub use stream::{HeaderError, StreamHeader};
 pub use stream_palette::with_palette;
+pub use surface::TILE_SAMPLES;
 pub use thinning::Validity;
 pub use tile::ColourMode;
 

@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use crate::content_check::ContentCheck;
-use crate::emit::{Images, View, emit};
+use crate::emit::{Outputs, View, emit, lies_within};
 use crate::packet::{PacketError, PacketHeader, Span, header_bytes};
 use crate::paint::{Colours, Palette};
 use crate::rans::{self, Coder};
@@ -44,6 +44,11 @@ impl Room {
     /// With `images`, for colours of images too.
     pub fn new(images: bool) -> Self {
         Self { body: rans::Body::default(), tile: Tile::new(), colours: Box::new(Colours::new(images)) }
+    }
+
+    /// Whether colours of images are made from now on.
+    pub fn want_rgba(&mut self, wanted: bool) {
+        self.colours.wants_rgba = wanted;
     }
 }
 
@@ -121,24 +126,24 @@ impl<'a> OpenPacket<'a> {
     }
 
     /// Decodes the tile and goes to the next.
-    pub fn decode_tile(&mut self, images: Option<&mut Images>) {
+    pub fn decode_tile(&mut self, outputs: &mut Outputs) {
         code_planes(&mut self.coder, self.tile, &mut self.near, self.header.mode);
-        self.finish_tile(images);
+        self.finish_tile(outputs);
     }
 
     /// Decodes a tile of each of two packets of the same mode, side by side.
-    pub fn decode_tiles([one, other]: [&mut Self; 2], images: &mut Option<Images>) {
+    pub fn decode_tiles([one, other]: [&mut Self; 2], outputs: &mut Outputs) {
         decode_planes(
             [&mut one.coder, &mut other.coder],
             [one.tile, other.tile],
             [&mut one.near, &mut other.near],
             one.header.mode,
         );
-        one.finish_tile(images.as_mut());
-        other.finish_tile(images.as_mut());
+        one.finish_tile(outputs);
+        other.finish_tile(outputs);
     }
 
-    /// How many points there were.
+    /// How many points there were; of a surface, how many of its pixels came.
     ///
     /// # Errors
     /// `Corrupt`, `Check`.
@@ -170,8 +175,8 @@ impl<'a> OpenPacket<'a> {
         }
     }
 
-    fn finish_tile(&mut self, images: Option<&mut Images>) {
-        if self.write_tile(images).is_none() {
+    fn finish_tile(&mut self, outputs: &mut Outputs) {
+        if self.write_tile(outputs).is_none() {
             self.corrupt = true;
         }
         self.advance();
@@ -179,7 +184,7 @@ impl<'a> OpenPacket<'a> {
 
     /// What follows a tile's planes, and its points. `None` where it says what no encoder says.
     #[inline(never)]
-    fn write_tile(&mut self, images: Option<&mut Images>) -> Option<()> {
+    fn write_tile(&mut self, outputs: &mut Outputs) -> Option<()> {
         let index = self.current?;
         let last = self.next == self.tiles().end;
         code_tail(&mut self.coder, self.tile, &mut self.near, self.header.mode, last);
@@ -191,8 +196,16 @@ impl<'a> OpenPacket<'a> {
         }
         let Scene { grid, palette, columns, rows, .. } = self.scene;
         self.colours.paint(self.tile, &self.header, palette)?;
-        let view = View { grid: *grid, columns, rows, place: grid.place(index), scale: self.scale };
-        self.count = emit(self.tile, self.colours, &view, self.points, self.count, images)?;
+        let place = grid.place(index);
+        if let Some(surface) = &mut outputs.surface {
+            if !lies_within(self.tile, *grid, place) {
+                return None;
+            }
+            self.count += surface.write(self.tile, self.colours, *grid, place, self.scale.recip());
+            return Some(());
+        }
+        let view = View { grid: *grid, columns, rows, place, scale: self.scale };
+        self.count = emit(self.tile, self.colours, &view, self.points, self.count, outputs.images.as_mut())?;
         Some(())
     }
 }

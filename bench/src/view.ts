@@ -1,0 +1,147 @@
+/** `pnpm bench view`: a kernel benchmark of what the operator sees, against what is truly there. */
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { parseArgs } from 'node:util';
+import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { encode } from 'fast-png';
+import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { type Distribution, distribution, rounded } from './stats.ts';
+import { differenceOf, type Picture, type PictureDifference } from './view/picture-difference.ts';
+import { type DriveOptions, EYES, SimulatedDrive } from './view/simulated-drive.ts';
+import { ViewBrowser } from './view/view-browser.ts';
+
+const USAGE = `pnpm bench view [--rate-mbps 8] [--loss 0.01] [--fps 10] [--seconds 12] [--size 320] [--seed 1]
+               [--pictures DIR] [--json]
+
+Kernel benchmark: a simulated robot drives among furniture and walking people, and its packets, as a link of this rate
+and loss delivers them, are decoded and drawn in a headless Chromium without a GPU. Once a second, what an eye in the
+camera's place sees, and one above and behind the robot, is compared with what is truly there: holes is the share of
+pixels that should show something and show nothing, ssim the similarity of brightness, depthErrorM the median error.
+Drawn as surfaces, as discs (the same packets), and as the reference system's points (points64, sampled, at the same
+rate). --pictures writes the last second's pictures as PNG files.`;
+
+/** What is compared: how the robot codes its clouds, and how they are drawn. */
+const MODES = [
+  { name: 'surface', format: 'organised', surface: true },
+  { name: 'discs', format: 'organised', surface: false },
+  { name: 'reference', format: 'points64', surface: false },
+] as const;
+
+/** The first seconds show a picture that is still being filled. */
+const FROM_S = 2;
+
+interface ModeResult {
+  /** By eye, means over all looks. */
+  eyes: Record<string, PictureDifference>;
+  drawMs: Distribution;
+  /** Time of a cloud frame on the page's main thread, without decoding and drawing, ms. */
+  mainThreadMs: Distribution;
+}
+
+export const bench: Bench = {
+  name: 'view',
+  summary: 'kernel: holes, similarity and depth error of what the operator sees, by renderer',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        'rate-mbps': { type: 'string', default: '8' },
+        loss: { type: 'string', default: '0.01' },
+        fps: { type: 'string', default: '10' },
+        seconds: { type: 'string', default: '12' },
+        size: { type: 'string', default: '320' },
+        seed: { type: 'string', default: '1' },
+        pictures: { type: 'string' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    const options: DriveOptions = {
+      rateMbps: numberOption('rate-mbps', values['rate-mbps'], 0.1),
+      loss: numberOption('loss', values.loss),
+      framesPerSecond: numberOption('fps', values.fps, 1),
+      seed: numberOption('seed', values.seed),
+      size: numberOption('size', values.size, 32),
+    };
+    const seconds = numberOption('seconds', values.seconds, FROM_S + 1);
+    const browser = await ViewBrowser.open();
+    const results: Record<string, ModeResult> = {};
+    try {
+      for (const mode of MODES) {
+        console.error(`${mode.name} …`);
+        results[mode.name] = await drawn(browser, mode, options, seconds, values.pictures);
+      }
+    } finally {
+      await browser.close();
+    }
+    printTable(
+      ['', 'holes', 'ssim', 'depth error m', 'behind: holes', 'ssim', 'draw ms p50', 'main ms p50'],
+      Object.entries(results).map(([name, { eyes, drawMs, mainThreadMs }]) => {
+        const [eye, shoulder] = [eyes.eye, eyes.shoulder] as [PictureDifference, PictureDifference];
+        const ofEye = [eye.holes, eye.ssim, eye.depthErrorM];
+        return [name, ...ofEye, shoulder.holes, shoulder.ssim, drawMs.p50, mainThreadMs.p50];
+      }),
+    );
+    if (!values.json) return;
+    const flat = Object.fromEntries(
+      Object.entries(results).map(([name, { eyes, ...others }]) => {
+        const { eye, shoulder } = eyes;
+        return [name, { ...eye, shoulder, ...others }];
+      }),
+    );
+    const { surface, ...others } = flat;
+    printJson({ bench: 'view', ...options, seconds, ...surface, ...others });
+  },
+};
+
+async function drawn(
+  browser: ViewBrowser,
+  { name, format, surface }: (typeof MODES)[number],
+  options: DriveOptions,
+  seconds: number,
+  pictures: string | undefined,
+): Promise<ModeResult> {
+  const { framesPerSecond, size } = options;
+  // The same seed: every mode sees the same drive.
+  const drive = await SimulatedDrive.create(await loadCodecFromDisk(), options);
+  await browser.begin(format === 'organised' ? drive.streamHeader : null, surface, size);
+  const differences: PictureDifference[][] = EYES.map(() => []);
+  const drawMs: number[] = [];
+  const mainMs: number[] = [];
+  const frames = Math.round(seconds * framesPerSecond);
+  for (let frame = 1; frame <= frames; frame++) {
+    mainMs.push(await browser.feed(drive.next()[format]));
+    if (frame < FROM_S * framesPerSecond || frame % Math.round(framesPerSecond) !== 0) continue;
+    for (const [i, { pose, picture: truth }] of drive.truth().entries()) {
+      const eye = EYES[i] as (typeof EYES)[number];
+      const seen = await browser.look(pose, eye.fieldOfView);
+      differences[i]?.push(differenceOf(seen.picture, truth, size));
+      if (i === 0) drawMs.push(seen.drawMs);
+      if (pictures === undefined || frame + framesPerSecond <= frames) continue;
+      mkdirSync(pictures, { recursive: true });
+      write(join(pictures, `${eye.name}-${name}.png`), seen.picture, size);
+      write(join(pictures, `${eye.name}-truth.png`), truth, size);
+    }
+  }
+  drive.close();
+  const eyes = Object.fromEntries(EYES.map((eye, i) => [eye.name, meanOf(differences[i] ?? [])]));
+  const times = { drawMs: distribution(drawMs), mainThreadMs: distribution(mainMs) };
+  return { eyes, drawMs: rounded(times.drawMs), mainThreadMs: rounded(times.mainThreadMs) };
+}
+
+function meanOf(all: readonly PictureDifference[]): PictureDifference {
+  const mean = (of: (each: PictureDifference) => number) =>
+    Number((all.reduce((sum, each) => sum + of(each), 0) / all.length).toFixed(4));
+  return {
+    holes: mean(({ holes }) => holes),
+    ssim: mean(({ ssim }) => ssim),
+    depthErrorM: mean(({ depthErrorM }) => depthErrorM),
+  };
+}
+
+function write(file: string, { colour }: Picture, size: number): void {
+  const data = colour.slice();
+  for (let i = 3; i < data.length; i += 4) data[i] = 255;
+  writeFileSync(file, encode({ width: size, height: size, data, channels: 4 }));
+}

@@ -1,0 +1,80 @@
+/** The page of `pnpm bench view`: decodes packets, draws them, and returns what an eye sees. */
+import { CloudView, RobotWorld, worldToThree } from '@farpoint/cloud-view';
+import { AssembledCloud } from '@farpoint/operator/testing/assembled-cloud';
+import type { Pose } from '@farpoint/protocol';
+import { loadCodec } from '@farpoint/wasm-codec';
+import { Matrix4, PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer } from 'three';
+import { PictureDrawer } from './picture-drawer.ts';
+
+/** What a picture is compared by, in base64. */
+export interface SeenPicture {
+  colour: string;
+  depth: string;
+  drawMs: number;
+}
+
+/** What the benchmark calls in the page. */
+export interface ViewApi {
+  /** @param header of an organised stream; `null` for `points64` */
+  begin(header: string | null, surface: boolean, size: number): Promise<void>;
+  /** Takes a frame's packets. Returns the time on the main thread, without decoding, ms. */
+  feed(payloads: string[]): number;
+  /** @param fieldOfView vertical, degrees @param eye pose of the eye's optical frame in the robot's world */
+  look(eye: Pose, fieldOfView: number): SeenPicture;
+}
+
+declare global {
+  interface Window {
+    view: ViewApi;
+  }
+}
+
+/** The optical frame has z forward and y down; three's cameras look along −z with y up. */
+const OPTICAL_TO_CAMERA = new Matrix4().makeScale(1, -1, -1);
+const RANGE = { near: 0.05, far: 100 };
+
+const canvas = document.querySelector('canvas') as HTMLCanvasElement;
+const renderer = new WebGLRenderer({ canvas, antialias: false });
+renderer.setClearColor(0x000000, 1);
+const scene = new Scene();
+const world = new RobotWorld();
+scene.add(world);
+let source: AssembledCloud | null = null;
+let cloud: CloudView | null = null;
+let drawer: PictureDrawer | null = null;
+
+window.view = {
+  async begin(header, surface, size) {
+    cloud?.dispose();
+    renderer.setPixelRatio(1);
+    renderer.setSize(size, size);
+    source = new AssembledCloud(await loadCodec());
+    source.drawSurface(surface);
+    if (header !== null) source.beginStream('organised', Uint8Array.fromBase64(header));
+    cloud = new CloudView(renderer, source);
+    world.add(cloud);
+    drawer = new PictureDrawer(renderer, size);
+  },
+  feed(payloads) {
+    source?.take(payloads.map((text) => Uint8Array.fromBase64(text).buffer as ArrayBuffer));
+    const beganMs = performance.now();
+    cloud?.update(beganMs);
+    return performance.now() - beganMs;
+  },
+  look({ position, orientation }, fieldOfView) {
+    const camera = new PerspectiveCamera(fieldOfView, 1, RANGE.near, RANGE.far);
+    const inWorld = new Matrix4().compose(
+      new Vector3(position.x, position.y, position.z),
+      new Quaternion(orientation.x, orientation.y, orientation.z, orientation.w),
+      new Vector3(1, 1, 1),
+    );
+    worldToThree()
+      .multiply(inWorld)
+      .multiply(OPTICAL_TO_CAMERA)
+      .decompose(camera.position, camera.quaternion, camera.scale);
+    camera.updateMatrixWorld();
+    if (cloud === null || drawer === null) throw new Error('begin first');
+    const { colour, depth, drawMs } = drawer.draw(scene, camera);
+    return { colour: colour.toBase64(), depth: new Uint8Array(depth.buffer).toBase64(), drawMs };
+  },
+};

@@ -1,0 +1,96 @@
+import { EmulatedLink } from '@farpoint/local-stack';
+import type { Page, TestInfo } from '@playwright/test';
+import { Headset, headsetViewport } from '../src/headset.ts';
+import { OperatorPage } from '../src/operator-page.ts';
+import { leftEye, readPicture, rightEye, sharesNear } from '../src/picture.ts';
+import { expect, test } from '../src/stack-test.ts';
+
+const CANVAS = '320x240';
+const BACKGROUND = [11, 15, 20] as const;
+/** Of the page, where no panel lies. */
+const MIDDLE = { left: 0.35, top: 0.25, width: 0.3, height: 0.5 };
+
+/** The whole of the camera's view, at a rate that a software renderer can follow. */
+const robot = {
+  id: 'surface',
+  name: 'Surface',
+  args: ['--source', 'sim', '--sim-seed', '1', '--fps', '5', '--start-mbps', '20', '--bitrate-mbps', '30'],
+};
+
+/** Share of the picture's middle where nothing is drawn. */
+async function holes(page: Page, operator: OperatorPage, testInfo: TestInfo, name: string): Promise<number> {
+  const picture = await operator.screenshot(testInfo, name);
+  const [share] = await sharesNear(page, picture, MIDDLE, [BACKGROUND], 3);
+  return share as number;
+}
+
+test('a surface has fewer holes than points, and a button changes between them', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const stack = await startStack({ robots: [robot] });
+  const operator = await OperatorPage.open(page, stack, {
+    ...{ robot: robot.id, canvas: CANVAS, surface: '1', every: '1' },
+  });
+  await operator.expectPoints(100_000);
+  expect(await operator.probe()).toMatchObject({ surface: true });
+  await operator.expectFrames(5);
+  const ofSurface = await holes(page, operator, testInfo, 'surface');
+  expect(ofSurface).toBeLessThan(0.05);
+  await page.getByRole('button', { name: 'Colours', exact: true }).click();
+  const button = page.getByRole('button', { name: 'Surfaces', exact: true });
+  await expect(button).toHaveAttribute('aria-pressed', 'true');
+  await button.click();
+  await expect(button).toHaveAttribute('aria-pressed', 'false');
+  await expect.poll(async () => (await operator.probe()).surface, { message: 'surface' }).toBe(false);
+  await operator.expectPoints(100_000);
+  expect(await holes(page, operator, testInfo, 'points')).toBeGreaterThanOrEqual(ofSurface);
+  const { drops } = await operator.stats();
+  expect(drops.late ?? 0).toBe(0);
+});
+
+test('lost packets leave no holes: what was seen there before stays', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const stack = await startStack({ robots: [] });
+  const link = await EmulatedLink.start(stack, {
+    args: ['--rate-mbps', '40', '--rtt-ms', '20'],
+    statsFile: testInfo.outputPath('link.jsonl'),
+  });
+  try {
+    await stack.startRobot({ ...robot, args: [...robot.args, '--signaling', link.signalingUrl] });
+    const operator = await OperatorPage.open(page, stack, {
+      ...{ robot: robot.id, canvas: CANVAS, surface: '1', every: '1' },
+    });
+    await operator.expectPoints(100_000);
+    await operator.expectFrames(5);
+    const before = await holes(page, operator, testInfo, 'without-loss');
+    link.tell({ type: 'set', direction: 'both', loss: 0.1 });
+    await expect.poll(async () => (await operator.stats()).packetsLost).toBeGreaterThan(50);
+    await operator.expectFrames(5);
+    expect(await holes(page, operator, testInfo, 'with-loss')).toBeLessThan(before + 0.02);
+  } finally {
+    await link.stop();
+  }
+});
+
+test.describe('in the headset', () => {
+  test.use({ viewport: headsetViewport });
+
+  test('both eyes see the surface', async ({ page, startStack }, testInfo) => {
+    const stack = await startStack({ robots: [robot] });
+    await Headset.wear(page);
+    const operator = await OperatorPage.open(page, stack, { robot: robot.id, surface: '1' });
+    await operator.expectPoints(10_000);
+    await page.getByRole('button', { name: /VR/ }).click();
+    await operator.expectState('vr', true);
+    await operator.expectFrames(5);
+    expect(await operator.probe()).toMatchObject({ surface: true });
+    const picture = await operator.screenshot(testInfo, 'surface-both-eyes');
+    for (const eye of await readPicture(page, picture, [leftEye, rightEye])) {
+      expect(eye.drawnShare).toBeGreaterThan(0.2);
+      expect(eye.colours).toBeGreaterThan(15);
+    }
+  });
+});
