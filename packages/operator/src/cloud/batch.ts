@@ -57,7 +57,7 @@ export interface TileGrid {
 
 /**
  * Decoded points, or tiles of a surface, of one sensor, in one buffer: an entry for each packet, then what the packets
- * hold, one after another. A batch has either points or tiles. The accessors that take a `packet` expect its index, 0 to `packets` − 1.
+ * hold, one after another. The accessors that take a `packet` expect its index, 0 to `packets` − 1.
  */
 export class Batch {
   /** The memory behind all views, `BATCH_BYTES` long. Detached once the batch is released. */
@@ -200,6 +200,10 @@ export class Batch {
   /** Number of the packet's points in this batch, or the room that its tiles take. */
   pointsOf(packet: number): number {
     return this.#u32[packet * WORDS + 5] as number;
+  }
+  /** Whether it has tiles. A batch that begins with tiles may end with the points of an earlier frame, and vice versa. */
+  get hasTiles(): boolean {
+    return this.packets > 0 && this.tilesOf(0) > 0;
   }
   /** Number of the packet's tiles in this batch; 0 if it has points. */
   tilesOf(packet: number): number {
