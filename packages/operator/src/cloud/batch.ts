@@ -46,12 +46,17 @@ export interface PointLook {
 
 /** The image that tiles belong to, and the camera that captured it: pixel (u, v) sees along ((u − cx) / fx, (v − cy) / fy, 1). */
 export interface TileGrid {
-  /** Pixels. */
+  /** Pixels in a row. */
   width: number;
+  /** Rows. */
   height: number;
+  /** Focal length across, pixels. */
   fx: number;
+  /** Focal length down, pixels. */
   fy: number;
+  /** Column of the optical axis. */
   cx: number;
+  /** Row of the optical axis. */
   cy: number;
 }
 
