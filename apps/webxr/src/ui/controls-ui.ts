@@ -25,6 +25,8 @@ export interface Controlled {
   readonly appearance: CloudAppearance;
   readonly stage: Pick<Stage, 'look' | 'camera'>;
   readonly vr: VrSession;
+  /** Shows the next view in the headset. */
+  nextHeadsetView(): void;
   readonly estop: EstopUi;
   choose(robotId: string): void;
   /** Opens or closes the dashboard. */
@@ -56,7 +58,8 @@ export class ControlsUi {
   }
 
   act(action: Action, timeMs: number): void {
-    const { stage, estop, appearance } = this.#parts;
+    const { stage, estop, appearance, vr } = this.#parts;
+    const inVr = vr.active.peek();
     const { fromAbove } = appearance;
     switch (action) {
       case 'estop':
@@ -66,11 +69,13 @@ export class ControlsUi {
         this.#testLatency(timeMs);
         return;
       case 'recentre':
-        stage.look.recentre();
+        if (inVr) vr.recentre();
+        else stage.look.recentre();
         return;
       case 'view':
+        if (inVr) this.#parts.nextHeadsetView();
         // From above, it returns to the view from before.
-        if (fromAbove.peek()) fromAbove.value = false;
+        else if (fromAbove.peek()) fromAbove.value = false;
         else stage.look.switchMode();
         return;
       case 'from-above':

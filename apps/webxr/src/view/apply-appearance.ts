@@ -13,9 +13,19 @@ export interface AppearanceParts {
   readonly clouds: SensorClouds;
   readonly stage: Pick<Stage, 'look' | 'headingUp'>;
   readonly inVr: ReadonlySignal<boolean>;
+  /** Whether the headset shows the world as a model, seen from above. */
+  readonly inTabletop: ReadonlySignal<boolean>;
 }
 
-export function applyAppearance({ appearance, sensors, rings, clouds, stage, inVr }: AppearanceParts): void {
+export function applyAppearance({
+  appearance,
+  sensors,
+  rings,
+  clouds,
+  stage,
+  inVr,
+  inTabletop,
+}: AppearanceParts): void {
   const { fromAbove, headingUp, cut, cutFromAbove } = appearance;
   effect(() => {
     for (const [i, { colouring }] of clouds.all.value.entries()) {
@@ -26,7 +36,8 @@ export function applyAppearance({ appearance, sensors, rings, clouds, stage, inV
     }
   });
   effect(() => {
-    const inUse = fromAbove.value && !inVr.value ? cutFromAbove.value : cut.value;
+    const isFromAbove = inVr.value ? inTabletop.value : fromAbove.value;
+    const inUse = isFromAbove ? cutFromAbove.value : cut.value;
     for (const { colouring } of clouds.all.value) colouring.cut = inUse;
   });
   effect(() => {

@@ -1,4 +1,4 @@
-/** Entering and leaving VR. */
+/** Entering and leaving VR, and where the headset says that head, hands and floor are. */
 import { signal } from '@preact/signals-core';
 import type { WebGLRenderer } from 'three';
 import { vrUnavailable } from '../status/words.ts';
@@ -7,19 +7,23 @@ export class VrSession {
   readonly active = signal(false);
   /** Why VR is unavailable; `null` if it is available, `undefined` until that is known. */
   readonly unavailable = signal<string | null | undefined>(undefined);
+  /** Height of the operator's floor in the tracked space, m; `null` while the headset does not know it. */
+  floorY: number | null = null;
   /** Called when the headset is taken off, or covers the picture with a menu of its own. */
   onHidden: (() => void) | null = null;
+  /** Called with the head's pose in the tracked space after {@link recentre}. */
+  onRecentre: ((head: XRRigidTransform) => void) | null = null;
+  /** Called when a session begins, or the headset has moved the tracked space by itself. */
+  onReset: (() => void) | null = null;
   readonly #renderer: WebGLRenderer;
+  #floor: XRReferenceSpace | null = null;
+  #isRecentring = false;
 
   constructor(renderer: WebGLRenderer) {
     this.#renderer = renderer;
-    renderer.xr.addEventListener('sessionstart', () => {
-      this.active.value = true;
-      renderer.xr.getSession()?.addEventListener('visibilitychange', () => {
-        if (this.hidden) this.onHidden?.();
-      });
-    });
+    renderer.xr.addEventListener('sessionstart', () => this.#begin());
     renderer.xr.addEventListener('sessionend', () => {
+      this.#floor = null;
       this.active.value = false;
     });
     navigator.xr?.addEventListener('devicechange', () => void this.#ask());
@@ -58,6 +62,50 @@ export class VrSession {
   get hidden(): boolean {
     const session = this.#renderer.xr.getSession();
     return session !== null && session.visibilityState !== 'visible';
+  }
+
+  /** The head's place in the next display frame becomes the operator's origin. */
+  recentre(): void {
+    this.#isRecentring = true;
+  }
+
+  /** Reads what has been waiting for a display frame. Call this in each one in VR. */
+  update(): void {
+    if (!this.#isRecentring && (this.#floor === null || this.floorY !== null)) return;
+    const { xr } = this.#renderer;
+    const frame = xr.getFrame();
+    const space = xr.getReferenceSpace();
+    if (frame == null || space === null) return;
+    if (this.#floor !== null)
+      this.floorY ??= frame.getPose(this.#floor, space)?.transform.position.y ?? null;
+    const head = this.#isRecentring ? frame.getViewerPose(space) : undefined;
+    if (head == null) return;
+    this.#isRecentring = false;
+    this.onRecentre?.(head.transform);
+  }
+
+  #begin(): void {
+    const { xr } = this.#renderer;
+    const session = xr.getSession();
+    this.#isRecentring = false;
+    this.#reset();
+    this.active.value = true;
+    session?.addEventListener('visibilitychange', () => {
+      if (this.hidden) this.onHidden?.();
+    });
+    xr.getReferenceSpace()?.addEventListener('reset', () => this.#reset());
+    // Some headsets know no floor.
+    session?.requestReferenceSpace('local-floor').then(
+      (floor) => {
+        if (xr.getSession() === session) this.#floor = floor;
+      },
+      () => {},
+    );
+  }
+
+  #reset(): void {
+    this.floorY = null;
+    this.onReset?.();
   }
 
   async #ask(): Promise<void> {
