@@ -1,5 +1,5 @@
 /** Connects the headset with the page: what its hands and buttons do to the view, besides driving. */
-import { effect } from '@preact/signals-core';
+import { effect, untracked } from '@preact/signals-core';
 import type { PageState } from '../state/page-state.ts';
 import { HEADSET_VIEW_WORDS, viewHint } from '../status/headset-words.ts';
 import type { OperatorInputs } from '../ui/operator-inputs.ts';
@@ -45,6 +45,21 @@ export class HeadsetControls {
     vr.onReset = () => headset.begin();
     effect(() => {
       if (!vr.active.value) this.#sign.object.visible = false;
+    });
+    let before: HeadsetView | null = null;
+    effect(() => {
+      const passthrough = vr.passthrough.value;
+      headset.passthrough = passthrough;
+      untracked(() => {
+        // In one's own room, the model on the table is what one expects first.
+        if (passthrough) {
+          before = headset.view.peek();
+          this.show('tabletop');
+        } else if (before !== null) {
+          headset.show(before);
+          before = null;
+        }
+      });
     });
   }
 

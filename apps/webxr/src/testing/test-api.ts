@@ -115,6 +115,8 @@ export interface SoundProbe {
 /** How the headset shows the world. */
 export interface HeadsetProbe {
   view: HeadsetView;
+  /** Whether the operator's own room is behind the scene. */
+  passthrough: boolean;
   /** Where ahead in the operator's room points in the world, radians. */
   yaw: number;
   /** Place of the operator's eyes in the robot's world (REP-103), metres. */

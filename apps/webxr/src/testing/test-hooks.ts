@@ -193,12 +193,12 @@ function probe({ cloud }: App): DrawnProbe {
 }
 
 function headsetProbe({ stage }: App): HeadsetProbe {
-  const { view, yaw, darkness, model } = stage.headset;
+  const { view, passthrough, yaw, darkness, model } = stage.headset;
   const eyes = stage.camera.getWorldPosition(new Vector3());
   const { x, y, z, scale } = model;
   return {
     view: view.value,
-    ...{ yaw, darkness, model: { x, y, z, scale } },
+    ...{ passthrough, yaw, darkness, model: { x, y, z, scale } },
     eyes: { x: -eyes.z, y: -eyes.x, z: eyes.y },
   };
 }

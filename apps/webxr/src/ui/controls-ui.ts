@@ -4,7 +4,7 @@ import { effect } from '@preact/signals-core';
 import type { CloudAppearance } from '../state/cloud-appearance.ts';
 import type { PageState } from '../state/page-state.ts';
 import type { Stage } from '../view/stage.ts';
-import type { VrSession } from '../view/vr-session.ts';
+import type { HeadsetMode, VrSession } from '../view/vr-session.ts';
 import { elements } from './elements.ts';
 import type { EstopUi } from './estop-ui.ts';
 import { startLook } from './look-controls.ts';
@@ -126,12 +126,19 @@ export class ControlsUi {
       elements.vrReason.textContent = reason ?? null;
     });
     effect(() => {
-      elements.vr.textContent = vr.active.value ? 'Leave VR' : 'Enter VR';
+      const isLeaving = vr.active.value;
+      elements.vr.textContent = isLeaving ? `Leave ${vr.passthrough.value ? 'AR' : 'VR'}` : 'Enter VR';
+      elements.ar.hidden = isLeaving || !vr.canPassThrough.value;
     });
-    elements.vr.addEventListener('click', () => {
-      vr.toggle().catch((error: unknown) => {
-        state.notices.tell(`Could not enter VR: ${error instanceof Error ? error.message : error}`, 'bad');
+    const enter = (mode: HeadsetMode, name: string) => {
+      vr.toggle(mode).catch((error: unknown) => {
+        state.notices.tell(
+          `Could not enter ${name}: ${error instanceof Error ? error.message : error}`,
+          'bad',
+        );
       });
-    });
+    };
+    elements.vr.addEventListener('click', () => enter('immersive-vr', 'VR'));
+    elements.ar.addEventListener('click', () => enter('immersive-ar', 'AR'));
   }
 }

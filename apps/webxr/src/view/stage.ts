@@ -150,7 +150,10 @@ export class Stage {
       this.#grid.centreOn(-follower.y, -follower.x);
     }
     this.#vignette.show(inVr ? this.headset.darkness : 0);
-    const isSeenFromAbove = inVr ? this.headset.view.peek() === 'tabletop' : this.#isFromAbove;
+    const inTabletop = inVr && this.headset.view.peek() === 'tabletop';
+    // The operator's own floor needs no grid.
+    this.#grid.object.visible = inTabletop || !(inVr && this.headset.passthrough);
+    const isSeenFromAbove = inTabletop || this.#isFromAbove;
     this.#marker.onTop = isSeenFromAbove;
     this.path.onTop = isSeenFromAbove;
     if (this.#isFromAbove) this.#placeTopDown();

@@ -1,10 +1,17 @@
-/** Entering and leaving VR, and where the headset says that head, hands and floor are. */
+/** Entering and leaving VR or AR, and where the headset says that head, hands and floor are. */
 import { signal } from '@preact/signals-core';
 import type { WebGLRenderer } from 'three';
 import { vrUnavailable } from '../status/words.ts';
 
+export type HeadsetMode = 'immersive-vr' | 'immersive-ar';
+
 export class VrSession {
+  /** Whether the headset shows the scene, with or without the operator's own room. */
   readonly active = signal(false);
+  /** Whether the operator sees the own room behind the scene. */
+  readonly passthrough = signal(false);
+  /** Whether a headset can show both. */
+  readonly canPassThrough = signal(false);
   /** Why VR is unavailable; `null` if it is available, `undefined` until that is known. */
   readonly unavailable = signal<string | null | undefined>(undefined);
   /** Height of the operator's floor in the tracked space, m; `null` while the headset does not know it. */
@@ -25,20 +32,21 @@ export class VrSession {
     renderer.xr.addEventListener('sessionend', () => {
       this.#floor = null;
       this.active.value = false;
+      this.passthrough.value = false;
     });
     navigator.xr?.addEventListener('devicechange', () => void this.#ask());
     void this.#ask();
   }
 
   /** Call this from a button's event handler. @throws whatever error the browser gives */
-  async toggle(): Promise<void> {
+  async toggle(mode: HeadsetMode): Promise<void> {
     const { xr } = this.#renderer;
     const running = xr.getSession();
     if (running !== null) {
       await running.end();
       return;
     }
-    const session = await navigator.xr?.requestSession('immersive-vr', { optionalFeatures: ['local-floor'] });
+    const session = await navigator.xr?.requestSession(mode, { optionalFeatures: ['local-floor'] });
     if (session === undefined) return;
     await xr.setSession(session);
   }
@@ -89,6 +97,7 @@ export class VrSession {
     const session = xr.getSession();
     this.#isRecentring = false;
     this.#reset();
+    this.passthrough.value = (session?.environmentBlendMode ?? 'opaque') !== 'opaque';
     this.active.value = true;
     session?.addEventListener('visibilitychange', () => {
       if (this.hidden) this.onHidden?.();
@@ -110,8 +119,12 @@ export class VrSession {
 
   async #ask(): Promise<void> {
     const { xr } = navigator;
-    const supported = (await xr?.isSessionSupported('immersive-vr').catch(() => false)) ?? false;
+    const supports = async (mode: HeadsetMode) =>
+      (await xr?.isSessionSupported(mode).catch(() => false)) ?? false;
+    const supported = await supports('immersive-vr');
     const facts = { secure: isSecureContext, hasWebXr: xr !== undefined, supported };
     this.unavailable.value = vrUnavailable(facts);
+    // A phone shows AR, too, but has neither grips nor a STOP in it.
+    this.canPassThrough.value = supported && (await supports('immersive-ar'));
   }
 }
