@@ -91,7 +91,9 @@ export class Headset {
   /** Sets what the browser keeps about the headset. Call it before the page loads. */
   async settings(headset: Record<string, string | number>): Promise<void> {
     await this.#page.addInitScript((headset) => {
-      localStorage.setItem('farpoint.settings', JSON.stringify({ headset }));
+      // A page that has been reloaded keeps what it was told since.
+      if (localStorage.getItem('farpoint.settings') === null)
+        localStorage.setItem('farpoint.settings', JSON.stringify({ headset }));
     }, headset);
   }
 

@@ -173,6 +173,26 @@ test('in the headset, standing: the eyes are as high above the robot’s floor a
   await operator.screenshot(testInfo, 'standing');
 });
 
+test('in the headset the display has the highest refresh rate that is offered and wanted', async ({
+  page,
+  startStack,
+}) => {
+  const headset = await Headset.wear(page);
+  await headset.settings({ frameRate: 85, foveation: 0.5 });
+  await enter(page, () => startStack({ robots: [robot] }));
+  // The emulated one offers 72, 80, 90 and 120, and begins with 90.
+  await expect.poll(async () => (await probe(page)).frameRate).toBe(80);
+  await page.getByRole('button', { name: 'Leave VR' }).click();
+  await page.getByRole('button', { name: 'Settings' }).click();
+  await page.getByLabel('Refresh rate').selectOption('120');
+  await page.getByLabel('Turning').selectOption('smooth');
+  await page.screenshot({ path: test.info().outputPath('settings.png') });
+  await page.getByRole('button', { name: 'Save' }).click();
+  await page.waitForFunction(() => window.farpoint?.state().session === 'live');
+  const kept = await page.evaluate(() => JSON.parse(localStorage.getItem('farpoint.settings') ?? '{}'));
+  expect(kept.headset).toMatchObject({ frameRate: 120, turn: 'smooth', foveation: 0.5 });
+});
+
 test('in the headset, left-handed: the left hand drives, and the panel is on the right wrist', async ({
   page,
   startStack,

@@ -136,7 +136,7 @@ export class App {
     this.clouds = new SensorClouds({
       ...{ renderer, world, client: held, first: this.cloud, sensors, pointScale },
     });
-    this.vr = new VrSession(renderer);
+    this.vr = new VrSession(renderer, settings.headset);
     this.vr.onHidden = () => this.#inputs.releaseAll();
     this.#access = new AccessUi({
       ...{ access, knownRobots, client: this.client, link: this.state.link },

@@ -1,6 +1,15 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { DEFAULT_HEADSET, HANDS, POSTURES, parseHeadset, SNAP_DEGREES, TURNS } from './headset-settings.ts';
+import {
+  DEFAULT_HEADSET,
+  FRAME_RATES,
+  HANDS,
+  POSTURES,
+  parseHeadset,
+  RESOLUTIONS,
+  SNAP_DEGREES,
+  TURNS,
+} from './headset-settings.ts';
 
 test('keeps what is usable and replaces the rest by the defaults', () => {
   expect(parseHeadset(undefined)).toEqual(DEFAULT_HEADSET);
@@ -20,7 +29,8 @@ test('keeps what is usable and replaces the rest by the defaults', () => {
 test('whatever the browser holds, the settings are within their bounds', () => {
   fc.assert(
     fc.property(fc.oneof(fc.jsonValue(), fc.object({ key: fc.constantFrom('turn', 'vignette') })), (value) => {
-      const { turn, snapDegrees, vignette, posture, driveHand } = parseHeadset(value);
+      const parsed = parseHeadset(value);
+      const { turn, snapDegrees, vignette, posture, driveHand, frameRate, resolution } = parsed;
       expect(TURNS).toContain(turn);
       expect(POSTURES).toContain(posture);
       expect(HANDS).toContain(driveHand);
@@ -28,6 +38,9 @@ test('whatever the browser holds, the settings are within their bounds', () => {
       expect(snapDegrees).toBeLessThanOrEqual(SNAP_DEGREES.most);
       expect(vignette).toBeGreaterThanOrEqual(0);
       expect(vignette).toBeLessThanOrEqual(1);
+      expect(frameRate).toBeGreaterThanOrEqual(FRAME_RATES.least);
+      expect(resolution).toBeLessThanOrEqual(RESOLUTIONS.most);
+      expect(parsed.foveation).toBeGreaterThanOrEqual(0);
     }),
     { seed: 3 },
   );

@@ -20,6 +20,12 @@ export interface HeadsetSettings {
   readonly posture: Posture;
   /** The hand whose grip and stick drive. The other hand turns the view and carries the panel. */
   readonly driveHand: Hand;
+  /** The highest refresh rate of the display that is asked for, Hz. */
+  readonly frameRate: number;
+  /** How much coarser the edges of the picture are drawn: 0 (not at all) … 1. */
+  readonly foveation: number;
+  /** Share of the resolution that the headset recommends. */
+  readonly resolution: number;
 }
 
 export const DEFAULT_HEADSET: HeadsetSettings = {
@@ -28,20 +34,28 @@ export const DEFAULT_HEADSET: HeadsetSettings = {
   vignette: 0.6,
   posture: 'seated',
   driveHand: 'right',
+  frameRate: 90,
+  foveation: 1,
+  resolution: 1,
 };
 
 export const SNAP_DEGREES = { least: 5, most: 90 } as const;
+export const FRAME_RATES = { least: 60, most: 240 } as const;
+export const RESOLUTIONS = { least: 0.5, most: 2 } as const;
 
 /** @param value from local storage or a form; what is not usable is replaced by its default */
 export function parseHeadset(value: unknown): HeadsetSettings {
   const record = typeof value === 'object' && value !== null ? (value as Record<string, unknown>) : {};
-  const { snapDegrees, vignette } = DEFAULT_HEADSET;
+  const { snapDegrees, vignette, frameRate, foveation, resolution } = DEFAULT_HEADSET;
   return {
     turn: oneOf(TURNS, record.turn) ?? DEFAULT_HEADSET.turn,
     snapDegrees: within(record.snapDegrees, SNAP_DEGREES.least, SNAP_DEGREES.most) ?? snapDegrees,
     vignette: within(record.vignette, 0, 1) ?? vignette,
     posture: oneOf(POSTURES, record.posture) ?? DEFAULT_HEADSET.posture,
     driveHand: oneOf(HANDS, record.driveHand) ?? DEFAULT_HEADSET.driveHand,
+    frameRate: within(record.frameRate, FRAME_RATES.least, FRAME_RATES.most) ?? frameRate,
+    foveation: within(record.foveation, 0, 1) ?? foveation,
+    resolution: within(record.resolution, RESOLUTIONS.least, RESOLUTIONS.most) ?? resolution,
   };
 }
 

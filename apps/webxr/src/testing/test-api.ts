@@ -117,6 +117,8 @@ export interface HeadsetProbe {
   view: HeadsetView;
   /** Whether the operator's own room is behind the scene. */
   passthrough: boolean;
+  /** Of the display, Hz. */
+  frameRate: number | null;
   /** Where ahead in the operator's room points in the world, radians. */
   yaw: number;
   /** Place of the operator's eyes in the robot's world (REP-103), metres. */

@@ -2,7 +2,7 @@
 import { type HeadsetSettings, parseHeadset } from '../headset/headset-settings.ts';
 
 const CHOICES = ['turn', 'posture', 'driveHand'] as const;
-const NUMBERS = ['snapDegrees', 'vignette'] as const;
+const NUMBERS = ['snapDegrees', 'vignette', 'frameRate', 'foveation', 'resolution'] as const;
 
 type Field = HTMLInputElement | HTMLSelectElement;
 

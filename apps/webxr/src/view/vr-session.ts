@@ -1,7 +1,11 @@
 /** Entering and leaving VR or AR, and where the headset says that head, hands and floor are. */
 import { signal } from '@preact/signals-core';
 import type { WebGLRenderer } from 'three';
+import { chooseFrameRate, chooseResolution } from '../headset/display-offer.ts';
+import type { HeadsetSettings } from '../headset/headset-settings.ts';
 import { vrUnavailable } from '../status/words.ts';
+
+type DisplaySettings = Pick<HeadsetSettings, 'frameRate' | 'foveation' | 'resolution'>;
 
 export type HeadsetMode = 'immersive-vr' | 'immersive-ar';
 
@@ -23,11 +27,14 @@ export class VrSession {
   /** Called when a session begins, or the headset has moved the tracked space by itself. */
   onReset: (() => void) | null = null;
   readonly #renderer: WebGLRenderer;
+  readonly #display: DisplaySettings;
   #floor: XRReferenceSpace | null = null;
   #isRecentring = false;
 
-  constructor(renderer: WebGLRenderer) {
+  /** @param display what is asked of the headset's display, as far as it offers that */
+  constructor(renderer: WebGLRenderer, display: DisplaySettings) {
     this.#renderer = renderer;
+    this.#display = display;
     renderer.xr.addEventListener('sessionstart', () => this.#begin());
     renderer.xr.addEventListener('sessionend', () => {
       this.#floor = null;
@@ -48,7 +55,19 @@ export class VrSession {
     }
     const session = await navigator.xr?.requestSession(mode, { optionalFeatures: ['local-floor'] });
     if (session === undefined) return;
+    const native =
+      typeof XRWebGLLayer === 'undefined' ? 1 : XRWebGLLayer.getNativeFramebufferScaleFactor(session);
+    xr.setFramebufferScaleFactor(chooseResolution(this.#display.resolution, native));
+    xr.setFoveation(this.#display.foveation);
     await xr.setSession(session);
+    const rate = chooseFrameRate(session.supportedFrameRates, this.#display.frameRate);
+    // Whatever comes of it, the headset goes on at a rate of its own.
+    if (rate !== null && rate !== session.frameRate) await session.updateTargetFrameRate(rate).catch(() => {});
+  }
+
+  /** Refresh rate of the display, Hz; `null` outside a session or where the headset does not say. */
+  get frameRate(): number | null {
+    return this.#renderer.xr.getSession()?.frameRate ?? null;
   }
 
   get inputSources(): Iterable<XRInputSource> {
