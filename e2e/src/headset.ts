@@ -23,6 +23,15 @@ interface EmulatedDevice {
       }
     | undefined
   >;
+  hands: Record<
+    Hand,
+    | {
+        updatePinchValue(value: number): void;
+        position: { set(x: number, y: number, z: number): void };
+      }
+    | undefined
+  >;
+  primaryInputMode: 'controller' | 'hand';
   installRuntime(options: { forceInstall: boolean }): void;
 }
 
@@ -102,6 +111,30 @@ export class Headset {
     await this.button(hand, id, 1);
     await this.frames(3);
     await this.button(hand, id, 0);
+    await this.frames(3);
+  }
+
+  /** Puts the controllers down, so that the headset tracks bare hands; or takes them up again. */
+  async bareHands(bare: boolean): Promise<void> {
+    await this.#page.evaluate(
+      (mode) => {
+        window.emulatedHeadset.primaryInputMode = mode;
+      },
+      bare ? ('hand' as const) : ('controller' as const),
+    );
+    await this.frames(3);
+  }
+
+  /** @param at right, up, back, metres @param pinches 0 open … 1 */
+  async bareHand(hand: Hand, at: [x: number, y: number, z: number], pinches: number): Promise<void> {
+    await this.#page.evaluate(
+      ([hand, at, pinches]) => {
+        const bare = window.emulatedHeadset.hands[hand];
+        bare?.position.set(...at);
+        bare?.updatePinchValue(pinches);
+      },
+      [hand, at, pinches] as const,
+    );
     await this.frames(3);
   }
 

@@ -146,3 +146,47 @@ test('in the headset, triggers hold the model on the table: no grip drives meanw
   await headset.press('left', 'thumbstick');
   expect((await probe(page)).model.scale).toBeCloseTo(before.model.scale, 9);
 });
+
+test('in the headset, bare hands hold the model by pinching, and drive and release nothing', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const stack = await startStack({ robots: [robot] });
+  const headset = await Headset.wear(page);
+  const operator = await OperatorPage.open(page, stack, { robot: robot.id });
+  await operator.expectPoints();
+  await page.getByRole('button', { name: /VR/ }).click();
+  await operator.expectState('vr', true);
+  await page.keyboard.press('KeyV');
+  await page.keyboard.press('KeyV');
+  const start = await operator.body();
+  await operator.hold(headset.grip('right'));
+  await headset.thumbstick('right', 0, -1);
+  await operator.expectMovedFrom(start, 0.1);
+
+  // Whoever puts the controllers down lets go.
+  await headset.bareHands(true);
+  await operator.expectState('driving', false);
+  await operator.expectStanding();
+  await headset.bareHand('left', [-0.2, 1.2, -0.4], 0);
+  await headset.bareHand('right', [0.2, 1.2, -0.4], 0);
+  const before = await probe(page);
+  await headset.bareHand('left', [-0.2, 1.2, -0.4], 1);
+  await headset.bareHand('right', [0.2, 1.2, -0.4], 1);
+  const both = await probe(page);
+  await headset.bareHand('left', [-0.4, 1.2, -0.4], 1);
+  const scaled = await probe(page);
+  expect(scaled.model.scale / both.model.scale).toBeGreaterThan(1.2);
+  expect(before.model.scale).toBeCloseTo(both.model.scale, 3);
+  await operator.screenshot(testInfo, 'bare-hands');
+  await headset.bareHand('left', [-0.4, 1.2, -0.4], 0);
+  await headset.bareHand('right', [0.2, 1.2, -0.4], 0);
+
+  // A pinch of any length releases no emergency stop.
+  await page.keyboard.press('KeyX');
+  await operator.expectState('estop', true);
+  await headset.bareHand('right', [0.2, 1.2, -0.4], 1);
+  await operator.expectFrames(25);
+  expect((await operator.state()).estop).toBe(true);
+  expect((await operator.state()).driving).toBe(false);
+});

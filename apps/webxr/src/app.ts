@@ -137,7 +137,6 @@ export class App {
       ...{ renderer, world, client: held, first: this.cloud, sensors, pointScale },
     });
     this.vr = new VrSession(renderer, settings.headset);
-    this.vr.onHidden = () => this.#inputs.releaseAll();
     this.#access = new AccessUi({
       ...{ access, knownRobots, client: this.client, link: this.state.link },
       signIn: new SignIn(tabStorage(), origin),

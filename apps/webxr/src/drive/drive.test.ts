@@ -263,6 +263,18 @@ describe('HeadsetInput', () => {
     expect(input.read([controller('right', 0, 0, 0, 3)], 0, tracked).nextRobot).toBe(false);
   });
 
+  test('a bare hand that the headset tracks neither drives, releases, speaks nor turns the view', () => {
+    const input = new HeadsetInput();
+    const bare = (handedness: string) => ({ ...controller(handedness, 1, 1, -1, 0), hand: {} });
+    const { releaseHeld } = input.read([bare('left'), bare('right')], 5, tracked);
+    expect([input.held, releaseHeld, input.turnStick, input.readMs]).toEqual([false, false, 0, 5]);
+    input.read([bare('left'), controller('right', 1, 0, -1)], 10, tracked);
+    expect([input.held, input.talks, input.wish.forward]).toEqual([true, false, 1]);
+    // Whoever puts the controller away lets go.
+    input.read([bare('left'), bare('right')], 20, tracked);
+    expect(input.held).toBe(false);
+  });
+
   test('counts the trigger as release only while the grip is open: a clenched fist holds both', () => {
     const input = new HeadsetInput();
     const held = (...sources: ReturnType<typeof controller>[]) => input.read(sources, 0, tracked).releaseHeld;

@@ -1,7 +1,7 @@
 /**
  * Headset controllers in WebXR's `xr-standard` mapping: the thumbstick is axes 2 and 3, the trigger button 0, squeeze
  * button 1, the thumbstick's press button 3, A/X button 4 and B/Y button 5. One hand drives while it squeezes. The other
- * hand has the view.
+ * hand has the view. A bare hand, which has no grip that opens by itself, neither drives nor releases nor speaks.
  */
 
 import type { DriveInput, DriveWish, PressedButtons } from '@farpoint/operator';
@@ -19,6 +19,8 @@ const BY_BUTTON = 5;
 export interface XrController {
   handedness: string;
   gamepad?: GamepadState | null | undefined;
+  /** Present for a bare hand that the headset tracks. */
+  hand?: unknown;
 }
 
 /** What an XR frame tells of a controller. */
@@ -79,7 +81,7 @@ export class HeadsetInput implements DriveInput {
     let trigger = false;
     this.turnStick = 0;
     for (const source of sources) {
-      const buttons = source.gamepad?.buttons;
+      const buttons = buttonsOf(source);
       if (buttons === undefined) continue;
       estop ||= buttons[BY_BUTTON]?.pressed === true;
       trigger ||= (buttons[TRIGGER]?.value ?? 0) > 0.5;
@@ -138,10 +140,15 @@ export class HeadsetInput implements DriveInput {
   }
 }
 
+/** The buttons of a controller. The gamepad that some headsets give a bare hand is none. */
+function buttonsOf({ gamepad, hand }: XrController): GamepadState['buttons'] | undefined {
+  return hand == null ? gamepad?.buttons : undefined;
+}
+
 /** Whether the trigger of a hand other than the driving one is pulled. */
 function pullsOther(sources: Iterable<XrController>, driving: XrController): boolean {
   for (const source of sources) {
-    if (source !== driving && (source.gamepad?.buttons[TRIGGER]?.value ?? 0) > 0.5) return true;
+    if (source !== driving && (buttonsOf(source)?.[TRIGGER]?.value ?? 0) > 0.5) return true;
   }
   return false;
 }

@@ -41,6 +41,10 @@ export class HeadsetControls {
         !pointer.pointsAtPicture(index),
     );
     camera.add(this.#sign.object);
+    vr.onHidden = () => {
+      inputs.releaseAll();
+      this.#hands.letGo();
+    };
     vr.onRecentre = ({ position, orientation }) => headset.recentre(position, orientation);
     vr.onReset = () => headset.begin();
     effect(() => {

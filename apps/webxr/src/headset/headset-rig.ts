@@ -56,16 +56,16 @@ export class HeadsetRig {
   /** A session begins, or the headset has recentred by itself: the eyes at rest are where it says. */
   begin(): void {
     this.origin.reset();
+    this.model.reset();
     this.align();
   }
 
-  /** The robot's heading becomes ahead, and the model returns to its first place. */
+  /** The robot's heading becomes ahead. */
   align(): void {
     this.#heading.align();
     this.#turn.disarm();
     this.#amount.clear();
     this.#moves = false;
-    this.model.reset();
   }
 
   /** Changes the view. What hands hold of the model, they let go. */
@@ -75,9 +75,14 @@ export class HeadsetRig {
     this.#moves = false;
   }
 
-  /** The head's place becomes the eyes' place at rest. @param orientation of the head in the tracked space */
+  /**
+   * The head's place becomes the eyes' place at rest, and the model returns to its first place.
+   *
+   * @param orientation of the head in the tracked space
+   */
   recentre(position: DOMPointReadOnly, orientation: DOMPointReadOnly): void {
     this.origin.recentre(position, orientation);
+    this.model.reset();
     this.align();
   }
 

@@ -4,7 +4,7 @@ import { bodyYaw, type CloudView, opticalYaw, RobotWorld } from '@farpoint/cloud
 import type { RobotBody } from '@farpoint/protocol';
 import { type Camera, Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
 import { HeadsetRig } from '../headset/headset-rig.ts';
-import type { HeadsetSettings } from '../headset/headset-settings.ts';
+import { DEFAULT_HEADSET, type HeadsetSettings } from '../headset/headset-settings.ts';
 import { Vignette } from '../headset/vignette.ts';
 import { DrivePath } from './drive-path.ts';
 import { GroundGrid } from './ground-grid.ts';
@@ -56,7 +56,7 @@ export class Stage {
   constructor(
     canvas: HTMLCanvasElement,
     fixedSize: { width: number; height: number } | null,
-    headset: HeadsetSettings,
+    headset: HeadsetSettings = DEFAULT_HEADSET,
   ) {
     this.#fixedSize = fixedSize;
     this.headset = new HeadsetRig(headset);

@@ -53,7 +53,9 @@ export class VrSession {
       await running.end();
       return;
     }
-    const session = await navigator.xr?.requestSession(mode, { optionalFeatures: ['local-floor'] });
+    const session = await navigator.xr?.requestSession(mode, {
+      optionalFeatures: ['local-floor', 'hand-tracking'],
+    });
     if (session === undefined) return;
     const native =
       typeof XRWebGLLayer === 'undefined' ? 1 : XRWebGLLayer.getNativeFramebufferScaleFactor(session);
