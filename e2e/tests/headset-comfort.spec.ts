@@ -182,7 +182,9 @@ test('in the headset the display has the highest refresh rate that is offered an
   await enter(page, () => startStack({ robots: [robot] }));
   // The emulated one offers 72, 80, 90 and 120, and begins with 90.
   await expect.poll(async () => (await probe(page)).frameRate).toBe(80);
-  await page.getByRole('button', { name: 'Leave VR' }).click();
+  // The emulated headset's picture lies over the page.
+  await page.getByRole('button', { name: 'Leave VR' }).dispatchEvent('click');
+  await page.waitForFunction(() => !window.farpoint.state().vr);
   await page.getByRole('button', { name: 'Settings' }).click();
   await page.getByLabel('Refresh rate').selectOption('120');
   await page.getByLabel('Turning').selectOption('smooth');

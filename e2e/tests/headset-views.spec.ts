@@ -65,7 +65,14 @@ test('in the headset, X shows the next view: the robot drives in each, and a cha
   await stop();
   await headset.place('left', [-0.1, 1.5, -0.4]);
   await expect
-    .poll(() => page.evaluate(() => window.farpoint.wrist()?.map(({ text }) => text).join('\n')))
+    .poll(() =>
+      page.evaluate(() =>
+        window.farpoint
+          .wrist()
+          ?.map(({ text }) => text)
+          .join('\n'),
+      ),
+    )
     .toContain('Tabletop 1:20');
   await operator.screenshot(testInfo, 'tabletop');
   await headset.press('left', 'x-button');

@@ -28,20 +28,23 @@ test('keeps what is usable and replaces the rest by the defaults', () => {
 
 test('whatever the browser holds, the settings are within their bounds', () => {
   fc.assert(
-    fc.property(fc.oneof(fc.jsonValue(), fc.object({ key: fc.constantFrom('turn', 'vignette') })), (value) => {
-      const parsed = parseHeadset(value);
-      const { turn, snapDegrees, vignette, posture, driveHand, frameRate, resolution } = parsed;
-      expect(TURNS).toContain(turn);
-      expect(POSTURES).toContain(posture);
-      expect(HANDS).toContain(driveHand);
-      expect(snapDegrees).toBeGreaterThanOrEqual(SNAP_DEGREES.least);
-      expect(snapDegrees).toBeLessThanOrEqual(SNAP_DEGREES.most);
-      expect(vignette).toBeGreaterThanOrEqual(0);
-      expect(vignette).toBeLessThanOrEqual(1);
-      expect(frameRate).toBeGreaterThanOrEqual(FRAME_RATES.least);
-      expect(resolution).toBeLessThanOrEqual(RESOLUTIONS.most);
-      expect(parsed.foveation).toBeGreaterThanOrEqual(0);
-    }),
+    fc.property(
+      fc.oneof(fc.jsonValue(), fc.object({ key: fc.constantFrom('turn', 'vignette') })),
+      (value) => {
+        const parsed = parseHeadset(value);
+        const { turn, snapDegrees, vignette, posture, driveHand, frameRate, resolution } = parsed;
+        expect(TURNS).toContain(turn);
+        expect(POSTURES).toContain(posture);
+        expect(HANDS).toContain(driveHand);
+        expect(snapDegrees).toBeGreaterThanOrEqual(SNAP_DEGREES.least);
+        expect(snapDegrees).toBeLessThanOrEqual(SNAP_DEGREES.most);
+        expect(vignette).toBeGreaterThanOrEqual(0);
+        expect(vignette).toBeLessThanOrEqual(1);
+        expect(frameRate).toBeGreaterThanOrEqual(FRAME_RATES.least);
+        expect(resolution).toBeLessThanOrEqual(RESOLUTIONS.most);
+        expect(parsed.foveation).toBeGreaterThanOrEqual(0);
+      },
+    ),
     { seed: 3 },
   );
 });

@@ -49,16 +49,22 @@ describe('RigPose', () => {
 
   test('tabletop: the robot stands at the model’s place, and a metre is as long as the scale says', () => {
     fc.assert(
-      fc.property(place, place, fc.double({ min: 0.01, max: 1, noNaN: true }), number, (robot, at, scale, yaw) => {
-        const pose = new RigPose();
-        pose.tabletop(robot.x, robot.y, robot.z, { ...at, scale }, yaw);
-        const rig = rigOf(pose);
-        const shown = rig.worldToLocal(three(robot));
-        expect(shown.distanceTo(new Vector3(at.x, at.y, at.z))).toBeLessThan(1e-6);
-        const ahead = { x: robot.x + Math.cos(yaw), y: robot.y + Math.sin(yaw), z: robot.z };
-        const step = rig.worldToLocal(three(ahead)).sub(shown);
-        expect(step.distanceTo(new Vector3(0, 0, -scale))).toBeLessThan(1e-6);
-      }),
+      fc.property(
+        place,
+        place,
+        fc.double({ min: 0.01, max: 1, noNaN: true }),
+        number,
+        (robot, at, scale, yaw) => {
+          const pose = new RigPose();
+          pose.tabletop(robot.x, robot.y, robot.z, { ...at, scale }, yaw);
+          const rig = rigOf(pose);
+          const shown = rig.worldToLocal(three(robot));
+          expect(shown.distanceTo(new Vector3(at.x, at.y, at.z))).toBeLessThan(1e-6);
+          const ahead = { x: robot.x + Math.cos(yaw), y: robot.y + Math.sin(yaw), z: robot.z };
+          const step = rig.worldToLocal(three(ahead)).sub(shown);
+          expect(step.distanceTo(new Vector3(0, 0, -scale))).toBeLessThan(1e-6);
+        },
+      ),
       { seed: 8 },
     );
   });

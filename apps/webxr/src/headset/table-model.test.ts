@@ -19,13 +19,21 @@ class Shown {
 
   at(place: Vector3): Vector3 {
     const { x, y, z, scale } = this.model;
-    return place.clone().multiplyScalar(scale).applyAxisAngle(UP, this.turned).add(new Vector3(x, y, z));
+    return place
+      .clone()
+      .multiplyScalar(scale)
+      .applyAxisAngle(UP, this.turned)
+      .add(new Vector3(x, y, z));
   }
 
   /** The inverse of {@link at}. */
   under(at: Vector3): Vector3 {
     const { x, y, z, scale } = this.model;
-    return at.clone().sub(new Vector3(x, y, z)).applyAxisAngle(UP, -this.turned).divideScalar(scale);
+    return at
+      .clone()
+      .sub(new Vector3(x, y, z))
+      .applyAxisAngle(UP, -this.turned)
+      .divideScalar(scale);
   }
 }
 

@@ -32,20 +32,28 @@ describe('ViewHeading', () => {
   test('a turn about the head leaves the head where it is', () => {
     const number = fc.double({ min: -3, max: 3, noNaN: true });
     fc.assert(
-      fc.property(number, number, fc.array(fc.tuple(number, number, number), { maxLength: 4 }), (x, z, turns) => {
-        const heading = new ViewHeading(false);
-        heading.follow(x);
-        const head = (at: Vector3) =>
-          at.clone().applyAxisAngle(UP, heading.yaw).add(new Vector3(heading.shiftX, 0, heading.shiftZ));
-        for (const [by, dx, dz] of turns) {
-          const at = new Vector3(x + dx, 0, z + dz);
-          const before = head(at);
-          heading.turnAbout(by, at.x, at.z);
-          expect(head(at).distanceTo(before)).toBeLessThan(1e-9);
-        }
-        heading.align();
-        expect([heading.shiftX, heading.shiftZ]).toEqual([0, 0]);
-      }),
+      fc.property(
+        number,
+        number,
+        fc.array(fc.tuple(number, number, number), { maxLength: 4 }),
+        (x, z, turns) => {
+          const heading = new ViewHeading(false);
+          heading.follow(x);
+          const head = (at: Vector3) =>
+            at
+              .clone()
+              .applyAxisAngle(UP, heading.yaw)
+              .add(new Vector3(heading.shiftX, 0, heading.shiftZ));
+          for (const [by, dx, dz] of turns) {
+            const at = new Vector3(x + dx, 0, z + dz);
+            const before = head(at);
+            heading.turnAbout(by, at.x, at.z);
+            expect(head(at).distanceTo(before)).toBeLessThan(1e-9);
+          }
+          heading.align();
+          expect([heading.shiftX, heading.shiftZ]).toEqual([0, 0]);
+        },
+      ),
       { seed: 5 },
     );
   });

@@ -46,7 +46,9 @@ export function wristLines({
   const battery = telemetry?.battery;
   const hints = [
     ...(view === null ? [] : [view]),
-    battery === undefined ? `Squeeze ${driveHand}: drive  B: stop` : `Battery ${Math.round(battery.percentage * 100)} %`,
+    battery === undefined
+      ? `Squeeze ${driveHand}: drive  B: stop`
+      : `Battery ${Math.round(battery.percentage * 100)} %`,
     ...(nextRobot === null ? [] : [`press ${driveHand} stick: ${nextRobot.name}`]),
   ];
   return [

@@ -13,8 +13,8 @@ import type {
   VideoCodec,
 } from '@farpoint/operator';
 import type { DriveState, LatencyFrame } from '@farpoint/protocol';
-import type { PageStats } from '../status/page-stats.ts';
 import type { HeadsetView } from '../headset/rig-pose.ts';
+import type { PageStats } from '../status/page-stats.ts';
 import type { DrivePath } from '../view/drive-path.ts';
 
 export interface PageState {

@@ -64,7 +64,8 @@ export class VrSession {
     await xr.setSession(session);
     const rate = chooseFrameRate(session.supportedFrameRates, this.#display.frameRate);
     // Whatever comes of it, the headset goes on at a rate of its own.
-    if (rate !== null && rate !== session.frameRate) await session.updateTargetFrameRate(rate).catch(() => {});
+    if (rate !== null && rate !== session.frameRate)
+      await session.updateTargetFrameRate(rate).catch(() => {});
   }
 
   /** Refresh rate of the display, Hz; `null` outside a session or where the headset does not say. */
@@ -105,8 +106,7 @@ export class VrSession {
     const frame = xr.getFrame();
     const space = xr.getReferenceSpace();
     if (frame == null || space === null) return;
-    if (this.#floor !== null)
-      this.floorY ??= frame.getPose(this.#floor, space)?.transform.position.y ?? null;
+    if (this.#floor !== null) this.floorY ??= frame.getPose(this.#floor, space)?.transform.position.y ?? null;
     const head = this.#isRecentring ? frame.getViewerPose(space) : undefined;
     if (head == null) return;
     this.#isRecentring = false;
