@@ -70,6 +70,8 @@ test('in the headset the room stays where it is while the robot turns; the other
   await headset.frames(10);
   expect(degrees((await probe(page)).yaw - yaw)).toBeCloseTo(0, 6);
   await operator.screenshot(testInfo, 'world-fixed');
+  // The robot's front has turned out of sight, to the left.
+  expect((await probe(page)).frontSide).toBe(-1);
   await operator.release();
   await operator.expectStanding();
 
@@ -186,8 +188,10 @@ test('in the headset the display has the highest refresh rate that is offered an
   await page.getByRole('button', { name: 'Leave VR' }).dispatchEvent('click');
   await page.waitForFunction(() => !window.farpoint.state().vr);
   await page.getByRole('button', { name: 'Settings' }).click();
+  await page.getByText('Headset', { exact: true }).click();
   await page.getByLabel('Refresh rate').selectOption('120');
   await page.getByLabel('Turning').selectOption('smooth');
+  await page.setViewportSize({ width: 640, height: 960 });
   await page.screenshot({ path: test.info().outputPath('settings.png') });
   await page.getByRole('button', { name: 'Save' }).click();
   await page.waitForFunction(() => window.farpoint?.state().session === 'live');

@@ -51,7 +51,7 @@ test('in the headset, X shows the next view: the robot drives in each, and a cha
   await operator.screenshot(testInfo, 'over-shoulder-said');
   await stop();
   const behind = await probe(page);
-  expect(behind.eyes.z - (camera?.z ?? 0)).toBeCloseTo(0.7, 1);
+  expect(behind.eyes.z - (camera?.z ?? 0)).toBeCloseTo(0.6, 1);
   await drive();
   await operator.screenshot(testInfo, 'over-shoulder');
   await stop();

@@ -1,4 +1,4 @@
-import { Group, Quaternion, Vector3 } from 'three';
+import { Group, Object3D, Quaternion, Vector3 } from 'three';
 import { describe, expect, test } from 'vitest';
 import { HeadsetRig } from './headset-rig.ts';
 import { DEFAULT_HEADSET, type HeadsetSettings } from './headset-settings.ts';
@@ -30,8 +30,10 @@ class Bench {
 
   frames(count: number, stick = 0): void {
     this.headset.turnStick = stick;
-    for (let i = 0; i < count; i++)
-      this.headset.place(this.rig, this.head, this.robot, this.ground, FRAME_MS);
+    const head = new Object3D();
+    head.position.copy(this.head);
+    head.rotation.y = this.headYaw;
+    for (let i = 0; i < count; i++) this.headset.place(this.rig, head, this.robot, this.ground, FRAME_MS);
   }
 
   /** Where the eyes are in the robot's world, REP-103, m. */
@@ -78,6 +80,28 @@ describe('HeadsetRig', () => {
     expectNear(bench.eyes(), [5, -2, 0.4]);
     expect(bench.facing).toBe(facing);
     expect(bench.headset.darkness).toBe(0);
+  });
+
+  test('says on which side the robot’s front is, once the operator no longer sees it', () => {
+    const bench = new Bench();
+    expect(bench.headset.frontSide).toBe(0);
+    bench.robot.yaw += 1;
+    bench.frames(1);
+    expect(bench.headset.frontSide).toBe(-1);
+    // By the head or by the stick.
+    bench.headYaw += 0.6;
+    bench.frames(1);
+    expect(bench.headset.frontSide).toBe(0);
+    bench.headYaw -= 0.6;
+    bench.frames(1, -1);
+    expect(bench.headset.frontSide).toBe(0);
+    bench.robot.yaw -= 3;
+    bench.frames(1);
+    expect(bench.headset.frontSide).toBe(1);
+    // In the other views the robot itself is to be seen.
+    bench.headset.show('tabletop');
+    bench.frames(1);
+    expect(bench.headset.frontSide).toBe(0);
   });
 
   test('set to, it turns with the robot, and the edge is dark for as long', () => {
@@ -130,10 +154,10 @@ describe('HeadsetRig', () => {
     const bench = new Bench();
     bench.headset.show('over-shoulder');
     bench.frames(1);
-    expectNear(bench.eyes(), [3 - 1.8 * Math.cos(1), -2 - 1.8 * Math.sin(1), 1.1]);
+    expectNear(bench.eyes(), [3 - 2.4 * Math.cos(1), -2 - 2.4 * Math.sin(1), 1.0]);
     bench.frames(2, -1);
     const yaw = 1 + Math.PI / 6;
-    expectNear(bench.eyes(), [3 - 1.8 * Math.cos(yaw), -2 - 1.8 * Math.sin(yaw), 1.1]);
+    expectNear(bench.eyes(), [3 - 2.4 * Math.cos(yaw), -2 - 2.4 * Math.sin(yaw), 1.0]);
   });
 
   test('tabletop: the robot stays at its place on the table while it drives, turns and is scaled', () => {

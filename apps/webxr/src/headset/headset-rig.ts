@@ -1,8 +1,9 @@
 /** Places what carries the operator's head in the robot's world, by view, recentring and turning. Allocates nothing. */
 import { type Signal, signal } from '@preact/signals-core';
-import { Group, type Vector3 } from 'three';
+import { Group, type Object3D } from 'three';
+import { frontSide } from './front-side.ts';
 import type { HeadsetSettings } from './headset-settings.ts';
-import { OperatorOrigin } from './operator-origin.ts';
+import { headYaw, OperatorOrigin } from './operator-origin.ts';
 import { OperatorTurn } from './operator-turn.ts';
 import { ABOVE_M, type HeadsetView, RigPose, type WorldPlace } from './rig-pose.ts';
 import { TableModel } from './table-model.ts';
@@ -28,6 +29,8 @@ export class HeadsetRig {
   floorY: number | null = null;
   /** Whether the operator sees the own room: then nothing moves them, and nothing needs to be dark. */
   passthrough = false;
+  /** To which side the robot's front is, in first person: −1 left, 1 right, 0 in view. */
+  frontSide: -1 | 0 | 1 = 0;
   readonly #pose = new RigPose();
   readonly #heading: ViewHeading;
   readonly #turn: OperatorTurn;
@@ -90,11 +93,11 @@ export class HeadsetRig {
    * Call this before each display frame in VR.
    *
    * @param rig carries the tracked space
-   * @param head the head's place in it
+   * @param head the operator's head, a child of the rig
    * @param camera the robot's camera
    * @param ground height of the robot's floor in its world, m
    */
-  place(rig: Group, head: Vector3, camera: FollowedRobot, ground: number, elapsedMs: number): void {
+  place(rig: Group, head: Object3D, camera: FollowedRobot, ground: number, elapsedMs: number): void {
     const pose = this.#pose;
     const { x, y, z, yaw } = pose;
     const by = this.#turn.by(this.turnStick, elapsedMs);
@@ -102,6 +105,8 @@ export class HeadsetRig {
     this.#turnView(by, head);
     this.#setPose(camera, ground);
     this.#apply(rig);
+    const isInside = this.view.peek() === 'first-person';
+    this.frontSide = isInside ? frontSide(camera.yaw, rig.rotation.y + headYaw(head.quaternion)) : 0;
     const seconds = elapsedMs / 1000;
     const moves = this.#moves && !this.passthrough && this.view.peek() !== 'tabletop' && seconds > 0;
     this.#moves = true;
@@ -113,7 +118,7 @@ export class HeadsetRig {
     this.#amount.update(turnRate, speed, elapsedMs);
   }
 
-  #turnView(by: number, head: Vector3): void {
+  #turnView(by: number, { position: head }: Object3D): void {
     const heading = this.#heading;
     const view = this.view.peek();
     if (view === 'tabletop') heading.turn(by - this.model.turned);

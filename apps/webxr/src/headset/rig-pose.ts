@@ -7,8 +7,8 @@ export const HEADSET_VIEWS = ['first-person', 'over-shoulder', 'tabletop'] as co
 export type HeadsetView = (typeof HEADSET_VIEWS)[number];
 
 /** Over the shoulder: behind the robot's camera and above it, m. */
-export const BEHIND_M = 1.8;
-export const ABOVE_M = 0.7;
+export const BEHIND_M = 2.4;
+export const ABOVE_M = 0.6;
 
 /** A place in the robot's world, REP-103, m. */
 export interface WorldPlace {

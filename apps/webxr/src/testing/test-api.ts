@@ -123,6 +123,8 @@ export interface HeadsetProbe {
   yaw: number;
   /** Place of the operator's eyes in the robot's world (REP-103), metres. */
   eyes: { x: number; y: number; z: number };
+  /** To which side the robot's front is: −1 left, 1 right, 0 in view. */
+  frontSide: number;
   /** How dark the edge of the view is, 0–1. */
   darkness: number;
   /** The world on the table: the robot's place in the room, metres, and metres in the room of one metre. */

@@ -193,12 +193,12 @@ function probe({ cloud }: App): DrawnProbe {
 }
 
 function headsetProbe({ stage, vr }: App): HeadsetProbe {
-  const { view, passthrough, yaw, darkness, model } = stage.headset;
+  const { view, passthrough, yaw, frontSide, darkness, model } = stage.headset;
   const eyes = stage.camera.getWorldPosition(new Vector3());
   const { x, y, z, scale } = model;
   return {
     ...{ view: view.value, frameRate: vr.frameRate },
-    ...{ passthrough, yaw, darkness, model: { x, y, z, scale } },
+    ...{ passthrough, yaw, frontSide, darkness, model: { x, y, z, scale } },
     eyes: { x: -eyes.z, y: -eyes.x, z: eyes.y },
   };
 }

@@ -3,6 +3,7 @@
 import { bodyYaw, type CloudView, opticalYaw, RobotWorld } from '@farpoint/cloud-view';
 import type { RobotBody } from '@farpoint/protocol';
 import { type Camera, Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import { FrontPointer } from '../headset/front-pointer.ts';
 import { HeadsetRig } from '../headset/headset-rig.ts';
 import { DEFAULT_HEADSET, type HeadsetSettings } from '../headset/headset-settings.ts';
 import { Vignette } from '../headset/vignette.ts';
@@ -46,6 +47,7 @@ export class Stage {
   readonly #follower = new PoseFollower(FOLLOW_MS);
   readonly #topDown = new TopDownCamera();
   readonly #vignette = new Vignette();
+  readonly #front = new FrontPointer();
   /** Follows the robot's body, in its world. */
   readonly #bodyFollower = new PoseFollower(FOLLOW_MS);
   readonly #fixedSize: { width: number; height: number } | null;
@@ -68,7 +70,7 @@ export class Stage {
     this.#marker.object.add(this.path.object);
     this.world.add(this.#marker.object);
     this.rig.add(this.camera, this.headset.front);
-    this.camera.add(this.#vignette.object);
+    this.camera.add(this.#vignette.object, this.#front.object);
     this.scene.add(this.world, this.rig, this.#grid.object);
     this.rig.position.set(0, DEFAULT_EYE_M, 0);
     this.camera.rotation.order = 'YXZ';
@@ -150,6 +152,7 @@ export class Stage {
       this.#grid.centreOn(-follower.y, -follower.x);
     }
     this.#vignette.show(inVr ? this.headset.darkness : 0);
+    this.#front.show(inVr ? this.headset.frontSide : 0);
     const inTabletop = inVr && this.headset.view.peek() === 'tabletop';
     // The operator's own floor needs no grid.
     this.#grid.object.visible = inTabletop || !(inVr && this.headset.passthrough);
@@ -171,7 +174,7 @@ export class Stage {
     const follower = this.#follower;
     const body = this.#bodyFollower;
     const ground = body.started ? body.z : follower.z - DEFAULT_EYE_M;
-    headset.place(rig, camera.position, follower, ground, elapsedMs);
+    headset.place(rig, camera, follower, ground, elapsedMs);
   }
 
   #placeRig(): void {
