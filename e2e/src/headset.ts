@@ -10,6 +10,7 @@ interface EmulatedDevice {
   stereoEnabled: boolean;
   updateVisibilityState(state: 'visible' | 'visible-blurred' | 'hidden'): void;
   position: { set(x: number, y: number, z: number): void };
+  quaternion: { set(x: number, y: number, z: number, w: number): void };
   controllers: Record<
     'left' | 'right',
     | {
@@ -22,6 +23,15 @@ interface EmulatedDevice {
       }
     | undefined
   >;
+  hands: Record<
+    Hand,
+    | {
+        updatePinchValue(value: number): void;
+        position: { set(x: number, y: number, z: number): void };
+      }
+    | undefined
+  >;
+  primaryInputMode: 'controller' | 'hand';
   installRuntime(options: { forceInstall: boolean }): void;
 }
 
@@ -69,6 +79,78 @@ export class Headset {
       hand,
       at,
     ] as const);
+  }
+
+  /**
+   * Moves the head.
+   *
+   * @param at right, up, back, metres; it begins at [0, 1.6, 0]
+   * @param yaw radians to the left
+   */
+  async head(at: [x: number, y: number, z: number], yaw = 0): Promise<void> {
+    await this.#page.evaluate(
+      ([at, yaw]) => {
+        window.emulatedHeadset.position.set(...at);
+        window.emulatedHeadset.quaternion.set(0, Math.sin(yaw / 2), 0, Math.cos(yaw / 2));
+      },
+      [at, yaw] as const,
+    );
+  }
+
+  /** Sets what the browser keeps about the headset. Call it before the page loads. */
+  async settings(headset: Record<string, string | number>): Promise<void> {
+    await this.#page.addInitScript((headset) => {
+      // A page that has been reloaded keeps what it was told since.
+      if (localStorage.getItem('farpoint.settings') === null)
+        localStorage.setItem('farpoint.settings', JSON.stringify({ headset }));
+    }, headset);
+  }
+
+  /** Presses a button, and lets it go. */
+  async press(hand: Hand, id: string): Promise<void> {
+    await this.button(hand, id, 1);
+    await this.frames(3);
+    await this.button(hand, id, 0);
+    await this.frames(3);
+  }
+
+  /** Puts the controllers down, so that the headset tracks bare hands; or takes them up again. */
+  async bareHands(bare: boolean): Promise<void> {
+    await this.#page.evaluate(
+      (mode) => {
+        window.emulatedHeadset.primaryInputMode = mode;
+      },
+      bare ? ('hand' as const) : ('controller' as const),
+    );
+    await this.frames(3);
+  }
+
+  /** @param at right, up, back, metres @param pinches 0 open … 1 */
+  async bareHand(hand: Hand, at: [x: number, y: number, z: number], pinches: number): Promise<void> {
+    await this.#page.evaluate(
+      ([hand, at, pinches]) => {
+        const bare = window.emulatedHeadset.hands[hand];
+        bare?.position.set(...at);
+        bare?.updatePinchValue(pinches);
+      },
+      [hand, at, pinches] as const,
+    );
+    await this.frames(3);
+  }
+
+  /** Waits for display frames. */
+  async frames(count: number): Promise<void> {
+    await this.#page.evaluate(
+      (count) =>
+        new Promise<void>((resolve) => {
+          const next = (left: number) => {
+            if (left === 0) resolve();
+            else requestAnimationFrame(() => next(left - 1));
+          };
+          next(count);
+        }),
+      count,
+    );
   }
 
   /**

@@ -76,9 +76,9 @@ test('in the headset: pressing the stick switches to the next robot, without lea
   await operator.expectPoints();
   await page.getByRole('button', { name: /VR/ }).click();
   await operator.expectState('vr', true);
-  await headset.button('left', 'thumbstick', 1);
+  await headset.button('right', 'thumbstick', 1);
   await operator.expectState('robotId', 'sim-2');
-  await headset.button('left', 'thumbstick', 0);
+  await headset.button('right', 'thumbstick', 0);
   await operator.expectPoints();
   expect((await operator.state()).vr).toBe(true);
 });

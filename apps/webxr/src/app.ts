@@ -1,7 +1,7 @@
 /** The page: shows on the screen what the robot sends, and sends the robot what the operator's hands do. */
 import { CloudView, isSoftwareRenderer } from '@farpoint/cloud-view';
 import { RobotClient, type TransformSupport } from '@farpoint/operator';
-import { effect, untracked } from '@preact/signals-core';
+import { computed, effect, untracked } from '@preact/signals-core';
 import { StoredRobots } from './access/known-robots.ts';
 import { OperatorAccess } from './access/operator-access.ts';
 import { SignIn, tabStorage } from './access/sign-in.ts';
@@ -9,6 +9,7 @@ import { browserAccess } from './access/stored-access.ts';
 import { giveCues } from './cues/cues.ts';
 import { AwayRelease } from './drive/away-release.ts';
 import { ReleaseHold } from './drive/release-hold.ts';
+import { HeadsetControls } from './headset/headset-controls.ts';
 import { PanelPlacements } from './panels/panel-placements.ts';
 import { loadPlacements, storePlacements } from './panels/stored-panels.ts';
 import type { Settings } from './settings.ts';
@@ -29,7 +30,7 @@ import { ControlsUi } from './ui/controls-ui.ts';
 import { DashboardOpener } from './ui/dashboard-opener.ts';
 import { elements } from './ui/elements.ts';
 import { EstopUi } from './ui/estop-ui.ts';
-import { OperatorInputs } from './ui/operator-inputs.ts';
+import { type InputPort, OperatorInputs } from './ui/operator-inputs.ts';
 import { showPeople } from './ui/people-panel.ts';
 import { showPicturePanels } from './ui/picture-panels.ts';
 import { showRobotList } from './ui/robot-list.ts';
@@ -43,7 +44,6 @@ import { VideoFeed } from './video/video-feed.ts';
 import { videoReceiver } from './video/video-receiver.ts';
 import { applyAppearance } from './view/apply-appearance.ts';
 import { FrameLoop } from './view/frame-loop.ts';
-import type { PicturePointer } from './view/picture-pointer.ts';
 import { SensorClouds } from './view/sensor-clouds.ts';
 import { showDrivePath } from './view/show-drive-path.ts';
 import { Stage } from './view/stage.ts';
@@ -84,7 +84,7 @@ export class App {
   readonly #surfaceByDefault: boolean;
   /** The panel on the wrist in VR. */
   wrist: WristPanel | null = null;
-  #pictures: PicturePointer | null = null;
+  #headset: HeadsetControls | null = null;
   readonly #release = new ReleaseHold();
   readonly #left = new AwayRelease();
   readonly #estop: EstopUi;
@@ -98,15 +98,16 @@ export class App {
       { ...stored, surface: settings.surface ?? stored.surface },
       storeAppearance,
     );
-    this.stage = new Stage(elements.stage, settings.canvas);
+    this.stage = new Stage(elements.stage, settings.canvas, settings.headset);
     const { renderer, world } = this.stage;
-    this.#inputs = new OperatorInputs({
+    const inputPort = {
       onChange: () => this.client.driver.tick(performance.now()),
       onAction: (action, timeMs) => this.#controls.act(action, timeMs),
       onRelease: (control, held) => this.#estop.hold(control, held),
       onTalk: (control, held) => this.#sound.hold(control, held),
       mayDrive: () => this.state.link.live.value,
-    });
+    } satisfies InputPort;
+    this.#inputs = new OperatorInputs(inputPort, settings.headset.driveHand);
     const { signalingUrl, name, token, icePolicy, bridge, mode } = settings;
     const receiver = videoReceiver(settings.videoReceiver);
     const origin = tokenOrigin(signalingUrl);
@@ -141,8 +142,7 @@ export class App {
     this.clouds = new SensorClouds({
       ...{ renderer, world, client: held, first: this.cloud, sensors, pointScale },
     });
-    this.vr = new VrSession(renderer);
-    this.vr.onHidden = () => this.#inputs.releaseAll();
+    this.vr = new VrSession(renderer, settings.headset);
     this.#access = new AccessUi({
       ...{ access, knownRobots, client: this.client, link: this.state.link },
       signIn: new SignIn(tabStorage(), origin),
@@ -156,6 +156,7 @@ export class App {
     const toggleDashboard = () => dashboard.toggle();
     this.#controls = new ControlsUi({
       ...{ client, state, stage, vr, appearance, estop: this.#estop, choose, toggleDashboard },
+      nextHeadsetView: () => this.#headset?.nextView(),
     });
     this.#surfaceByDefault = !isSoftwareRenderer(renderer.getContext());
     const surfaceByDefault = this.#surfaceByDefault;
@@ -164,21 +165,9 @@ export class App {
       ...{ client, player: this.player, state: state.sound },
       tell: ({ text, tone }) => notices.tell(text, tone),
     });
-    const readHeadset = () => {
-      this.#inputs.readHeadset(vr.inputSources, (source) => vr.tracks(source));
-      this.#pictures?.update();
-    };
+    const readHeadset = () => this.#headset?.read();
     this.frames = new FrameLoop({
-      settings,
-      client,
-      stage,
-      held,
-      cloud,
-      clouds,
-      videos,
-      stats,
-      vr,
-      readHeadset,
+      ...{ settings, client, stage, held, cloud, clouds, videos, stats, vr, readHeadset },
     });
   }
 
@@ -240,20 +229,25 @@ export class App {
     showSensorSwitches(state.sensors);
     showPicturePanels(state, { inVr: vr.active, isGripped: () => this.client.driver.stream.held });
     const { appearance, clouds } = this;
+    const inVr = vr.active;
+    const { renderer, rig, headset } = stage;
     applyAppearance({
-      appearance,
-      sensors: state.sensors,
-      rings: state.rings,
-      clouds,
-      stage,
-      inVr: vr.active,
+      ...{ appearance, sensors: state.sensors, rings: state.rings, clouds, stage, inVr },
+      inTabletop: computed(() => headset.view.value === 'tabletop'),
       client: this.client,
       surfaceByDefault: this.#surfaceByDefault,
     });
-    const panel = new WristPanel(stage.renderer, stage.rig);
+    const { driveHand } = this.settings.headset;
+    const panel = new WristPanel(renderer, rig, headset.front, driveHand === 'right' ? 'left' : 'right');
     this.wrist = panel;
-    showOnWrist({ state, panel, active: vr.active, releaseProgress: this.#release.progress });
-    this.#pictures = showPicturesInVr({ state, panel, stage, active: vr.active });
+    showOnWrist({
+      ...{ state, panel, headset, driveHand, active: inVr, releaseProgress: this.#release.progress },
+    });
+    const pointer = showPicturesInVr({ state, panel, stage, active: inVr });
+    const inputs = this.#inputs;
+    this.#headset = new HeadsetControls({
+      ...{ settings: this.settings.headset, stage, vr, inputs, state, pointer },
+    });
     effect(() => {
       this.cloud.sizeScale = pointScale.value;
     });

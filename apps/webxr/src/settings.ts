@@ -2,6 +2,7 @@
 
 import { type BridgeAddress, isPrivateAddress, parseBridge, parseSignalingUrl } from '@farpoint/operator';
 import { displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
+import { type HeadsetSettings, parseHeadset } from './headset/headset-settings.ts';
 import { parseTokens, type SignalingTokens, tokenOrigin, withToken } from './signaling-tokens.ts';
 import { type MapTiles, mapTilesOf } from './telemetry/map-tiles.ts';
 import { VIDEO_RECEIVERS, type VideoReceiverName } from './video/video-receiver-name.ts';
@@ -19,6 +20,7 @@ export interface StoredSettings {
   /** Address template of a map's tiles, and whose they are. */
   mapTiles?: string | undefined;
   mapAttribution?: string | undefined;
+  headset?: HeadsetSettings | undefined;
 }
 
 /** Where the page was loaded from. */
@@ -55,6 +57,8 @@ export interface Settings {
   synchronised: boolean;
   /** Whether sound and vibration tell that the robot does less than it is told. */
   cues: boolean;
+  /** How the headset shows and is held. */
+  headset: HeadsetSettings;
   /** Where tiles of a map come from; `null`: no tile is fetched. */
   mapTiles: MapTiles | null;
   /** How videos are received; `null`: as suits this browser best. */
@@ -113,6 +117,7 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
     pointScale: clampScale(stored.pointScale),
     synchronised: parseSwitch(query.get('sync')) ?? stored.synchronised ?? true,
     cues: parseSwitch(query.get('cues')) ?? stored.cues ?? true,
+    headset: parseHeadset(stored.headset),
     mapTiles: mapTilesOf(stored.mapTiles, stored.mapAttribution, page),
     videoReceiver: VIDEO_RECEIVERS.find((name) => name === query.get('video')) ?? null,
     barcode: parseSwitch(query.get('barcode')) ?? false,
@@ -153,6 +158,7 @@ export function parseStored(text: string | null, ownUrl: string): StoredSettings
     pointScale: typeof record.pointScale === 'number' ? clampScale(record.pointScale) : undefined,
     synchronised: typeof record.synchronised === 'boolean' ? record.synchronised : undefined,
     cues: typeof record.cues === 'boolean' ? record.cues : undefined,
+    headset: record.headset === undefined ? undefined : parseHeadset(record.headset),
     mapTiles: textOf('mapTiles'),
     mapAttribution: textOf('mapAttribution'),
   };

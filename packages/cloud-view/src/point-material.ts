@@ -59,7 +59,8 @@ void main() {
   gl_Position = projectionMatrix * (modelViewMatrix * vec4(world, 1.0));
 
   float s0 = 0.5 * viewportHeight * projectionMatrix[1][1];
-  float metres = ${SIZE_OFFSET_M} + abs(camera.z) * framePosition[slot].w;
+  // Of a world that is shown as a model, points shrink with it.
+  float metres = length(modelViewMatrix[0].xyz) * (${SIZE_OFFSET_M} + abs(camera.z) * framePosition[slot].w);
   pointSize = clamp(sizeScale * s0 * metres / max(gl_Position.w, 0.01), 1.0, 0.08 * viewportHeight);
   gl_PointSize = pointSize;
 

@@ -164,13 +164,58 @@ describe('HeadsetInput', () => {
     expect(input.wish).toEqual({ forward: 1, left: 1 });
   });
 
-  test('keeps driving with the hand that squeezed first', () => {
+  test('the other hand’s grip and stick never drive; its stick turns the view', () => {
+    const right = new HeadsetInput();
+    right.read([controller('left', 1, 0.8, 1), controller('right', 0, 0, 0)], 0, tracked);
+    expect([right.held, right.wish.forward, right.turnStick]).toEqual([false, 0, 0.8]);
+    right.read([controller('left', 1, -1, 1), controller('right', 1, 0.5, -1)], 0, tracked);
+    expect([right.held, right.wish.forward, right.turnStick]).toEqual([true, 1, -1]);
+    expect(right.wish.left).toBeLessThan(0);
+    const left = new HeadsetInput('left');
+    left.read([controller('left', 1, 0, -1), controller('right', 1, 0.8, 1)], 0, tracked);
+    expect([left.held, left.wish, left.turnStick]).toEqual([true, { forward: 1, left: 0 }, 0.8]);
+    left.read([controller('left', 0, 0, 0), controller('right', 1, 0.8, 1)], 0, tracked);
+    expect(left.held).toBe(false);
+  });
+
+  test('a hand that is not tracked turns nothing, nor does one without a stick', () => {
     const input = new HeadsetInput();
-    input.read([controller('left', 0, 0, 0), controller('right', 1, 0, -1)], 0, tracked);
-    input.read([controller('left', 1, 0, 1), controller('right', 1, 0, -1)], 0, tracked);
-    expect(input.wish.forward).toBe(1);
-    input.read([controller('left', 1, 0, 1), controller('right', 0, 0, -1)], 0, tracked);
-    expect(input.wish.forward).toBe(-1);
+    input.read([controller('left', 0, 1, 0)], 0, () => false);
+    expect(input.turnStick).toBe(0);
+    input.read([controller('left', 0, null, null)], 0, tracked);
+    expect(input.turnStick).toBe(0);
+    input.read([controller('left', 0, 1, 0)], 0, tracked);
+    input.read([], 0, tracked);
+    expect(input.turnStick).toBe(0);
+  });
+
+  test('while a hand holds the model nothing drives, nor a grip squeezed meanwhile before it has been opened', () => {
+    const input = new HeadsetInput();
+    const fist = [controller('right', 1, 0, -1)];
+    const held = (sources: ReturnType<typeof controller>[], grabbing: boolean) => {
+      input.read(sources, 0, tracked, grabbing);
+      return input.held;
+    };
+    expect(held(fist, true)).toBe(false);
+    expect(input.wish.forward).toBe(0);
+    expect(held(fist, false)).toBe(false);
+    expect(held([controller('right', 0, 0, -1)], true)).toBe(false);
+    expect(held(fist, false)).toBe(true);
+    // Whatever the page takes for a grab stops a robot that is being driven.
+    expect(held(fist, true)).toBe(false);
+    expect(held(fist, false)).toBe(false);
+  });
+
+  test('the other hand’s A or X shows the next view, and its stick recentres, once per press', () => {
+    const input = new HeadsetInput();
+    const read = (...sources: ReturnType<typeof controller>[]) => input.read(sources, 0, tracked);
+    expect(read(controller('left', 0, 0, 0, 4))).toMatchObject({ nextView: true, latencyTest: false });
+    expect(read(controller('left', 0, 0, 0, 4))).toMatchObject({ nextView: false });
+    expect(read(controller('left', 0, 0, 0, 3))).toMatchObject({ recentre: true, nextRobot: false });
+    expect(read(controller('left', 0, 0, 0, 3))).toMatchObject({ recentre: false });
+    expect(read(controller('left', 0, 0, 0, 5))).toMatchObject({ estop: true });
+    expect(read(controller('right', 0, 0, 0, 4))).toMatchObject({ nextView: false, latencyTest: true });
+    expect(read(controller('right', 0, 0, 0, 3))).toMatchObject({ recentre: false, nextRobot: true });
   });
 
   test('is not read while the driving hand is not tracked', () => {
@@ -201,7 +246,7 @@ describe('HeadsetInput', () => {
   test('treats null axes and sources without a gamepad as centred', () => {
     const input = new HeadsetInput();
     input.read(
-      [{ handedness: 'none' }, { handedness: 'none', gamepad: null }, controller('left', 1, null, null)],
+      [{ handedness: 'none' }, { handedness: 'none', gamepad: null }, controller('right', 1, null, null)],
       0,
       tracked,
     );
@@ -211,20 +256,30 @@ describe('HeadsetInput', () => {
 
   test('pressing a stick switches to the next robot, once per press and never while a hand drives', () => {
     const input = new HeadsetInput();
-    expect(input.read([controller('left', 0, 0, 0, 3)], 0, tracked).nextRobot).toBe(true);
-    expect(input.read([controller('left', 0, 0, 0, 3)], 0, tracked).nextRobot).toBe(false);
-    input.read([controller('left', 0, 0, 0)], 0, tracked);
-    expect(
-      input.read([controller('left', 0, 0, 0, 3), controller('right', 1, 0, -1)], 0, tracked).nextRobot,
-    ).toBe(false);
-    expect(input.read([controller('left', 0, 0, 0, 3)], 0, tracked).nextRobot).toBe(false);
+    expect(input.read([controller('right', 0, 0, 0, 3)], 0, tracked).nextRobot).toBe(true);
+    expect(input.read([controller('right', 0, 0, 0, 3)], 0, tracked).nextRobot).toBe(false);
+    input.read([controller('right', 0, 0, 0)], 0, tracked);
+    expect(input.read([controller('right', 1, 0, -1, 3)], 0, tracked).nextRobot).toBe(false);
+    expect(input.read([controller('right', 0, 0, 0, 3)], 0, tracked).nextRobot).toBe(false);
+  });
+
+  test('a bare hand that the headset tracks neither drives, releases, speaks nor turns the view', () => {
+    const input = new HeadsetInput();
+    const bare = (handedness: string) => ({ ...controller(handedness, 1, 1, -1, 0), hand: {} });
+    const { releaseHeld } = input.read([bare('left'), bare('right')], 5, tracked);
+    expect([input.held, releaseHeld, input.turnStick, input.readMs]).toEqual([false, false, 0, 5]);
+    input.read([bare('left'), controller('right', 1, 0, -1)], 10, tracked);
+    expect([input.held, input.talks, input.wish.forward]).toEqual([true, false, 1]);
+    // Whoever puts the controller away lets go.
+    input.read([bare('left'), bare('right')], 20, tracked);
+    expect(input.held).toBe(false);
   });
 
   test('counts the trigger as release only while the grip is open: a clenched fist holds both', () => {
     const input = new HeadsetInput();
     const held = (...sources: ReturnType<typeof controller>[]) => input.read(sources, 0, tracked).releaseHeld;
     expect(held(controller('left', 0, 0, 0, 0))).toBe(true);
-    expect(held(controller('left', 1, 0, 0, 0))).toBe(false);
+    expect(held(controller('right', 1, 0, 0, 0))).toBe(false);
     expect(held(controller('left', 0, 0, 0, 0), controller('right', 1, 0, 0))).toBe(false);
     expect(held(controller('left', 0, 0, 0, 5))).toBe(false);
     expect(held(controller('right', 0, 0, 0, 0))).toBe(true);

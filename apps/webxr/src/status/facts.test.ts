@@ -79,7 +79,7 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
   const words = { text: 'Live', tone: 'good' } as const;
   const facts = {
     ...{ link: words, driving: words, telemetry, estopLatched: false, figures, estopAtRobot: false },
-    ...{ stop: null, afterGap: 'let-go' as const },
+    ...{ stop: null, afterGap: 'let-go' as const, driveHand: 'right' as const, view: null },
   };
   const lines = wristLines({ ...facts, alarm: null, nextRobot: { id: 'b', name: 'B' } });
   expect(lines.map(({ text }) => text)).toEqual([
@@ -88,7 +88,7 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
     'Live',
     '12.3k points  10/s  3.2 Mbit/s',
     'rtt 42 ms  frame –  loss 0.0 %',
-    'Battery 20 %  press stick: B',
+    'Battery 20 %  press right stick: B',
   ]);
   const atRobot = wristLines({
     ...facts,

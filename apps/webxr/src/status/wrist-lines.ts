@@ -1,5 +1,6 @@
 /** The lines of text on the wrist panel. */
 import type { AfterGap, RobotListing, Telemetry } from '@farpoint/operator';
+import type { Hand } from '../headset/headset-settings.ts';
 import { lossTone, mbps, ms } from './facts.ts';
 import { motionWords } from './motion-words.ts';
 import type { PageStats } from './page-stats.ts';
@@ -17,6 +18,10 @@ export interface WristFacts {
   /** What the robot demands when commands come again after a gap that stopped it. */
   afterGap: AfterGap;
   nextRobot: RobotListing | null;
+  /** The hand that drives. */
+  driveHand: Hand;
+  /** The view, unless it is the usual one. */
+  view: string | null;
   /** The worst alarm and how many others there are; `null` if none is raised. */
   alarm: Words | null;
   figures: PageStats;
@@ -31,6 +36,8 @@ export function wristLines({
   stop,
   afterGap,
   nextRobot,
+  driveHand,
+  view,
   alarm,
   figures,
 }: WristFacts): Words[] {
@@ -38,8 +45,11 @@ export function wristLines({
   const thousands = (pointsPerFrame / 1000).toFixed(1);
   const battery = telemetry?.battery;
   const hints = [
-    battery === undefined ? 'Squeeze: drive  B: stop' : `Battery ${Math.round(battery.percentage * 100)} %`,
-    ...(nextRobot === null ? [] : [`press stick: ${nextRobot.name}`]),
+    ...(view === null ? [] : [view]),
+    battery === undefined
+      ? `Squeeze ${driveHand}: drive  B: stop`
+      : `Battery ${Math.round(battery.percentage * 100)} %`,
+    ...(nextRobot === null ? [] : [`press ${driveHand} stick: ${nextRobot.name}`]),
   ];
   return [
     link,

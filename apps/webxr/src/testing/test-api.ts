@@ -13,6 +13,7 @@ import type {
   VideoCodec,
 } from '@farpoint/operator';
 import type { DriveState, LatencyFrame } from '@farpoint/protocol';
+import type { HeadsetView } from '../headset/rig-pose.ts';
 import type { PageStats } from '../status/page-stats.ts';
 import type { DrivePath } from '../view/drive-path.ts';
 
@@ -113,6 +114,25 @@ export interface SoundProbe {
   sending: boolean;
 }
 
+/** How the headset shows the world. */
+export interface HeadsetProbe {
+  view: HeadsetView;
+  /** Whether the operator's own room is behind the scene. */
+  passthrough: boolean;
+  /** Of the display, Hz. */
+  frameRate: number | null;
+  /** Where ahead in the operator's room points in the world, radians. */
+  yaw: number;
+  /** Place of the operator's eyes in the robot's world (REP-103), metres. */
+  eyes: { x: number; y: number; z: number };
+  /** To which side the robot's front is: −1 left, 1 right, 0 in view. */
+  frontSide: number;
+  /** How dark the edge of the view is, 0–1. */
+  darkness: number;
+  /** The world on the table: the robot's place in the room, metres, and metres in the room of one metre. */
+  model: { x: number; y: number; z: number; scale: number };
+}
+
 export interface FarpointTestApi {
   readonly version: 1;
   state(): PageState;
@@ -140,6 +160,8 @@ export interface FarpointTestApi {
   probe(): DrawnProbe;
   /** The lines on the panel at the wrist; `null` outside VR. */
   wrist(): { text: string; tone: string }[] | null;
+  /** `null` outside VR. */
+  headset(): HeadsetProbe | null;
   cameras(): CameraProbe[];
   sound(): SoundProbe;
   videos(): VideoProbe[];

@@ -7,7 +7,7 @@ import type { App } from '../app.ts';
 import { PacketRecord } from './packet-record.ts';
 import { PresentationRecord } from './presentation-record.ts';
 import { ScriptInput } from './script-input.ts';
-import type { DrawnProbe, FarpointTestApi } from './test-api.ts';
+import type { DrawnProbe, FarpointTestApi, HeadsetProbe } from './test-api.ts';
 
 export function installTestApi(app: App): void {
   const { client, cloud, stage } = app;
@@ -88,6 +88,7 @@ export function installTestApi(app: App): void {
     shareLink: ({ cloud, videos }) => client.shareLink(cloud, videos),
     probe: () => probe(app),
     wrist: () => app.wrist?.shown?.map(({ text, tone }) => ({ text, tone })) ?? null,
+    headset: () => (app.vr.active.value ? headsetProbe(app) : null),
     cameras: () =>
       app.state.pictures.views.value.map(({ camera, canvas, newest, ageMs, failures }) => ({
         ...{ name: camera.name, shown: camera.on.value, width: canvas.width, height: canvas.height },
@@ -189,6 +190,17 @@ function probe({ cloud }: App): DrawnProbe {
     bounds: count === 0 ? null : { min: min.toArray(), max: max.toArray() },
     camera: cloud.hasPoints ? { x, y, z, yaw: opticalYaw(cloud.cameraOrientation, 0) } : null,
     newestFrame: cloud.newestFrame,
+  };
+}
+
+function headsetProbe({ stage, vr }: App): HeadsetProbe {
+  const { view, passthrough, yaw, frontSide, darkness, model } = stage.headset;
+  const eyes = stage.camera.getWorldPosition(new Vector3());
+  const { x, y, z, scale } = model;
+  return {
+    ...{ view: view.value, frameRate: vr.frameRate },
+    ...{ passthrough, yaw, frontSide, darkness, model: { x, y, z, scale } },
+    eyes: { x: -eyes.z, y: -eyes.x, z: eyes.y },
   };
 }
 

@@ -4,7 +4,7 @@ import { effect } from '@preact/signals-core';
 import type { CloudAppearance } from '../state/cloud-appearance.ts';
 import type { PageState } from '../state/page-state.ts';
 import type { Stage } from '../view/stage.ts';
-import type { VrSession } from '../view/vr-session.ts';
+import type { HeadsetMode, VrSession } from '../view/vr-session.ts';
 import { elements } from './elements.ts';
 import type { EstopUi } from './estop-ui.ts';
 import { startLook } from './look-controls.ts';
@@ -25,6 +25,8 @@ export interface Controlled {
   readonly appearance: CloudAppearance;
   readonly stage: Pick<Stage, 'look' | 'camera'>;
   readonly vr: VrSession;
+  /** Shows the next view in the headset. */
+  nextHeadsetView(): void;
   readonly estop: EstopUi;
   choose(robotId: string): void;
   /** Opens or closes the dashboard. */
@@ -56,7 +58,8 @@ export class ControlsUi {
   }
 
   act(action: Action, timeMs: number): void {
-    const { stage, estop, appearance } = this.#parts;
+    const { stage, estop, appearance, vr } = this.#parts;
+    const inVr = vr.active.peek();
     const { fromAbove } = appearance;
     switch (action) {
       case 'estop':
@@ -66,11 +69,13 @@ export class ControlsUi {
         this.#testLatency(timeMs);
         return;
       case 'recentre':
-        stage.look.recentre();
+        if (inVr) vr.recentre();
+        else stage.look.recentre();
         return;
       case 'view':
+        if (inVr) this.#parts.nextHeadsetView();
         // From above, it returns to the view from before.
-        if (fromAbove.peek()) fromAbove.value = false;
+        else if (fromAbove.peek()) fromAbove.value = false;
         else stage.look.switchMode();
         return;
       case 'from-above':
@@ -121,12 +126,19 @@ export class ControlsUi {
       elements.vrReason.textContent = reason ?? null;
     });
     effect(() => {
-      elements.vr.textContent = vr.active.value ? 'Leave VR' : 'Enter VR';
+      const isLeaving = vr.active.value;
+      elements.vr.textContent = isLeaving ? `Leave ${vr.passthrough.value ? 'AR' : 'VR'}` : 'Enter VR';
+      elements.ar.hidden = isLeaving || !vr.canPassThrough.value;
     });
-    elements.vr.addEventListener('click', () => {
-      vr.toggle().catch((error: unknown) => {
-        state.notices.tell(`Could not enter VR: ${error instanceof Error ? error.message : error}`, 'bad');
+    const enter = (mode: HeadsetMode, name: string) => {
+      vr.toggle(mode).catch((error: unknown) => {
+        state.notices.tell(
+          `Could not enter ${name}: ${error instanceof Error ? error.message : error}`,
+          'bad',
+        );
       });
-    });
+    };
+    elements.vr.addEventListener('click', () => enter('immersive-vr', 'VR'));
+    elements.ar.addEventListener('click', () => enter('immersive-ar', 'AR'));
   }
 }

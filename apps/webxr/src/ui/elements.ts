@@ -12,6 +12,7 @@ export const elements = {
   link: byId('link', HTMLElement),
   view: byId('view', HTMLButtonElement),
   vr: byId('vr', HTMLButtonElement),
+  ar: byId('ar', HTMLButtonElement),
   vrReason: byId('vr-reason', HTMLElement),
   dashboardOpen: byId('dashboard-open', HTMLButtonElement),
   dashboard: byId('dashboard', HTMLElement),

@@ -5,6 +5,7 @@ import { HeadsetInput, type Tracks, type XrController } from '../drive/headset-i
 import { KeyboardInput } from '../drive/keyboard-input.ts';
 import type { ReleaseControl } from '../drive/release-hold.ts';
 import { TouchJoystick } from '../drive/touch-joystick.ts';
+import type { Hand } from '../headset/headset-settings.ts';
 import type { TalkControl } from '../sound/talk-hold.ts';
 import { elements } from './elements.ts';
 
@@ -52,12 +53,14 @@ export class OperatorInputs {
   readonly all: readonly DriveInput[];
   readonly #keyboard = new KeyboardInput();
   readonly #gamepad = new GamepadInput();
-  readonly #headset = new HeadsetInput();
+  readonly #headset: HeadsetInput;
   readonly #touch: TouchJoystick;
   readonly #port: InputPort;
 
-  constructor(port: InputPort) {
+  /** @param driveHand the hand that drives in the headset */
+  constructor(port: InputPort, driveHand: Hand) {
     this.#port = port;
+    this.#headset = new HeadsetInput(driveHand);
     this.#touch = new TouchJoystick(elements.joystick, elements.knob, () => port.onChange());
     this.all = [this.#headset, this.#touch, this.#gamepad, this.#keyboard];
     window.addEventListener('keydown', (event) => this.#onKey(event, true));
@@ -92,10 +95,27 @@ export class OperatorInputs {
     this.#buttons(this.#gamepad.read(pad, nowMs), 'gamepad');
   }
 
-  /** Call this before each display frame in VR. */
-  readHeadset<Source extends XrController>(sources: Iterable<Source>, tracks: Tracks<Source>): void {
+  /** Whether the headset's grip is held. */
+  get isHeadsetGripped(): boolean {
+    return this.#headset.held;
+  }
+
+  /** Deflection to the right of the stick that turns the view in the headset, −1…1. */
+  get turnStick(): number {
+    return this.#headset.turnStick;
+  }
+
+  /** Call this before each display frame in VR. @param grabbing whether a hand holds something of the view */
+  readHeadset<Source extends XrController>(
+    sources: Iterable<Source>,
+    tracks: Tracks<Source>,
+    grabbing: boolean,
+  ): void {
     const wasHeld = this.#headset.held;
-    this.#buttons(this.#headset.read(sources, performance.now(), tracks), 'headset');
+    const pressed = this.#headset.read(sources, performance.now(), tracks, grabbing);
+    this.#buttons(pressed, 'headset');
+    if (pressed.nextView) this.#port.onAction('view', performance.now());
+    if (pressed.recentre) this.#port.onAction('recentre', performance.now());
     this.#port.onTalk('headset', this.#headset.talks);
     if (wasHeld !== this.#headset.held) this.#port.onChange();
   }

@@ -1,10 +1,12 @@
 import { parseSignalingUrl } from '@farpoint/operator';
 import type { Signal } from '@preact/signals-core';
+import { parseHeadset } from '../headset/headset-settings.ts';
 import { clampScale, ownSignalingUrl } from '../settings.ts';
 import { tokenOrigin, withToken } from '../signaling-tokens.ts';
 import { forgetVisitTokens, loadStored, pageOrigin, store } from '../stored-settings.ts';
 import { parseTileTemplate } from '../telemetry/map-tiles.ts';
 import { elements } from './elements.ts';
+import { fillHeadsetFields, readHeadsetFields } from './headset-fields.ts';
 
 /** Sets up the dialog. @param pointScale follows the slider while it moves */
 export function initSettingsDialog(pointScale: Signal<number>): void {
@@ -29,6 +31,7 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
     field('pointScale').value = String(stored.pointScale ?? 1);
     field('synchronised').checked = stored.synchronised ?? true;
     field('cues').checked = stored.cues ?? true;
+    fillHeadsetFields(form, parseHeadset(stored.headset));
     field('mapTiles').value = stored.mapTiles ?? '';
     field('mapAttribution').value = stored.mapAttribution ?? '';
     tokenTyped = false;
@@ -65,6 +68,7 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
       pointScale: clampScale(Number(field('pointScale').value)),
       synchronised: field('synchronised').checked,
       cues: field('cues').checked,
+      headset: readHeadsetFields(form),
       mapTiles: field('mapTiles').value.trim(),
       mapAttribution: field('mapAttribution').value.trim(),
     });

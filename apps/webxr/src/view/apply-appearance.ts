@@ -14,13 +14,15 @@ export interface AppearanceParts {
   readonly clouds: SensorClouds;
   readonly stage: Pick<Stage, 'look' | 'headingUp'>;
   readonly inVr: ReadonlySignal<boolean>;
+  /** Whether the headset shows the world as a model, seen from above. */
+  readonly inTabletop: ReadonlySignal<boolean>;
   readonly client: Pick<RobotClient, 'drawSurface'>;
   /** Whether clouds are drawn as surfaces until somebody chooses. */
   readonly surfaceByDefault: boolean;
 }
 
 export function applyAppearance(parts: AppearanceParts): void {
-  const { appearance, sensors, rings, clouds, stage, inVr, client, surfaceByDefault } = parts;
+  const { appearance, sensors, rings, clouds, stage, inVr, inTabletop, client, surfaceByDefault } = parts;
   effect(() => client.drawSurface(appearance.surface.value ?? surfaceByDefault));
   const { fromAbove, headingUp, cut, cutFromAbove } = appearance;
   effect(() => {
@@ -32,7 +34,8 @@ export function applyAppearance(parts: AppearanceParts): void {
     }
   });
   effect(() => {
-    const inUse = fromAbove.value && !inVr.value ? cutFromAbove.value : cut.value;
+    const isFromAbove = inVr.value ? inTabletop.value : fromAbove.value;
+    const inUse = isFromAbove ? cutFromAbove.value : cut.value;
     for (const { colouring } of clouds.all.value) colouring.cut = inUse;
   });
   effect(() => {

@@ -18,6 +18,7 @@ export class PicturePointer {
   readonly #targets: () => readonly Object3D[];
   readonly #rays: readonly Object3D[];
   readonly #raycaster = new Raycaster();
+  readonly #rig: Group;
   readonly #turn = new Quaternion();
   /** Where a ray hits a picture. */
   readonly #rings: readonly Mesh[];
@@ -29,7 +30,7 @@ export class PicturePointer {
     onChosen: (object: Object3D) => void,
   ) {
     this.#targets = targets;
-    this.#raycaster.far = FARTHEST_M;
+    this.#rig = rig;
     this.#rays = [0, 1].map((index) => renderer.xr.getController(index));
     this.#rings = this.#rays.map(() => {
       const material = new MeshBasicMaterial({ color: 0x35c9b5, depthTest: false });
@@ -61,8 +62,16 @@ export class PicturePointer {
     }
   }
 
+  /** Whether this controller points at a picture. */
+  pointsAtPicture(index: number): boolean {
+    const ray = this.#rays[index];
+    return ray !== undefined && this.#hit(ray) !== undefined;
+  }
+
   #hit(ray: Object3D) {
     ray.updateWorldMatrix(true, false);
+    // The operator's metre may be many of the world's.
+    this.#raycaster.far = FARTHEST_M * this.#rig.scale.x;
     this.#raycaster.setFromXRController(ray as never);
     const shown = this.#targets().filter(({ visible }) => visible);
     return this.#raycaster.intersectObjects([...shown], false)[0];

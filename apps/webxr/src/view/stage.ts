@@ -3,6 +3,10 @@
 import { bodyYaw, type CloudView, opticalYaw, RobotWorld } from '@farpoint/cloud-view';
 import type { RobotBody } from '@farpoint/protocol';
 import { type Camera, Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import { FrontPointer } from '../headset/front-pointer.ts';
+import { HeadsetRig } from '../headset/headset-rig.ts';
+import { DEFAULT_HEADSET, type HeadsetSettings } from '../headset/headset-settings.ts';
+import { Vignette } from '../headset/vignette.ts';
 import { DrivePath } from './drive-path.ts';
 import { GroundGrid } from './ground-grid.ts';
 import { Look } from './look.ts';
@@ -32,6 +36,8 @@ export class Stage {
   readonly rig = new Group();
   readonly camera = new PerspectiveCamera(75, 1, NEAR_M, FAR_M);
   readonly look = new Look();
+  /** Places the operator's head in VR. */
+  readonly headset: HeadsetRig;
   /** On the floor before the robot. */
   readonly path = new DrivePath();
   /** From above, the robot's heading is up; otherwise north. */
@@ -40,6 +46,8 @@ export class Stage {
   readonly #grid = new GroundGrid();
   readonly #follower = new PoseFollower(FOLLOW_MS);
   readonly #topDown = new TopDownCamera();
+  readonly #vignette = new Vignette();
+  readonly #front = new FrontPointer();
   /** Follows the robot's body, in its world. */
   readonly #bodyFollower = new PoseFollower(FOLLOW_MS);
   readonly #fixedSize: { width: number; height: number } | null;
@@ -47,16 +55,22 @@ export class Stage {
   #resolution = 1;
 
   /** @throws {Error} without WebGL 2 */
-  constructor(canvas: HTMLCanvasElement, fixedSize: { width: number; height: number } | null) {
+  constructor(
+    canvas: HTMLCanvasElement,
+    fixedSize: { width: number; height: number } | null,
+    headset: HeadsetSettings = DEFAULT_HEADSET,
+  ) {
     this.#fixedSize = fixedSize;
+    this.headset = new HeadsetRig(headset);
     this.renderer = new WebGLRenderer({ canvas, antialias: false, powerPreference: 'high-performance' });
     this.renderer.xr.enabled = true;
-    // In VR, the head starts at the robot's camera.
+    // In VR, the head starts where the headset says that its eyes are at rest.
     this.renderer.xr.setReferenceSpaceType('local');
     this.scene.background = new Color(BACKGROUND);
     this.#marker.object.add(this.path.object);
     this.world.add(this.#marker.object);
-    this.rig.add(this.camera);
+    this.rig.add(this.camera, this.headset.front);
+    this.camera.add(this.#vignette.object, this.#front.object);
     this.scene.add(this.world, this.rig, this.#grid.object);
     this.rig.position.set(0, DEFAULT_EYE_M, 0);
     this.camera.rotation.order = 'YXZ';
@@ -102,6 +116,7 @@ export class Stage {
   forgetPose(): void {
     this.#follower.reset();
     this.#bodyFollower.reset();
+    this.headset.align();
     this.#marker.object.visible = false;
   }
 
@@ -129,23 +144,49 @@ export class Stage {
       this.look.fit(cloud.imageExtent);
       follower.follow(x, y, z, opticalYaw(cloud.cameraOrientation, follower.yaw), elapsed);
     }
+    this.#followBody(elapsed);
+    const inVr = this.renderer.xr.isPresenting;
     if (follower.started) {
-      this.rig.position.set(-follower.y, follower.z, -follower.x);
-      this.rig.rotation.y = follower.yaw;
+      if (inVr) this.#placeHeadset(elapsed);
+      else this.#placeRig();
+      this.#grid.centreOn(-follower.y, -follower.x);
     }
-    this.#grid.centreOn(this.rig.position.x, this.rig.position.z);
-    this.#marker.onTop = this.#isFromAbove;
-    this.path.onTop = this.#isFromAbove;
-    if (this.#isFromAbove) this.#placeTopDown(elapsed);
-    else if (!this.renderer.xr.isPresenting) this.#placeFlatCamera();
+    this.#vignette.show(inVr ? this.headset.darkness : 0);
+    this.#front.show(inVr ? this.headset.frontSide : 0);
+    const inTabletop = inVr && this.headset.view.peek() === 'tabletop';
+    // The operator's own floor needs no grid.
+    this.#grid.object.visible = inTabletop || !(inVr && this.headset.passthrough);
+    const isSeenFromAbove = inTabletop || this.#isFromAbove;
+    this.#marker.onTop = isSeenFromAbove;
+    this.path.onTop = isSeenFromAbove;
+    if (this.#isFromAbove) this.#placeTopDown();
+    else if (!inVr) this.#placeFlatCamera();
   }
 
-  #placeTopDown(elapsedMs: number): void {
-    const { object } = this.#marker;
-    const { x, y, z } = object.position;
+  #followBody(elapsedMs: number): void {
+    const { visible, position, quaternion } = this.#marker.object;
+    if (!visible) return;
+    this.#bodyFollower.follow(position.x, position.y, position.z, bodyYaw(quaternion), elapsedMs);
+  }
+
+  #placeHeadset(elapsedMs: number): void {
+    const { rig, camera, headset } = this;
+    const follower = this.#follower;
+    const body = this.#bodyFollower;
+    const ground = body.started ? body.z : follower.z - DEFAULT_EYE_M;
+    headset.place(rig, camera, follower, ground, elapsedMs);
+  }
+
+  #placeRig(): void {
+    const follower = this.#follower;
+    this.rig.position.set(-follower.y, follower.z, -follower.x);
+    this.rig.rotation.y = follower.yaw;
+    this.rig.scale.setScalar(1);
+  }
+
+  #placeTopDown(): void {
     // Without telemetry, the camera is the best guess.
     const body = this.#bodyFollower;
-    if (object.visible) body.follow(x, y, z, bodyYaw(object.quaternion), elapsedMs);
     const { headingUp, look, camera } = this;
     const robot = body.started ? body : this.#follower;
     this.#topDown.place(robot, { headingUp, reach: look.reach, aspect: camera.aspect });

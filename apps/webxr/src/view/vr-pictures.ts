@@ -10,7 +10,7 @@ import { WristPictures } from './wrist-pictures.ts';
 export interface VrPicturesParts {
   readonly state: PageState;
   readonly panel: WristPanel;
-  readonly stage: Pick<Stage, 'renderer' | 'rig'>;
+  readonly stage: Pick<Stage, 'renderer' | 'rig' | 'headset'>;
   /** Whether VR is active. */
   readonly active: ReadonlySignal<boolean>;
 }
@@ -21,7 +21,7 @@ export function showPicturesInVr({ state, panel, stage, active }: VrPicturesPart
   const wrist = new WristPictures();
   const front = new FrontPicture();
   panel.addBeside(wrist.object);
-  stage.rig.add(front.object);
+  stage.headset.front.add(front.object);
   effect(() => {
     front.object.visible = active.value;
   });

@@ -1,5 +1,6 @@
 /**
- * The status in VR: a small panel on the left wrist, or low in front of the operator if there is no left controller.
+ * The status in VR: a small panel on the wrist of the hand that does not drive, or low in front of the operator if there is
+ * no such controller.
  */
 import {
   CanvasTexture,
@@ -11,6 +12,7 @@ import {
   SRGBColorSpace,
   type WebGLRenderer,
 } from 'three';
+import type { Hand } from '../headset/headset-settings.ts';
 import type { Tone } from '../status/words.ts';
 import { fitText } from './fitted-text.ts';
 
@@ -35,6 +37,7 @@ export interface PanelLine {
 
 export class WristPanel {
   readonly #group = new Group();
+  readonly #hand: Hand;
   readonly #context: CanvasRenderingContext2D;
   readonly #texture: CanvasTexture;
   #shown = '';
@@ -42,7 +45,13 @@ export class WristPanel {
   /** Progress shown by the bar at the bottom, in twentieths. */
   #progress = 0;
 
-  constructor(renderer: WebGLRenderer, rig: Group) {
+  /**
+   * @param rig carries the tracked space
+   * @param front carries what hangs before the operator
+   * @param hand on whose wrist it is
+   */
+  constructor(renderer: WebGLRenderer, rig: Group, front: Group, hand: Hand) {
+    this.#hand = hand;
     const canvas = document.createElement('canvas');
     canvas.width = WIDTH;
     canvas.height = HEIGHT;
@@ -56,7 +65,7 @@ export class WristPanel {
     this.#group.add(mesh);
     this.#group.visible = false;
     const rest = (): void => {
-      rig.add(this.#group);
+      front.add(this.#group);
       this.#group.position.set(0, -0.32, -0.7);
       this.#group.rotation.set(-0.5, 0, 0);
       this.#group.scale.setScalar(1.6);
@@ -66,7 +75,7 @@ export class WristPanel {
       const grip = renderer.xr.getControllerGrip(index);
       rig.add(grip);
       grip.addEventListener('connected', ({ data }) => {
-        if (data.handedness !== 'left') return;
+        if (data.handedness !== hand) return;
         grip.add(this.#group);
         this.#group.position.set(0, 0.03, 0.06);
         this.#group.rotation.set(-1.0, 0, 0);
@@ -78,9 +87,10 @@ export class WristPanel {
     }
   }
 
-  /** Adds an object beside the panel. It moves with the panel. */
+  /** Adds an object beside the panel, on the inner side. It moves with the panel. */
   addBeside(object: Object3D): void {
-    object.position.set(PANEL_M + GAP_M, (-PANEL_M * HEIGHT) / WIDTH / 2, 0);
+    const inwards = this.#hand === 'left' ? 1 : -1;
+    object.position.set(inwards * (PANEL_M + GAP_M), (-PANEL_M * HEIGHT) / WIDTH / 2, 0);
     this.#group.add(object);
   }
 

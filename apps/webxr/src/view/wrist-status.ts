@@ -1,7 +1,10 @@
 /** Shows the page's state in VR: the status on the wrist. */
 import { effect, type ReadonlySignal } from '@preact/signals-core';
+import type { HeadsetRig } from '../headset/headset-rig.ts';
+import type { Hand } from '../headset/headset-settings.ts';
 import type { PageState } from '../state/page-state.ts';
 import { alarmLine } from '../status/alarm-words.ts';
+import { viewFact } from '../status/headset-words.ts';
 import { stopWords } from '../status/words.ts';
 import { wristLines } from '../status/wrist-lines.ts';
 import type { WristPanel } from './wrist-panel.ts';
@@ -9,13 +12,22 @@ import type { WristPanel } from './wrist-panel.ts';
 export interface WristStatusParts {
   readonly state: PageState;
   readonly panel: WristPanel;
+  readonly headset: Pick<HeadsetRig, 'view' | 'model'>;
+  readonly driveHand: Hand;
   /** Whether VR is active. */
   readonly active: ReadonlySignal<boolean>;
   /** Progress of the hold that releases the emergency stop, 0–1. */
   readonly releaseProgress: ReadonlySignal<number>;
 }
 
-export function showOnWrist({ state, panel, active, releaseProgress }: WristStatusParts): void {
+export function showOnWrist({
+  state,
+  panel,
+  headset,
+  driveHand,
+  active,
+  releaseProgress,
+}: WristStatusParts): void {
   const { link, driving, robot, figures } = state;
   effect(() => {
     panel.visible = active.value;
@@ -28,6 +40,7 @@ export function showOnWrist({ state, panel, active, releaseProgress }: WristStat
         ...{ estopLatched: robot.estop.value.latched, nextRobot: link.nextRobot.value },
         estopAtRobot: robot.estopAtRobot.value,
         ...{ stop: stopWords[robot.stop.value], afterGap: robot.afterGap.value },
+        ...{ driveHand, view: viewFact(headset.view.value, headset.model.scale) },
         alarm: alarmLine(robot.alarms.value),
         figures: figures.value,
       }),
