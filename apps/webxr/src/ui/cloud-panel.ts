@@ -10,7 +10,7 @@ import { colourControls } from './colour-controls.ts';
 import { cutControls } from './cut-controls.ts';
 import { elements } from './elements.ts';
 import { type Legend, legendOf } from './legend.ts';
-import { quietButton } from './panel-parts.ts';
+import { quietButton, rowOf } from './panel-parts.ts';
 
 export interface CloudPanelParts {
   readonly appearance: CloudAppearance;
@@ -52,7 +52,7 @@ export class CloudPanel {
       legends.replaceChildren(...this.#legends.map((legend) => legend.element));
     });
     const ofSensors = element('');
-    controls.append(ofSensors, cutControls(appearance));
+    controls.append(ofSensors, cutControls(appearance), frustaSwitch(appearance));
     effect(() => {
       const parts = this.#names().map((name, i) =>
         untracked(() =>
@@ -89,6 +89,18 @@ export class CloudPanel {
     if (mode === 'captured' || view === undefined) return [];
     return [legendOf(name === UNNAMED ? '' : `${name}: `, mode, view)];
   }
+}
+
+function frustaSwitch({ frusta }: CloudAppearance): HTMLElement {
+  const button = quietButton('', 'Where the sensors are, and how far they see to the sides', () => {
+    frusta.value = !frusta.peek();
+  });
+  button.id = 'frusta';
+  effect(() => {
+    button.textContent = frusta.value ? 'Drawn' : 'Not drawn';
+    button.ariaPressed = String(frusta.value);
+  });
+  return rowOf('Frusta', button);
 }
 
 function element(className: string): HTMLElement {
