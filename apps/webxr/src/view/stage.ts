@@ -3,9 +3,11 @@
 import { bodyYaw, type CloudView, opticalYaw, RobotWorld } from '@farpoint/cloud-view';
 import type { RobotBody } from '@farpoint/protocol';
 import { type Camera, Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import { bearingOnScreen } from './blocked-edge.ts';
 import { DrivePath } from './drive-path.ts';
 import { GroundGrid } from './ground-grid.ts';
 import { Look } from './look.ts';
+import { NearRing } from './near-ring.ts';
 import { PoseFollower } from './pose-follower.ts';
 import { RobotMarker } from './robot-marker.ts';
 import { TopDownCamera } from './top-down-camera.ts';
@@ -34,6 +36,8 @@ export class Stage {
   readonly look = new Look();
   /** On the floor before the robot. */
   readonly path = new DrivePath();
+  /** What is near the robot, around it. */
+  readonly near = new NearRing();
   /** From above, the robot's heading is up; otherwise north. */
   headingUp = true;
   readonly #marker = new RobotMarker();
@@ -54,7 +58,7 @@ export class Stage {
     // In VR, the head starts at the robot's camera.
     this.renderer.xr.setReferenceSpaceType('local');
     this.scene.background = new Color(BACKGROUND);
-    this.#marker.object.add(this.path.object);
+    this.#marker.object.add(this.near.object, this.path.object);
     this.world.add(this.#marker.object);
     this.rig.add(this.camera);
     this.scene.add(this.world, this.rig, this.#grid.object);
@@ -111,6 +115,11 @@ export class Stage {
     this.#marker.boxed = body === null;
   }
 
+  /** Where a direction of the robot is on the screen, or in the headset's view: radians counter-clockwise from up. */
+  onScreen(bearing: number): number {
+    return bearingOnScreen(bearing, this.#marker.object, this.viewCamera, this.#isFromAbove);
+  }
+
   /** Sets the pose of the robot's body, from telemetry. */
   setBody(pose: BodyPose): void {
     const { object } = this.#marker;
@@ -136,6 +145,7 @@ export class Stage {
     this.#grid.centreOn(this.rig.position.x, this.rig.position.z);
     this.#marker.onTop = this.#isFromAbove;
     this.path.onTop = this.#isFromAbove;
+    this.near.onTop = this.#isFromAbove;
     if (this.#isFromAbove) this.#placeTopDown(elapsed);
     else if (!this.renderer.xr.isPresenting) this.#placeFlatCamera();
   }

@@ -2,6 +2,7 @@
 import { effect, type ReadonlySignal } from '@preact/signals-core';
 import type { PageState } from '../state/page-state.ts';
 import { alarmLine } from '../status/alarm-words.ts';
+import { nearWords } from '../status/near-words.ts';
 import { stopWords } from '../status/words.ts';
 import { wristLines } from '../status/wrist-lines.ts';
 import type { WristPanel } from './wrist-panel.ts';
@@ -26,6 +27,8 @@ export function showOnWrist({ state, panel, active, releaseProgress }: WristStat
       wristLines({
         ...{ link: link.line.value, driving: driving.line.value, telemetry: robot.telemetry.value },
         ...{ estopLatched: robot.estop.value.latched, nextRobot: link.nextRobot.value },
+        speed: robot.speed.value,
+        near: robot.tellsNear.value ? nearWords(robot.near.value) : null,
         estopAtRobot: robot.estopAtRobot.value,
         ...{ stop: stopWords[robot.stop.value], afterGap: robot.afterGap.value },
         alarm: alarmLine(robot.alarms.value),
