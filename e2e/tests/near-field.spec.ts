@@ -1,7 +1,7 @@
 /** What is near the robot is shown all around it and named in metres, also where the camera does not see it. */
 import { EmulatedLink } from '@farpoint/local-stack';
 import { Headset, headsetViewport } from '../src/headset.ts';
-import { OperatorPage } from '../src/operator-page.ts';
+import { OperatorPage, screenSizes } from '../src/operator-page.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 
 /** A low box, which the camera sees from afar only. Its nearest side is 0.75 m before base_link at the start. */
@@ -78,8 +78,16 @@ test('a thing 0.3 m before the robot is seen from its eye and from above, and na
   await page.keyboard.press('t');
   await page.locator('#stage').hover({ position: { x: 400, y: 300 } });
   await page.mouse.wheel(0, -1400);
-  await operator.expectFrames(5);
-  await operator.screenshots(page, testInfo, 'above');
+  // As far from the middle as the thing is from base_link, where the screen's edge is 1.48 m from it.
+  const ahead = (FOOTPRINT_M + trueM + 0.03) / (6 * Math.exp(-1.4));
+  await expect
+    .poll(() => redAt(0.5, 0.5 - ahead / 2), { message: 'red before the robot' })
+    .toBeGreaterThan(60);
+  for (const size of screenSizes) {
+    await page.setViewportSize(size);
+    await operator.expectFrames(3);
+    await operator.screenshot(testInfo, `above-${size.width}`);
+  }
 });
 
 test('the edge of the view is red where the robot is held, and no longer when it backs out', async ({
@@ -103,11 +111,10 @@ test('the edge of the view is red where the robot is held, and no longer when it
     .toBeCloseTo(0, 1);
   await expect(edge).toBeVisible();
   await expect(page.locator('#speed')).toContainText('held: something is in the way');
-  await operator.screenshots(page, testInfo, 'held');
   // Whoever looks to the left has it at the right.
-  await page.mouse.move(640, 300);
+  await page.mouse.move(480, 200);
   await page.mouse.down();
-  await page.mouse.move(1000, 300, { steps: 5 });
+  await page.mouse.move(780, 200, { steps: 5 });
   await page.mouse.up();
   await expect
     .poll(
@@ -119,6 +126,8 @@ test('the edge of the view is red where the robot is held, and no longer when it
     )
     .toBeLessThan(-0.2);
   await operator.screenshot(testInfo, 'held-looking-left');
+  await page.locator('#stage').dblclick({ position: { x: 480, y: 200 } });
+  await operator.screenshots(page, testInfo, 'held');
   await operator.releaseKeys();
   await expect(edge).toBeHidden();
 });

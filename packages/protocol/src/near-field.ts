@@ -33,9 +33,19 @@ export type NearKind = (typeof nearKinds)[number];
 /** What is known of one direction. Distances from the footprint's edge, metres. */
 export interface NearSector {
   /** The nearest thing, or the nearest place without a floor; `null` if none is known within reach. */
-  hit: { kind: NearKind; metres: number } | null;
-  /** The nearest stretch in which some floor is unseen; `null` if there is none within {@link NEAR_UNSEEN_M}. */
-  unseen: { fromM: number; toM: number } | null;
+  hit: {
+    /** What it is. */
+    kind: NearKind;
+    /** How far it is. */
+    metres: number;
+  } | null;
+  /** The nearest stretch in which some floor is unseen; `null` if there is none within 2 m. */
+  unseen: {
+    /** Where it begins. */
+    fromM: number;
+    /** Where it ends. */
+    toM: number;
+  } | null;
 }
 
 /** What stands around the robot, by its obstacle guard. */
@@ -44,7 +54,7 @@ export interface NearField {
   type: 'nearField';
   /** When it was made, robot's monotonic clock, ms. */
   timeMs: number;
-  /** Three bytes for each sector, base64: {@link nearSectors} reads them. */
+  /** Three bytes for each sector, base64. The client's `link.session.near` has them read. */
   sectors: string;
 }
 

@@ -42,7 +42,7 @@ export function nearestHits(sectors: readonly NearSector[]): NearHit[] {
   return [...nearest.values()].sort((a, b) => a.metres - b.metres);
 }
 
-/** The directions of which most is unseen near the robot. */
+/** The directions of which most is unseen near the robot. One that lies between two others of them is not named. */
 export function unseenDirections(sectors: readonly NearSector[]): Direction[] {
   const unseen = new Map<Direction, number>();
   for (const [i, { hit, unseen: stretch }] of sectors.entries()) {
@@ -54,5 +54,7 @@ export function unseenDirections(sectors: readonly NearSector[]): Direction[] {
     unseen.set(direction, (unseen.get(direction) ?? 0) + 1);
   }
   const most = sectors.length / NAMES.length / 2;
-  return NAMES.filter((name) => (unseen.get(name) ?? 0) > most);
+  const isUnseen = (i: number) =>
+    (unseen.get(NAMES[(i + NAMES.length) % NAMES.length] as Direction) ?? 0) > most;
+  return NAMES.filter((_, i) => isUnseen(i) && !(i % 2 === 1 && isUnseen(i - 1) && isUnseen(i + 1)));
 }

@@ -57,9 +57,9 @@ describe('what else there is', () => {
   test('names two more directions, and where nothing is seen', () => {
     const all = { 0: thing(0.3), 18: thing(0.5), 36: thing(0.9), 54: thing(0.6), 27: thing(1.2) };
     expect(nearDetails(view(all))).toBe('0.5 m left · 0.6 m right');
-    expect(nearDetails(view({ ...unseen(14, 59), 0: thing(0.3) }))).toBe(
-      'unseen: left, behind left, behind, behind right, right',
-    );
+    expect(nearDetails(view({ ...unseen(14, 59), 0: thing(0.3) }))).toBe('unseen: left, behind, right');
+    expect(nearDetails(view(unseen(5, 68)))).toBe('unseen: ahead left, left, behind, right, ahead right');
+    expect(nearDetails(view(unseen(5, 59)))).toBe('unseen: ahead left, left, behind, right');
     expect(nearDetails(view(unseen(0, 72)))).toBe('unseen all around');
     expect(nearDetails(null)).toBe('');
   });

@@ -6,6 +6,7 @@ import type { Tone, Words } from './tone.ts';
 /** Nearer than this is very near, and near, metres. */
 export const VERY_NEAR_M = 0.35;
 export const NEAR_M = 1;
+const ALL_AROUND = 'ahead,left,behind,right';
 
 /** What is nearest; or that nothing is known. */
 export function nearWords(view: NearView | null): Words {
@@ -26,7 +27,9 @@ export function nearDetails(view: NearView | null): string {
     .map(hitText);
   const unseen = unseenDirections(view.sectors);
   const hidden =
-    unseen.length === 0 ? [] : [unseen.length === 8 ? 'unseen all around' : `unseen: ${unseen.join(', ')}`];
+    unseen.length === 0
+      ? []
+      : [unseen.join() === ALL_AROUND ? 'unseen all around' : `unseen: ${unseen.join(', ')}`];
   return [...others, ...hidden].join(' · ');
 }
 

@@ -5,7 +5,7 @@ import type { NearView } from '../near-field/near-view.ts';
 import { hatchedStretch, hitColour, NEAR_COLOURS } from '../view/near-ring.ts';
 
 /** What is farther from the robot's edge is not drawn, metres. */
-const SHOWN_M = 2;
+const SHOWN_M = 1.5;
 /** Circles for the eye, metres from the robot's edge. */
 const MARKS_M = [0.5, 1];
 const SECTOR = (2 * Math.PI) / NEAR_SECTORS;
@@ -51,12 +51,12 @@ export function drawNear(canvas: HTMLCanvasElement, body: RobotBody, view: NearV
       context.fillStyle = hatch;
       context.fill();
     }
-    context.lineWidth = 2 * lineWidth;
+    context.lineWidth = 3 * lineWidth;
     for (const [i, { hit }] of view.sectors.entries()) {
       if (hit === null || hit.metres > SHOWN_M) continue;
       context.strokeStyle = hitColour(hit, view.stale);
       context.beginPath();
-      trace(hit.metres + lineWidth / perMetre, i - 0.5, i + 0.5);
+      trace(hit.metres + (1.5 * lineWidth) / perMetre, i - 0.5, i + 0.5);
       context.stroke();
     }
   }

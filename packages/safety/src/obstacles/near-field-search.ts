@@ -8,12 +8,13 @@ const SECTOR = (2 * Math.PI) / NEAR_SECTORS;
 /** An unseen stretch ends where the floor is seen again for so long, metres: shorter ones are gaps in what is seen. */
 const SEEN_AGAIN_M = 0.2;
 
+/** Of the table of distances, metres. */
+const TABLE_M = 0.025;
+
 /** Finds what is nearest to a footprint in each direction. Keeps its buffers: one per guard. */
 export class NearFieldSearch {
   readonly #map: FloorMap;
   readonly #footprint: Footprint;
-  /** Cells around base_link, the nearest first: i, j of each. */
-  readonly #around: Int16Array;
   readonly #near: Nearness = { distance: 0, x: 0, y: 0 };
   readonly #hitM = new Float64Array(NEAR_SECTORS);
   readonly #isDrop = new Uint8Array(NEAR_SECTORS);
@@ -21,18 +22,19 @@ export class NearFieldSearch {
   readonly #unseen: Uint8Array;
   /** How many lengths there are. */
   readonly #rings: number;
+  /** How far from base_link unseen floor is looked for, metres. */
+  readonly #unseenReach: number;
+  /** Distances from the footprint in base_link: there is much unseen floor. Made when it is first needed. */
+  #distances: Float32Array | null = null;
+  readonly #tableSide: number;
 
   constructor(map: FloorMap, footprint: Footprint) {
     this.#map = map;
     this.#footprint = footprint;
     this.#rings = Math.ceil(NEAR_UNSEEN_M / map.cellM);
     this.#unseen = new Uint8Array(NEAR_SECTORS * this.#rings);
-    const most = Math.ceil((footprint.reach + NEAR_REACH_M) / map.cellM) + 1;
-    const cells: [number, number][] = [];
-    for (let j = -most; j <= most; j++)
-      for (let i = -most; i <= most; i++) if (i * i + j * j <= most * most) cells.push([i, j]);
-    cells.sort(([a, b], [c, d]) => a * a + b * b - (c * c + d * d));
-    this.#around = Int16Array.from(cells.flat());
+    this.#unseenReach = footprint.reach + NEAR_UNSEEN_M + map.cellM;
+    this.#tableSide = 2 * Math.ceil(this.#unseenReach / TABLE_M) + 3;
   }
 
   /**
@@ -42,24 +44,29 @@ export class NearFieldSearch {
    * @returns of each sector, by the protocol's numbers
    */
   look(pose: Readonly<FloorPose>, nowMs: number, travel: number): NearSector[] {
-    const [map, hitM] = [this.#map, this.#hitM];
+    const map = this.#map;
     const { cellM } = map;
-    hitM.fill(Number.POSITIVE_INFINITY);
+    this.#hitM.fill(Number.POSITIVE_INFINITY);
     this.#unseen.fill(0);
+    this.#distances ??= this.#table();
     const [cos, sin] = [Math.cos(pose.yaw), Math.sin(pose.yaw)];
-    const [middleI, middleJ] = [map.cellOf(pose.x), map.cellOf(pose.y)];
-    const around = this.#around;
-    for (let k = 0; k < around.length; k += 2) {
-      const [i, j] = [middleI + (around[k] as number), middleJ + (around[k + 1] as number)];
-      const known = map.classAt(i, j, nowMs, travel);
-      if (known === floorClasses.free) continue;
-      const [dx, dy] = [(i + 0.5) * cellM - pose.x, (j + 0.5) * cellM - pose.y];
-      const [x, y] = [dx * cos + dy * sin, dy * cos - dx * sin];
-      if (known === floorClasses.unknown) this.#markUnseen(x, y);
-      else this.#hit(x, y, known, map.travelSince(i, j, nowMs, travel));
+    const reach = this.#footprint.reach + NEAR_REACH_M + cellM;
+    const [left, right] = [map.cellOf(pose.x - reach), map.cellOf(pose.x + reach)];
+    for (let j = map.cellOf(pose.y - reach); j <= map.cellOf(pose.y + reach); j++) {
+      const dy = (j + 0.5) * cellM - pose.y;
+      for (let i = left; i <= right; i++) {
+        const dx = (i + 0.5) * cellM - pose.x;
+        const squared = dx * dx + dy * dy;
+        if (squared > reach * reach) continue;
+        const known = map.classAt(i, j, nowMs, travel);
+        if (known === floorClasses.free) continue;
+        const [x, y] = [dx * cos + dy * sin, dy * cos - dx * sin];
+        if (known !== floorClasses.unknown) this.#hit(x, y, known, map.travelSince(i, j, nowMs, travel));
+        else if (squared < this.#unseenReach * this.#unseenReach) this.#markUnseen(x, y, Math.sqrt(squared));
+      }
     }
     return Array.from({ length: NEAR_SECTORS }, (_, i) => {
-      const hit = hitM[i] as number;
+      const hit = this.#hitM[i] as number;
       const kind = this.#isDrop[i] === 1 ? 'drop' : 'thing';
       return {
         hit: hit <= NEAR_REACH_M ? { kind, metres: hit } : null,
@@ -73,26 +80,33 @@ export class NearFieldSearch {
     // Deeper inside are parts of the robot itself.
     if (distance <= -OWN_BODY_M) return;
     const metres = Math.max(0, distance - this.#map.cellM / 2 - since);
-    const drop = known === floorClasses.dropOff ? 1 : 0;
-    this.#each(x, y, (sector) => {
-      if (metres >= (this.#hitM[sector] as number)) return;
+    const half = this.#halfWidth(Math.hypot(x, y));
+    const bearing = Math.atan2(y, x);
+    const last = Math.round((bearing + half) / SECTOR);
+    for (let n = Math.round((bearing - half) / SECTOR); n <= last; n++) {
+      const sector = sectorOf(n);
+      if (metres >= (this.#hitM[sector] as number)) continue;
       this.#hitM[sector] = metres;
-      this.#isDrop[sector] = drop;
-    });
+      this.#isDrop[sector] = known === floorClasses.dropOff ? 1 : 0;
+    }
   }
 
-  #markUnseen(x: number, y: number): void {
+  #markUnseen(x: number, y: number, range: number): void {
     const { cellM } = this.#map;
-    const range = Math.hypot(x, y);
-    if (range - this.#footprint.reach > NEAR_UNSEEN_M + cellM) return;
-    const { distance } = this.#footprint.nearness(x, y, this.#near);
+    const middle = this.#tableSide >> 1;
+    const row = middle + Math.round(y / TABLE_M);
+    const distance = this.#distances?.[row * this.#tableSide + middle + Math.round(x / TABLE_M)] ?? 0;
     // The robot stands there.
     if (distance <= Math.SQRT1_2 * cellM) return;
     const first = Math.floor(distance / cellM - 0.5);
-    const last = Math.min(Math.floor(distance / cellM + 0.5), this.#rings - 1);
-    this.#each(x, y, (sector) => {
-      for (let ring = first; ring <= last; ring++) this.#unseen[sector * this.#rings + ring] = 1;
-    });
+    const until = Math.min(Math.floor(distance / cellM + 0.5), this.#rings - 1);
+    const half = this.#halfWidth(range);
+    const bearing = Math.atan2(y, x);
+    const last = Math.round((bearing + half) / SECTOR);
+    for (let n = Math.round((bearing - half) / SECTOR); n <= last; n++) {
+      const at = sectorOf(n) * this.#rings;
+      for (let ring = first; ring <= until; ring++) this.#unseen[at + ring] = 1;
+    }
   }
 
   /** The nearest unseen stretch of a sector. */
@@ -108,15 +122,23 @@ export class NearFieldSearch {
     return { fromM: from > 1 ? from * cellM : 0, toM: (last + 1) * cellM };
   }
 
-  /** Visits each sector into which a cell reaches. */
-  #each(x: number, y: number, visit: (sector: number) => void): void {
+  /** Half the angle that a cell takes, seen from base_link, radians. */
+  #halfWidth(range: number): number {
     const { cellM } = this.#map;
-    const range = Math.hypot(x, y);
-    const half = range > cellM ? cellM / 2 / range : Math.PI;
-    const bearing = Math.atan2(y, x);
-    const last = Math.round((bearing + half) / SECTOR);
-    const first = Math.round((bearing - half) / SECTOR);
-    for (let n = first; n <= last && n < first + NEAR_SECTORS; n++)
-      visit(((n % NEAR_SECTORS) + NEAR_SECTORS) % NEAR_SECTORS);
+    return range > cellM ? cellM / 2 / range : Math.PI - SECTOR;
   }
+
+  #table(): Float32Array {
+    const side = this.#tableSide;
+    const middle = side >> 1;
+    return Float32Array.from({ length: side * side }, (_, at) => {
+      const [x, y] = [((at % side) - middle) * TABLE_M, (Math.floor(at / side) - middle) * TABLE_M];
+      return this.#footprint.nearness(x, y, this.#near).distance;
+    });
+  }
+}
+
+/** Sectors are counted on around the circle. */
+function sectorOf(n: number): number {
+  return ((n % NEAR_SECTORS) + NEAR_SECTORS) % NEAR_SECTORS;
 }
