@@ -6,6 +6,7 @@ import { decodeDepthPng, decodePcd, parseIntrinsics } from '@farpoint/cloud-form
 import { BlankFloor } from '@farpoint/robot-node/obstacles/blank-floor';
 import { opticalMount } from '@farpoint/robot-node/obstacles/sensor-mount';
 import { guardedRun, RUN_WORLDS } from '@farpoint/robot-node/testing/guarded-run';
+import type { MotionGuard, ObstacleGuard } from '@farpoint/safety';
 import { DEFAULT_CAMERA, dockWorld, officeWorld, SimulatedBase, SimulatedCamera } from '@farpoint/sim';
 import { type Codec, ObstacleGrid, type SeenCells } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
@@ -16,7 +17,7 @@ const USAGE = `pnpm bench guard [--rounds 300] [--clouds ../shared/data/clouds] 
 
 Kernel benchmark, in one process. Times the step from a whole cloud to the grid of the floor, for the simulated camera's
 480 × 480 pixels as an image and as points, and for recorded clouds where the folder has them. The copy into WASM is
-included, and so is the search for missing floor of which an image has no depth. Then the guard's decision for one command, in a simulated drive.`;
+included, and so is the search for missing floor of which an image has no depth. Then the guard's decision for one command, and the near field that operators are told, in simulated drives.`;
 
 const SETTINGS = {
   ...{ side: 160, cellM: 0.05, clearanceM: 0.04, heightM: 1.1, dropM: 0.15, slope: 0.01, lowRayM: 0.15 },
@@ -60,6 +61,12 @@ export const bench: Bench = {
       await guardedRun(codec, world, i + 1, { times: { now: () => performance.now(), boundMs } });
     }
     const bound = rounded(distribution(boundMs), 4);
+    const nearMs: number[] = [];
+    for (const [i, world] of RUN_WORLDS.entries()) {
+      const around = (guard: ObstacleGuard) => timingNearField(guard, nearMs);
+      await guardedRun(codec, world, i + 1, { times: { now: () => performance.now(), boundMs: [], around } });
+    }
+    const near = rounded(distribution(nearMs), 3);
 
     printTable(
       ['cloud', 'points', 'free', 'occupied', 'drop-offs', 'p50 ms', 'p95', 'p99', 'max'],
@@ -69,9 +76,22 @@ export const bench: Bench = {
       ]),
     );
     console.log(`a command: p50 ${bound.p50} ms, p95 ${bound.p95} ms, max ${bound.max} ms`);
-    if (values.json) printJson({ bench: 'guard', guardMs: rows[0]?.ms, boundMs: bound, rows });
+    console.log(`the near field: p50 ${near.p50} ms, p95 ${near.p95} ms, max ${near.max} ms`);
+    if (values.json) printJson({ bench: 'guard', guardMs: rows[0]?.ms, boundMs: bound, nearMs: near, rows });
   },
 };
+
+/** Asks for the near field before each command. */
+function timingNearField(guard: ObstacleGuard, nearMs: number[]): MotionGuard {
+  return {
+    bound: (wish, nowMs) => {
+      const began = performance.now();
+      guard.nearField(nowMs);
+      nearMs.push(performance.now() - began);
+      return guard.bound(wish, nowMs);
+    },
+  };
+}
 
 /** For the simulated camera's clouds of 230,400 points. */
 export async function simulatedGuardMs(codec: Codec, rounds: number): Promise<Distribution> {

@@ -58,6 +58,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'pnpm janus': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm janus --help': { help: true },
   'pnpm robot --sim-charge 15': robot,
+  'pnpm robot --sim-things "0.9,0,0.09"': robot,
   'pnpm robot': robot,
   'pnpm signaling': { up: 'listening', also: FREE_SIGNALING },
   'pnpm issuer': { refused: /--url.* must be given/, also: ['--port', '0', '--admin-port', '0'] },

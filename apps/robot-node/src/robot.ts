@@ -135,7 +135,7 @@ export class Robot {
       },
     );
     const [stages, board] = [new StageTimer(), this.#board];
-    const telemetry = new TelemetrySender(this.operators, status, stages, board);
+    const telemetry = new TelemetrySender(this.operators, status, stages, board, this.obstacles);
     const addReading = (reading: TopicReading) => {
       fix?.take(reading, monotonicMs());
       board.take(reading, monotonicMs());

@@ -30,6 +30,7 @@ import { ControlsUi } from './ui/controls-ui.ts';
 import { DashboardOpener } from './ui/dashboard-opener.ts';
 import { elements } from './ui/elements.ts';
 import { EstopUi } from './ui/estop-ui.ts';
+import { showNearWords } from './ui/near-panel.ts';
 import { type InputPort, OperatorInputs } from './ui/operator-inputs.ts';
 import { showPeople } from './ui/people-panel.ts';
 import { showPicturePanels } from './ui/picture-panels.ts';
@@ -46,6 +47,7 @@ import { applyAppearance } from './view/apply-appearance.ts';
 import { FrameLoop } from './view/frame-loop.ts';
 import { SensorClouds } from './view/sensor-clouds.ts';
 import { showDrivePath } from './view/show-drive-path.ts';
+import { NearFieldDisplay } from './view/show-near-field.ts';
 import { Stage } from './view/stage.ts';
 import { showPicturesInVr } from './view/vr-pictures.ts';
 import { VrSession } from './view/vr-session.ts';
@@ -75,6 +77,7 @@ export class App {
   readonly recorder: TelemetryRecorder;
   readonly vr: VrSession;
   readonly frames: FrameLoop;
+  readonly near: NearFieldDisplay;
   /** Plays the robot's microphone. */
   readonly player = new SoundPlayer();
   readonly #sound: SoundUi;
@@ -150,6 +153,7 @@ export class App {
     });
     this.#estop = new EstopUi(this.client, this.state.robot, this.#release);
     const { client, state, stage, cloud, clouds, videos, stats, vr, appearance } = this;
+    this.near = new NearFieldDisplay(client, stage, vr.active);
     const choose = (robotId: string) => this.choose(robotId);
     const { recorder, presented } = this;
     const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });
@@ -191,6 +195,7 @@ export class App {
         driver.letGo(nowMs);
       this.client.tick(performance.now());
       showDrivePath(this.client, this.stage);
+      this.near.tick(nowMs);
     }, DRIVE_TICK_MS);
     setInterval(() => {
       const nowMs = performance.now();
@@ -223,6 +228,7 @@ export class App {
     const choose = (robotId: string) => this.choose(robotId);
     state.sample();
     showStatus(state);
+    showNearWords(state);
     showRobotList(state.link, choose);
     showRobotSwitcher(state.link, choose);
     showPeople(state, this.client);

@@ -24,6 +24,9 @@ export type {
   LatencyFrame,
   LeaseState,
   MicrophoneState,
+  NearField,
+  NearKind,
+  NearSector,
   Operators,
   Pose,
   PresentOperator,
@@ -100,6 +103,7 @@ export type { RobotLink } from './link/robot-link.ts';
 export { type TransformSupport, transformSupport } from './peer/encoded-transform.ts';
 export type { Picture } from './pictures/picture-feed.ts';
 export { ComponentReports, type ReportedComponents } from './session/component-reports.ts';
+export type { NearSurroundings } from './session/near-surroundings.ts';
 export { type AgedReading, Readings } from './session/readings.ts';
 export type { RobotSession } from './session/robot-session.ts';
 export type { SessionPhase } from './session/session-keeper.ts';

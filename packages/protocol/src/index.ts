@@ -21,6 +21,18 @@ export * from './latency-barcode.ts';
 export * from './latency-barcode-reader.ts';
 export * from './loopback.ts';
 export * from './motion-state.ts';
+export {
+  NEAR_REACH_M,
+  NEAR_SECTORS,
+  NEAR_STEP_M,
+  NEAR_UNSEEN_M,
+  type NearField,
+  type NearKind,
+  type NearSector,
+  nearFieldText,
+  nearKinds,
+  nearSectors,
+} from './near-field.ts';
 export * from './picture-assembler.ts';
 export * from './picture-chunk.ts';
 export * from './picture-file.ts';

@@ -1,6 +1,6 @@
 /**
  * The `telemetry` channel, opened by the robot, unordered, with a short lifetime: the robot's state, 20 times per
- * second, samples of quantities, readings and diagnostics.
+ * second, what is near it, samples of quantities, readings and diagnostics.
  */
 import * as z from 'zod/mini';
 import { type Diagnostics, diagnosticsSchema } from './diagnostics.ts';
@@ -8,6 +8,7 @@ import { type Pose, poseSchema, type Twist, twistSchema } from './geometry.ts';
 import { uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
 import { type MotionState, motionStateSchema } from './motion-state.ts';
+import { type NearField, nearFieldSchema } from './near-field.ts';
 import { type Samples, samplesSchema } from './quantity.ts';
 import { type Reading, readingSchema } from './reading.ts';
 
@@ -97,7 +98,7 @@ export interface Telemetry {
 const nonNegative = z.number().check(z.minimum(0));
 const count = z.int().check(z.minimum(0));
 
-export type TelemetryMessage = Telemetry | Reading | Samples | Diagnostics;
+export type TelemetryMessage = Telemetry | NearField | Reading | Samples | Diagnostics;
 
 const telemetrySchema = z.strictObject({
   type: z.literal('telemetry'),
@@ -132,6 +133,12 @@ const telemetrySchema = z.strictObject({
 
 export const telemetryCodec: JsonCodec<TelemetryMessage> = {
   what: 'telemetry message',
-  schema: z.discriminatedUnion('type', [telemetrySchema, readingSchema, samplesSchema, diagnosticsSchema]),
+  schema: z.discriminatedUnion('type', [
+    telemetrySchema,
+    nearFieldSchema,
+    readingSchema,
+    samplesSchema,
+    diagnosticsSchema,
+  ]),
   maxBytes: 4096,
 };

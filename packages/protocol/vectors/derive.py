@@ -3,6 +3,7 @@
 
 Shares no code with the implementations that are tested against them. Standard library only.
 """
+import base64
 import copy
 import json
 import os
@@ -724,6 +725,19 @@ telemetry.spoil(state, ("sequence", -1), ("ageMs", -1), ("timeMs", -1), ("pose.p
                 ("drive", "parked"), ("stages.sendMs", -1), ("stages.extra", 1, "stages"), ("stream.validPoints", 1.5),
                 ("stream.feedback", "none"),
                 ("stream.frameNumber", 2 ** 32), ("operators", -1), ("operators", ABSENT))
+# Three bytes for each of 72 sectors: 7 bits of distance in steps of 25 mm with the bit of a drop-off, and where the unseen floor begins and ends.
+def near_field(sectors):
+    return base64.b64encode(bytes(byte for sector in sectors for byte in sector)).decode()
+
+
+OPEN = (127, 127, 127)
+near = telemetry.good({"type": "nearField", "timeMs": 88131.25, "sectors": near_field([(12, 0, 20), (128 + 40, 127, 127)] + [OPEN] * 69 + [(0, 126, 127)])})
+telemetry.good({**near, "sectors": near_field([OPEN] * 72)}, "nearField: nothing is near, and all is seen")
+telemetry.good({**near, "sectors": near_field([(127, 0, 80)] * 72)}, "nearField: nothing is seen")
+telemetry.spoil(near, ("timeMs", -1), ("timeMs", ABSENT), ("sectors", ABSENT), ("sectors", ""), ("sectors", 7), ("sectors", "*" * 288),
+                ("sectors", near_field([OPEN] * 71)), ("sectors", near_field([OPEN] * 73)), ("sectors", near_field([(255, 127, 127)] + [OPEN] * 71)),
+                ("sectors", near_field([OPEN] * 71 + [(0, 1, 128)])), ("sectors", near_field([OPEN] * 71 + [(0, 9, 9)])),
+                ("sectors", near_field([OPEN] * 71 + [(0, 127, 80)])), ("sectors", near_field([OPEN] * 71 + [(0, 128, 127)])), ("reach", 3, ""))
 reading = telemetry.good({"type": "reading", "topic": "/battery", "label": "Battery", "level": "ok",
                           "values": [["", "87 %"], ["", "25.1 V"], ["cells", "[4.1, 4.2]"]], "ageMs": 120})
 telemetry.good(changed(reading, "values", []), "reading without values")

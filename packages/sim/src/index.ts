@@ -19,4 +19,5 @@ export { readSnapshot, snapshotNumbers, type WorldSnapshot, writeSnapshot } from
 export { concourseWorld } from './worlds/concourse.ts';
 export { dockWorld } from './worlds/dock.ts';
 export { officeWorld } from './worlds/office.ts';
+export { THING_SIZE, type Thing, withThings } from './worlds/things.ts';
 export { warehouseWorld } from './worlds/warehouse.ts';

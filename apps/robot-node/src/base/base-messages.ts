@@ -1,7 +1,7 @@
 /** Messages between the main thread and the base's thread. */
 import type { Twist } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
-import type { EarthOrigin } from '@farpoint/sim';
+import type { EarthOrigin, Thing } from '@farpoint/sim';
 import type { TimedBaseState } from './base.ts';
 
 export interface BaseOptions {
@@ -11,6 +11,8 @@ export interface BaseOptions {
   charge: number;
   /** Where the world is on the earth; without it, the robot has no satellite receiver. */
   origin: EarthOrigin | null;
+  /** Put into the world. */
+  things?: readonly Thing[] | undefined;
 }
 
 export interface BaseWorkerData extends BaseOptions {

@@ -21,11 +21,14 @@ export class BaseThread implements VelocitySink {
   /** Called once if the thread ends unexpectedly. */
   onFailure: ((error: Error) => void) | null = null;
   watchdogStops = 0;
+  /** Simulated sensors see these, too. */
+  readonly things: BaseOptions['things'];
   readonly #worker: Worker;
   readonly #ended: Promise<unknown>;
   #closing = false;
 
   constructor(options: BaseOptions) {
+    this.things = options.things;
     const workerData: BaseWorkerData = { ...options, snapshot: this.snapshot };
     this.#worker = new Worker(new URL('./base-worker.ts', import.meta.url), { name: 'base', workerData });
     this.#worker.on('message', ({ state, watchdogStops, readings, motors = [] }: BaseReport) => {

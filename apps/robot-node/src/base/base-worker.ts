@@ -1,7 +1,7 @@
 /** The simulated base's thread. It stops the wheels by itself when the main thread hangs. */
 import { parentPort, workerData } from 'node:worker_threads';
 import { numbersOf } from '@farpoint/ros';
-import { componentStates, earthPlace, officeWorld, SimulatedBase } from '@farpoint/sim';
+import { componentStates, earthPlace, officeWorld, SimulatedBase, withThings } from '@farpoint/sim';
 import { ReadingTopic } from '../capture/reading-topic.ts';
 import { monotonicMs } from '../clock.ts';
 import type { BaseReport, BaseRequest, BaseWorkerData } from './base-messages.ts';
@@ -24,8 +24,8 @@ const GNSS = {
 
 const port = parentPort;
 if (port === null) throw new Error('base-worker.ts runs as a worker only');
-const { watchdogMs, charge, origin, snapshot } = workerData as BaseWorkerData;
-const base = new RealTimeBase(new SimulatedBase(officeWorld(), {}, charge));
+const { watchdogMs, charge, origin, things = [], snapshot } = workerData as BaseWorkerData;
+const base = new RealTimeBase(new SimulatedBase(withThings(officeWorld(), things), {}, charge));
 const wheels = new Wheels(base, watchdogMs);
 const writer = new SnapshotWriter(snapshot);
 const diagnostics = new ReadingTopic(SIM_DIAGNOSTICS);

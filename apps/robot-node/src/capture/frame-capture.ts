@@ -16,6 +16,8 @@ import type { CaptureWishes, FrameSource, SourceFrame } from './frame-source.ts'
 const BUFFERS = 4;
 /** Weight of the latest frame in the moving average of the time per frame. */
 const SMOOTHING = 0.1;
+/** While nobody drives, clouds that are sent are judged at most this often, ms: operators see what is near the robot. */
+const JUDGED_EVERY_MS = 100;
 
 /** The clocks that capturing reads, ms. */
 export interface CaptureClocks {
@@ -35,6 +37,7 @@ export class FrameCapture {
   readonly #recording: CloudTap | null;
   readonly #guard: CloudGuard | null;
   #guarding = false;
+  #judgedMs = Number.NEGATIVE_INFINITY;
   readonly #pool: BufferPool;
   readonly #formats: FrameFormats;
   #frameNumber = 0;
@@ -118,7 +121,7 @@ export class FrameCapture {
     const room = this.#formats.room(budget.coded.length > 0);
     const frame = this.#source.capture(beganMs, this.wishes(budget), room);
     if (frame === null) return null;
-    if (this.#guarding) this.#guard?.take(frame);
+    if (this.#guarding || beganMs - this.#judgedMs >= JUDGED_EVERY_MS) this.#judge(frame, beganMs);
     const taken = { captureMs: now() - beganMs, captureCpuMs: threadCpu() - cpuBefore };
     const latencyTest = this.#latencyTest && frame.latencyTest !== false;
     const frameNumber = this.#frameNumber;
@@ -143,7 +146,7 @@ export class FrameCapture {
     return intervalMs;
   }
 
-  /** Whether the obstacle guard needs clouds. */
+  /** Whether the obstacle guard needs every cloud, and some that are not sent. */
   guard(wanted: boolean): void {
     this.#guarding = wanted && this.#guard !== null;
   }
@@ -157,6 +160,11 @@ export class FrameCapture {
     const wishes = { ...this.wishes(budget), latencyTest: false };
     const frame = this.#source.capture(this.#clocks.now(), wishes, this.#formats.room(false));
     if (frame !== null) this.#guard?.take(frame);
+  }
+
+  #judge(frame: SourceFrame, nowMs: number): void {
+    this.#judgedMs = nowMs;
+    this.#guard?.take(frame);
   }
 
   close(): void {

@@ -1,4 +1,4 @@
-import { officeWorld, SimulatedLidar } from '@farpoint/sim';
+import { officeWorld, SimulatedLidar, type Thing, withThings } from '@farpoint/sim';
 import { SharedWorld } from '../base/shared-snapshot.ts';
 import type {
   CaptureRoom,
@@ -15,6 +15,8 @@ export interface SimLidarSourceOptions {
   index?: number;
   /** The base's thread writes the world here. If undefined, the robot stays at its start and nothing moves. */
   snapshot?: SharedArrayBuffer | undefined;
+  /** Put into the world. */
+  things?: readonly Thing[] | undefined;
 }
 
 /** Rotations per second. */
@@ -51,8 +53,13 @@ export class SimLidarSource implements FrameSource {
     };
   }
 
-  static async create({ seed, index = 0, snapshot }: SimLidarSourceOptions): Promise<SimLidarSource> {
-    const world = officeWorld();
+  static async create({
+    seed,
+    index = 0,
+    snapshot,
+    things = [],
+  }: SimLidarSourceOptions): Promise<SimLidarSource> {
+    const world = withThings(officeWorld(), things);
     const lidar = await SimulatedLidar.create({ world, seed: seed + index }, { up: lidarHeight(index) });
     return new SimLidarSource(lidar, new SharedWorld(world, snapshot));
   }

@@ -1,4 +1,4 @@
-import { officeWorld, SimulatedCamera } from '@farpoint/sim';
+import { officeWorld, SimulatedCamera, type Thing, withThings } from '@farpoint/sim';
 import { SharedWorld } from '../base/shared-snapshot.ts';
 import type { FrameSource, SourceDescription, SourceFrame } from './frame-source.ts';
 import { STANDING } from './playback-source.ts';
@@ -9,6 +9,8 @@ export interface SimSourceOptions {
   size: number;
   /** The base's thread writes the world here. If undefined, the robot stays at its start and nothing moves. */
   snapshot?: SharedArrayBuffer | undefined;
+  /** Put into the world. */
+  things?: readonly Thing[] | undefined;
 }
 
 /** The simulated robot's depth camera. Renders the world from the base's state. */
@@ -32,8 +34,8 @@ export class SimSource implements FrameSource {
     };
   }
 
-  static async create({ seed, size, snapshot }: SimSourceOptions): Promise<SimSource> {
-    const world = officeWorld();
+  static async create({ seed, size, snapshot, things = [] }: SimSourceOptions): Promise<SimSource> {
+    const world = withThings(officeWorld(), things);
     const camera = await SimulatedCamera.create({ world, seed, camera: { width: size, height: size } });
     return new SimSource(camera, new SharedWorld(world, snapshot));
   }

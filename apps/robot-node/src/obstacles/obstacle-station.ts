@@ -1,5 +1,11 @@
 /** The main thread's obstacle guard: reads the sensors' grids and odometry, and bounds the motion. */
-import type { Intervention, ObstacleGuardState, Twist } from '@farpoint/protocol';
+import {
+  type Intervention,
+  type NearField,
+  nearFieldText,
+  type ObstacleGuardState,
+  type Twist,
+} from '@farpoint/protocol';
 import {
   Footprint,
   FREE,
@@ -62,6 +68,16 @@ export class ObstacleStation implements MotionGuard, Lookout {
     return this.#guard.blind(nowMs) ? 'blind' : 'on';
   }
 
+  /** What is around the robot, for operators; `null` while nobody can tell. */
+  nearField(nowMs: number): NearField | null {
+    if (this.#guard === null) return null;
+    this.#readGrids();
+    const sectors = this.#guard.nearField(nowMs);
+    return sectors === null
+      ? null
+      : { type: 'nearField', timeMs: Math.round(nowMs), sectors: nearFieldText(sectors) };
+  }
+
   /** What it knows now, for those who look after the robot. */
   report(nowMs: number): GuardReport {
     const { grids, names = [] } = this.#options;
@@ -87,7 +103,7 @@ export class ObstacleStation implements MotionGuard, Lookout {
   /**
    * Called often, with the newest state of the base.
    *
-   * @param driven whether somebody drives: only then are clouds judged, and captured for the guard alone
+   * @param driven whether somebody drives: only then is every cloud judged, and are clouds captured for the guard alone
    */
   update(state: TimedBaseState | null, driven: boolean): void {
     if (this.#guard === null) return;

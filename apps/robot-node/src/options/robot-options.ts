@@ -73,7 +73,10 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     sensors: toSensors(values, topics),
     base:
       values.source === 'sim'
-        ? { watchdogMs: values.watchdogMs, charge: values.simCharge / 100, origin: values.simOrigin }
+        ? {
+            ...{ watchdogMs: values.watchdogMs, charge: values.simCharge / 100 },
+            ...{ origin: values.simOrigin, things: values.simThings ?? [] },
+          }
         : null,
     sink: toSink(values),
     limits: {

@@ -1,7 +1,7 @@
 /** The simulated robot. */
 import { MAX_SENSORS } from '@farpoint/protocol';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
-import type { EarthOrigin } from '@farpoint/sim';
+import type { EarthOrigin, Thing } from '@farpoint/sim';
 import * as z from 'zod';
 
 const earthOrigin = z
@@ -16,6 +16,33 @@ const earthOrigin = z
     });
     return z.NEVER;
   });
+
+/** Nearer, it would stand in the robot, metres. */
+const LEAST_THING_M = 0.55;
+const MOST_THINGS = 32;
+
+const things = z.string('must be "ahead,left,height …" in metres').transform((text, context): Thing[] => {
+  const read = text
+    .trim()
+    .split(/\s+/)
+    .map((thing) => thing.split(',').map(Number));
+  const valid = read.every(
+    (numbers) =>
+      numbers.length === 3 && numbers.every((n) => Math.abs(n) <= 20) && (numbers[2] as number) > 0,
+  );
+  if (!valid || read.length > MOST_THINGS) {
+    context.addIssue({ code: 'custom', message: 'must be "ahead,left,height …" in metres' });
+    return z.NEVER;
+  }
+  if (read.some(([ahead = 0, left = 0]) => Math.hypot(ahead, left) < LEAST_THING_M)) {
+    context.addIssue({
+      code: 'custom',
+      message: `must be ${LEAST_THING_M} m or more from the robot’s start`,
+    });
+    return z.NEVER;
+  }
+  return read.map(([ahead = 0, left = 0, height = 0]) => ({ ahead, left, height }));
+});
 
 export const simOptions = optionGroup('source', {
   simSeed: defineOption({
@@ -41,6 +68,12 @@ export const simOptions = optionGroup('source', {
     default: 0,
     argument: 'N',
     help: 'number of LiDARs of the simulated robot, in addition to its camera: 16 beams, 10 revolutions a second each',
+  }),
+  simThings: defineOption({
+    schema: schema.optional(things),
+    default: null,
+    argument: 'PLACES',
+    help: 'boxes of 0.3 × 0.3 m in the simulated building, by where the robot starts: "ahead,left,height …", metres',
   }),
   simSize: defineOption({
     schema: schema.integer({ min: 16, max: 1024 }),

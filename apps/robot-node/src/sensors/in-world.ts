@@ -10,7 +10,8 @@ export function inWorld(
   return sensors.map((sensor) => {
     const { source } = sensor.capture;
     if (base === null || (source.kind !== 'sim' && source.kind !== 'sim-lidar')) return sensor;
-    return { ...sensor, capture: { ...sensor.capture, source: { ...source, snapshot: base.snapshot } } };
+    const { snapshot, things } = base;
+    return { ...sensor, capture: { ...sensor.capture, source: { ...source, snapshot, things } } };
   });
 }
 
@@ -22,6 +23,7 @@ export function videosInWorld(
   return cameras.map((camera) => {
     const { source } = camera;
     if (base === null || source.kind !== 'sim') return camera;
-    return { ...camera, source: { ...source, snapshot: base.snapshot } };
+    const { snapshot, things } = base;
+    return { ...camera, source: { ...source, snapshot, things } };
   });
 }

@@ -1,4 +1,4 @@
-import { decodeJson, telemetryCodec, zeroTwist } from '@farpoint/protocol';
+import { decodeJson, type NearField, nearFieldText, telemetryCodec, zeroTwist } from '@farpoint/protocol';
 import { DriveGuard, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
 import { describe, expect, it } from 'vitest';
 import { MotionStatus } from '../drive/motion-status.ts';
@@ -13,12 +13,20 @@ const STREAM = {
   ...{ bitsPerSecond: 0, targetBitsPerSecond: 0, droppedFrames: 0 },
 };
 
-/** What one second of telemetry brings to an operator whose path has this rate. */
-function secondAt(targetBitsPerSecond: number): {
+/**
+ * What one second of telemetry brings to an operator whose path has this rate.
+ *
+ * @param metres to what is before the robot, by the time, ms
+ */
+function secondAt(
+  targetBitsPerSecond: number,
+  metres: (nowMs: number) => number | null = () => null,
+): {
   states: number;
   topics: string[];
   samples: number;
   components: number;
+  near: number;
   alarms: unknown[];
 } {
   const heard: string[] = [];
@@ -48,6 +56,7 @@ function secondAt(targetBitsPerSecond: number): {
     new MotionStatus(new MotionSupervisor(guard), null),
     new StageTimer(),
     board,
+    { nearField: (nowMs) => nearAt(metres(nowMs), nowMs) },
   );
   const orientation = { x: 0, y: 0, z: 0, w: 1 };
   const state = { timeMs: 0, pose: { position: zeroTwist().linear, orientation }, twist: zeroTwist() };
@@ -61,7 +70,16 @@ function secondAt(targetBitsPerSecond: number): {
     topics: messages.flatMap((message) => (message.type === 'reading' ? [message.topic] : [])),
     samples: messages.flatMap((message) => (message.type === 'samples' ? message.samples : [])).length,
     components: messages.filter(({ type }) => type === 'diagnostics').length,
+    near: messages.filter(({ type }) => type === 'nearField').length,
     alarms,
+  };
+}
+
+function nearAt(metres: number | null, timeMs: number): NearField | null {
+  if (metres === null) return null;
+  return {
+    ...{ type: 'nearField', timeMs },
+    sectors: nearFieldText([{ hit: { kind: 'thing', metres }, unseen: null }]),
   };
 }
 
@@ -81,6 +99,14 @@ describe('TelemetrySender', () => {
   it('sends every sample, but only the newest of each quantity on a narrow path', () => {
     expect(secondAt(10e6)).toMatchObject({ samples: 20, components: 1 });
     expect(secondAt(0.3e6)).toMatchObject({ samples: 5, components: 0 });
+  });
+
+  it('sends what is near ten times a second while it changes, otherwise twice; to a narrow path half as often', () => {
+    const coming = (nowMs: number) => 2 - nowMs / 1000;
+    expect([secondAt(10e6, coming).near, secondAt(0.3e6, coming).near]).toEqual([10, 5]);
+    const standing = () => 0.3;
+    expect([secondAt(10e6, standing).near, secondAt(0.3e6, standing).near]).toEqual([2, 2]);
+    expect(secondAt(10e6).near).toBe(0);
   });
 
   it('sends an alarm once, when it is raised', () => {

@@ -1,5 +1,6 @@
 import {
   encodeJson,
+  type NearField,
   nextSequence32,
   type Telemetry,
   type TelemetryMessage,
@@ -9,6 +10,7 @@ import { BitRate } from '@farpoint/timing';
 import type { TimedBaseState } from '../base/base.ts';
 import type { MotionStatus } from '../drive/motion-status.ts';
 import type { OperatorSession } from '../session/operator-session.ts';
+import { NearFieldRepeats } from './near-field-repeats.ts';
 import type { StageTimer } from './stage-timer.ts';
 import type { TelemetryBoard } from './telemetry-board.ts';
 
@@ -17,16 +19,26 @@ const NARROW_BITS_PER_SECOND = BitRate.fromMbps(1);
 const NARROW_EVERY = 4;
 /** Components report once a second, and every 4 s to a narrow path: a multiple of what that gets. */
 const COMPONENTS_EVERY = 20;
+/** What is near is told ten times a second, and five times to a narrow path. */
+const NEAR_EVERY = 2;
+
+/** What knows what is around the robot. */
+export interface Surroundings {
+  /** `null` while nobody can tell. */
+  nearField(nowMs: number): NearField | null;
+}
 
 /**
- * Sends each operator the robot's state, statistics of its stream, samples of quantities, alarms, components' reports,
- * and up to five readings a second. Call `send` 20 times a second.
+ * Sends each operator the robot's state, what is near it, statistics of its stream, samples of quantities, alarms,
+ * components' reports, and up to five readings a second. Call `send` 20 times a second.
  */
 export class TelemetrySender {
   readonly #operators: ReadonlyMap<string, OperatorSession>;
   readonly #status: MotionStatus;
   readonly #stages: StageTimer;
   readonly #board: TelemetryBoard;
+  readonly #surroundings: Surroundings;
+  readonly #near = { wide: new NearFieldRepeats(), narrow: new NearFieldRepeats() };
   #sequence = 0;
 
   constructor(
@@ -34,7 +46,9 @@ export class TelemetrySender {
     status: MotionStatus,
     stages: StageTimer,
     board: TelemetryBoard,
+    surroundings: Surroundings,
   ) {
+    this.#surroundings = surroundings;
     this.#board = board;
     this.#operators = operators;
     this.#status = status;
@@ -55,6 +69,9 @@ export class TelemetrySender {
     const reading = forNarrow ? readings.next(nowMs) : null;
     const all = samples.all();
     const newest = forNarrow ? samples.newest() : null;
+    const near = this.#sequence % NEAR_EVERY === 0 ? this.#surroundings.nearField(nowMs) : null;
+    const nearWide = this.#near.wide.next(near, nowMs);
+    const nearNarrow = forNarrow ? this.#near.narrow.next(near, nowMs) : null;
     const reports = this.#sequence % COMPONENTS_EVERY === 0 ? components.next(nowMs) : null;
     for (const operator of this.#operators.values()) {
       if (!operator.peer.connected) continue;
@@ -78,6 +95,7 @@ export class TelemetrySender {
         if (each !== null) operator.peer.sendTelemetry(encodeJson(telemetryCodec, each));
       };
       send(message);
+      send(isNarrow ? nearNarrow : nearWide);
       send(isNarrow ? newest : all);
       send(reading);
       if (!isNarrow || this.#sequence % (COMPONENTS_EVERY * NARROW_EVERY) === 0) send(reports);

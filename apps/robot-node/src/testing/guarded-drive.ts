@@ -83,7 +83,7 @@ export interface GuardTimes {
   now: () => number;
   boundMs: number[];
   /** What asks the guard, in place of the drive itself. */
-  around?: (guard: MotionGuard) => MotionGuard;
+  around?: (guard: ObstacleGuard) => MotionGuard;
 }
 
 export interface GuardedDriveOptions {

@@ -261,7 +261,7 @@ export class OperatorClient {
     if (message.type === 'reading') this.readings.set(message.topic, message);
     else if (message.type === 'telemetry') this.telemetry = message;
     else if (message.type === 'samples') this.samples.push(...message.samples);
-    else this.diagnostics = message;
+    else if (message.type === 'diagnostics') this.diagnostics = message;
   }
 
   #onPayload(payload: Buffer): void {

@@ -47,6 +47,8 @@ export class CloudAppearance {
   readonly surface: Signal<boolean | null>;
   /** Whether the flat screen shows the surroundings from above. Each visit begins with the robot's own view. */
   readonly fromAbove = signal(false);
+  /** Whether the sensors' frusta are drawn. Each visit begins without them. */
+  readonly frusta = signal(false);
 
   /** @param store keeps every change */
   constructor(stored: StoredAppearance, store: (appearance: StoredAppearance) => void) {

@@ -1,13 +1,14 @@
 /** What the robot has reported in this session. */
 import type { RobotClient } from '@farpoint/operator';
+import { nearView } from '../near-field/near-view.ts';
 import { alarmWords, raisedFirst } from '../status/alarm-words.ts';
-import { motionWords, obstacleGuardWords } from '../status/motion-words.ts';
+import { motionWords, obstacleGuardWords, speedWords } from '../status/motion-words.ts';
 import { shownReading } from '../status/shown-readings.ts';
 import type { Sampler } from './sampler.ts';
 
 export type RobotState = ReturnType<typeof robotState>;
 
-export function robotState({ link, stops }: RobotClient, samples: Sampler) {
+export function robotState({ link, stops, driver }: RobotClient, samples: Sampler) {
   return {
     /** `null` before the robot's welcome. */
     name: samples.of(() => link.session.welcome?.name ?? null),
@@ -37,6 +38,18 @@ export function robotState({ link, stops }: RobotClient, samples: Sampler) {
     obstacleGuard: samples.of(() => {
       const guard = link.session.telemetry?.motion?.obstacleGuard;
       return guard === undefined || guard === 'on' ? null : obstacleGuardWords[guard];
+    }),
+    /** What is near it; `null` while nobody can tell. */
+    near: samples.of((atMs) => nearView(link.session.near, atMs, link.session.clock.offsetMs)),
+    /** Whether it is one that tells what is near it. */
+    tellsNear: samples.of(
+      () => link.phase === 'live' && link.session.telemetry?.motion?.obstacleGuard !== undefined,
+    ),
+    /** How fast it is, how fast it may go and why; `null` before it has said so. */
+    speed: samples.of(() => {
+      const { telemetry, welcome } = link.session;
+      if (telemetry === null || welcome === null) return null;
+      return speedWords(telemetry, welcome.limits.maxLinear, driver.stream.asked);
     }),
     /** The most that it drives, m/s. */
     maxLinear: samples.of(() => link.session.welcome?.limits.maxLinear ?? 0),

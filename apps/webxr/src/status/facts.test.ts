@@ -80,6 +80,7 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
   const facts = {
     ...{ link: words, driving: words, telemetry, estopLatched: false, figures, estopAtRobot: false },
     ...{ stop: null, afterGap: 'let-go' as const, driveHand: 'right' as const, view: null },
+    ...{ speed: null, near: null },
   };
   const lines = wristLines({ ...facts, alarm: null, nextRobot: { id: 'b', name: 'B' } });
   expect(lines.map(({ text }) => text)).toEqual([
@@ -90,6 +91,11 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
     'rtt 42 ms  frame –  loss 0.0 %',
     'Battery 20 %  press right stick: B',
   ]);
+  const speed = { text: '0.50 m/s, at most 1.00', tone: 'neutral' } as const;
+  const near = { text: '0.3 m ahead left', tone: 'bad' } as const;
+  const aware = wristLines({ ...facts, speed, near, alarm: null, nextRobot: null });
+  expect(aware.slice(1, 4).map(({ text }) => text)).toEqual(['Stationary', speed.text, near.text]);
+  expect(aware).toHaveLength(8);
   const atRobot = wristLines({
     ...facts,
     alarm: null,

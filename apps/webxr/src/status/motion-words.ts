@@ -1,5 +1,5 @@
 /** What the robot says about its own bounds on motion, for people. */
-import type { Intervention, MotionState, Telemetry } from '@farpoint/protocol';
+import type { Intervention, MotionState, Telemetry, Twist } from '@farpoint/protocol';
 import { returnWords } from './return-words.ts';
 import type { Words } from './tone.ts';
 
@@ -44,6 +44,52 @@ export function speedLimitWords({ motion }: Telemetry, maxLinear: number): Words
     text: `${motion.mostLinear.toFixed(2)} m/s: what you see is ${age(motion.viewAgeMs)} old`,
     tone: 'warning',
   };
+}
+
+/** In a few words: why it may go no faster now. */
+const limitReasons: Record<Intervention, Explain> = {
+  'view-unknown': () => 'it waits until you see it',
+  'view-late': ({ viewAgeMs }) => `what you see is ${age(viewAgeMs)} old`,
+  'view-lost': () => 'what you see is too old',
+  'blind-travel': ({ viewAgeMs }) => `what you see is ${age(viewAgeMs)} old`,
+  'obstacle-near': () => 'something is near',
+  obstacle: () => 'something is in the way',
+  'drop-off': () => 'the floor ahead is missing',
+  'unseen-space': () => 'no sensor sees the way',
+  'sensor-silent': () => 'a sensor gives nothing',
+  'collision-topic': () => 'its collision sensor demands it',
+  'collision-silent': () => 'its collision sensor says nothing',
+  'fence-near': () => 'the edge of the permitted area is near',
+  fence: () => 'the edge of the permitted area',
+};
+
+/**
+ * How fast the robot is, how fast it may go now, and why not faster.
+ *
+ * @param maxLinear the most that it ever drives, m/s @param asked what its driver asks for; `null` if nobody here drives
+ */
+export function speedWords(
+  { twist, motion }: Pick<Telemetry, 'twist' | 'motion'>,
+  maxLinear: number,
+  asked: Readonly<Twist> | null,
+): Words {
+  const { x, y } = twist.linear;
+  const speed = `${Math.hypot(x, y).toFixed(2)} m/s`;
+  const reason = motion?.reasons[0];
+  const wish = asked === null ? 0 : Math.hypot(asked.linear.x, asked.linear.y);
+  if (motion !== undefined && reason !== undefined && motion.factor < 1 && asked !== null) {
+    const why = limitReasons[reason](motion);
+    if (motion.factor === 0) return { text: `${speed}, held: ${why}`, tone: 'bad' };
+    const most = Math.min(motion.mostLinear, motion.factor * wish);
+    // While it only turns, no speed is asked for.
+    const bound = wish === 0 ? 'slower' : `at most ${most.toFixed(2)}`;
+    return { text: `${speed}, ${bound}: ${why}`, tone: 'warning' };
+  }
+  if (motion !== undefined && motion.mostLinear < maxLinear) {
+    const why = `what you see is ${age(motion.viewAgeMs)} old`;
+    return { text: `${speed}, at most ${motion.mostLinear.toFixed(2)}: ${why}`, tone: 'warning' };
+  }
+  return { text: `${speed}, at most ${maxLinear.toFixed(2)}`, tone: 'neutral' };
 }
 
 /** The robot says all the time that it does not look where it goes. */

@@ -10,6 +10,10 @@ export interface WristFacts {
   link: Words;
   driving: Words;
   telemetry: Telemetry | null;
+  /** How fast the robot is and may be; `null` before it has said so. */
+  speed: Words | null;
+  /** What is near the robot; `null` if it does not tell. */
+  near: Words | null;
   estopLatched: boolean;
   /** It can be released at the robot only. */
   estopAtRobot: boolean;
@@ -31,6 +35,8 @@ export function wristLines({
   link,
   driving,
   telemetry,
+  speed,
+  near,
   estopLatched,
   estopAtRobot,
   stop,
@@ -56,6 +62,7 @@ export function wristLines({
     ...(telemetry === null
       ? []
       : [motionWords(telemetry.motion) ?? driveStateWords(telemetry.drive, afterGap)]),
+    ...[speed, near].filter((words) => words !== null),
     driving,
     // An unconfirmed STOP, an alarm or a confirmed STOP takes the place of the line that matters least.
     (stop?.tone === 'good' ? null : stop) ??

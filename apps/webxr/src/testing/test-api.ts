@@ -14,8 +14,10 @@ import type {
 } from '@farpoint/operator';
 import type { DriveState, LatencyFrame } from '@farpoint/protocol';
 import type { HeadsetView } from '../headset/rig-pose.ts';
+import type { NearHit } from '../near-field/directions.ts';
 import type { PageStats } from '../status/page-stats.ts';
 import type { DrivePath } from '../view/drive-path.ts';
+import type { NearRing } from '../view/near-ring.ts';
 
 export interface PageState {
   signaling: SignalingState;
@@ -44,10 +46,23 @@ export interface PageState {
   gripLost: GripLoss | null;
   /** The way that is shown on the floor before the robot: metres until it stands, and how much of the wish it follows. */
   path: DrivePath['shown'];
+  /** What is near the robot: the nearest, the words that the page shows, and what is drawn around the robot. */
+  near: NearProbe;
   vr: boolean;
 }
 
 export type { PageStats };
+
+/** What the page shows of what is near the robot. */
+export interface NearProbe {
+  /** In each direction, the nearest first. */
+  hits: NearHit[];
+  line: string;
+  details: string;
+  ring: NearRing['shown'];
+  /** Where the edge of the view is red, radians counter-clockwise from up. */
+  blocked: number | null;
+}
 
 /** What is currently drawn. */
 export interface DrawnProbe {

@@ -4,10 +4,12 @@ import { bodyYaw, opticalYaw } from '@farpoint/cloud-view';
 import { LATENCY_TEST_COLOUR, type Pose, SOUND_MEDIA, sequenceDelta32 } from '@farpoint/protocol';
 import { Quaternion, Vector3 } from 'three';
 import type { App } from '../app.ts';
+import { nearestHits } from '../near-field/directions.ts';
+import { nearDetails, nearWords } from '../status/near-words.ts';
 import { PacketRecord } from './packet-record.ts';
 import { PresentationRecord } from './presentation-record.ts';
 import { ScriptInput } from './script-input.ts';
-import type { DrawnProbe, FarpointTestApi, HeadsetProbe } from './test-api.ts';
+import type { DrawnProbe, FarpointTestApi, HeadsetProbe, NearProbe } from './test-api.ts';
 
 export function installTestApi(app: App): void {
   const { client, cloud, stage } = app;
@@ -55,6 +57,7 @@ export function installTestApi(app: App): void {
         input: driver.input?.name ?? null,
         gripLost: driver.lost,
         path: app.stage.path.shown,
+        near: nearProbe(app),
         vr: app.vr.active.value,
       };
     },
@@ -156,6 +159,17 @@ export function installTestApi(app: App): void {
       }),
   };
   window.farpoint = api;
+}
+
+function nearProbe({ state, stage, near }: App): NearProbe {
+  const view = state.robot.near.value;
+  return {
+    hits: view === null ? [] : nearestHits(view.sectors),
+    line: nearWords(view).text,
+    details: nearDetails(view),
+    ring: stage.near.shown,
+    blocked: near.blocked,
+  };
 }
 
 function probe({ cloud }: App): DrawnProbe {

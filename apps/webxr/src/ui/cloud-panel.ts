@@ -10,7 +10,7 @@ import { colourControls } from './colour-controls.ts';
 import { cutControls } from './cut-controls.ts';
 import { elements } from './elements.ts';
 import { type Legend, legendOf } from './legend.ts';
-import { quietButton } from './panel-parts.ts';
+import { quietButton, rowOf } from './panel-parts.ts';
 import { surfaceControls } from './surface-controls.ts';
 
 export interface CloudPanelParts {
@@ -54,7 +54,8 @@ export class CloudPanel {
       legends.replaceChildren(...this.#legends.map((legend) => legend.element));
     });
     const ofSensors = element('');
-    controls.append(ofSensors, surfaceControls(appearance, parts.surfaceByDefault), cutControls(appearance));
+    const surface = surfaceControls(appearance, parts.surfaceByDefault);
+    controls.append(ofSensors, surface, cutControls(appearance), frustaSwitch(appearance));
     effect(() => {
       const parts = this.#names().map((name, i) =>
         untracked(() =>
@@ -91,6 +92,18 @@ export class CloudPanel {
     if (mode === 'captured' || view === undefined) return [];
     return [legendOf(name === UNNAMED ? '' : `${name}: `, mode, view)];
   }
+}
+
+function frustaSwitch({ frusta }: CloudAppearance): HTMLElement {
+  const button = quietButton('', 'Where the sensors are, and how far they see to the sides', () => {
+    frusta.value = !frusta.peek();
+  });
+  button.id = 'frusta';
+  effect(() => {
+    button.textContent = frusta.value ? 'Drawn' : 'Not drawn';
+    button.ariaPressed = String(frusta.value);
+  });
+  return rowOf('Frusta', button);
 }
 
 function element(className: string): HTMLElement {

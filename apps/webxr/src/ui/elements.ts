@@ -7,6 +7,7 @@ function byId<T extends HTMLElement>(id: string, kind: new () => T): T {
 
 export const elements = {
   stage: byId('stage', HTMLCanvasElement),
+  blockedEdge: byId('blocked-edge', HTMLElement),
   cameraStage: byId('camera-stage', HTMLElement),
   bar: byId('bar', HTMLElement),
   link: byId('link', HTMLElement),
@@ -67,6 +68,11 @@ export const elements = {
   knob: byId('knob', HTMLElement),
   holder: byId('holder', HTMLElement),
   motionState: byId('motion-state', HTMLElement),
+  near: byId('near', HTMLElement),
+  nearRing: byId('near-ring', HTMLCanvasElement),
+  nearLine: byId('near-line', HTMLElement),
+  nearMore: byId('near-more', HTMLElement),
+  speed: byId('speed', HTMLElement),
   obstacleGuard: byId('obstacle-guard', HTMLElement),
   driveHint: byId('drive-hint', HTMLElement),
   take: byId('take', HTMLButtonElement),

@@ -4,6 +4,7 @@ import { effect, type ReadonlySignal } from '@preact/signals-core';
 import { type CloudAppearance, UNNAMED } from '../state/cloud-appearance.ts';
 import type { Switches } from '../state/switches.ts';
 import type { SensorClouds } from './sensor-clouds.ts';
+import { SensorFrusta } from './sensor-frusta.ts';
 import type { Stage } from './stage.ts';
 
 export interface AppearanceParts {
@@ -12,7 +13,7 @@ export interface AppearanceParts {
   /** What the robot says about each sensor's rings, by the sensor's number. */
   readonly rings: ReadonlySignal<ReadonlyMap<number, readonly number[]>>;
   readonly clouds: SensorClouds;
-  readonly stage: Pick<Stage, 'look' | 'headingUp'>;
+  readonly stage: Pick<Stage, 'look' | 'headingUp' | 'world'>;
   readonly inVr: ReadonlySignal<boolean>;
   /** Whether the headset shows the world as a model, seen from above. */
   readonly inTabletop: ReadonlySignal<boolean>;
@@ -37,6 +38,12 @@ export function applyAppearance(parts: AppearanceParts): void {
     const isFromAbove = inVr.value ? inTabletop.value : fromAbove.value;
     const inUse = isFromAbove ? cutFromAbove.value : cut.value;
     for (const { colouring } of clouds.all.value) colouring.cut = inUse;
+  });
+  const frusta = new SensorFrusta();
+  stage.world.add(frusta.object);
+  effect(() => {
+    const shown = clouds.all.value.filter((_, i) => sensors.all.value[i]?.on.value ?? true);
+    frusta.show(appearance.frusta.value ? shown : []);
   });
   effect(() => {
     stage.look.fromAbove = fromAbove.value;

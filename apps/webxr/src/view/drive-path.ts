@@ -12,7 +12,7 @@ import {
   Mesh,
   MeshBasicMaterial,
 } from 'three';
-import { stoppingDistance, sweptWidth, writeRibbon } from './swept-path.ts';
+import { poseOnArc, stoppingDistance, sweptWidth, writeRibbon } from './swept-path.ts';
 
 /** How far ahead the way is shown, s, and metres at least. */
 const AHEAD_S = 2;
@@ -87,6 +87,8 @@ export class DrivePath {
   readonly #ahead = new Ribbon(0.16);
   readonly #stopLine: Line<BufferGeometry, LineBasicMaterial>;
   readonly #outline: LineLoop<BufferGeometry, LineBasicMaterial>;
+  /** The outline where it would stand. */
+  readonly #standing: LineLoop<BufferGeometry, LineBasicMaterial>;
   readonly #way = new Group();
   #body: RobotBody | null = null;
   /** What is shown: how far the robot goes before it stands, m, and its tone; `null` while it shows no way. */
@@ -106,15 +108,19 @@ export class DrivePath {
       new BufferGeometry(),
       new LineBasicMaterial({ color: COLOURS.free, transparent: true }),
     );
-    this.#way.add(this.#ahead.mesh, this.#stop.mesh, this.#stopLine);
+    this.#standing = new LineLoop(
+      new BufferGeometry(),
+      new LineBasicMaterial({ transparent: true, opacity: 0.8 }),
+    );
+    this.#standing.frustumCulled = false;
+    this.#way.add(this.#ahead.mesh, this.#stop.mesh, this.#stopLine, this.#standing);
     this.object.add(this.#outline, this.#way);
     this.object.visible = false;
   }
 
   /** Whether nearer points do not hide it. */
   set onTop(onTop: boolean) {
-    for (const { material } of [this.#stop.mesh, this.#ahead.mesh, this.#stopLine, this.#outline])
-      material.depthTest = !onTop;
+    for (const { material } of [...this.#wayParts, this.#outline]) material.depthTest = !onTop;
   }
 
   /** The robot's outline; `null` while it is not known: then nothing is shown. */
@@ -129,6 +135,7 @@ export class DrivePath {
       'position',
       new Float32BufferAttribute(corners, 3),
     );
+    this.#standing.geometry = this.#outline.geometry;
     this.#front = Math.max(...body.footprint.map(({ x }) => x));
     this.#back = Math.min(...body.footprint.map(({ x }) => x));
   }
@@ -153,7 +160,13 @@ export class DrivePath {
     const line = this.#stopLine.geometry.getAttribute('position') as BufferAttribute;
     line.set(this.#stop.end);
     line.needsUpdate = true;
-    for (const { material } of [this.#stop.mesh, this.#ahead.mesh, this.#stopLine])
-      material.color.setHex(COLOURS[tone]);
+    const stands = poseOnArc(curvature, direction * stopM);
+    this.#standing.position.set(stands.x, stands.y, 0);
+    this.#standing.rotation.z = stands.yaw;
+    for (const { material } of this.#wayParts) material.color.setHex(COLOURS[tone]);
+  }
+
+  get #wayParts() {
+    return [this.#stop.mesh, this.#ahead.mesh, this.#stopLine, this.#standing];
   }
 }

@@ -7,9 +7,11 @@ import { FrontPointer } from '../headset/front-pointer.ts';
 import { HeadsetRig } from '../headset/headset-rig.ts';
 import { DEFAULT_HEADSET, type HeadsetSettings } from '../headset/headset-settings.ts';
 import { Vignette } from '../headset/vignette.ts';
+import { bearingOnScreen } from './blocked-edge.ts';
 import { DrivePath } from './drive-path.ts';
 import { GroundGrid } from './ground-grid.ts';
 import { Look } from './look.ts';
+import { NearRing } from './near-ring.ts';
 import { PoseFollower } from './pose-follower.ts';
 import { RobotMarker } from './robot-marker.ts';
 import { TopDownCamera } from './top-down-camera.ts';
@@ -40,6 +42,8 @@ export class Stage {
   readonly headset: HeadsetRig;
   /** On the floor before the robot. */
   readonly path = new DrivePath();
+  /** What is near the robot, around it. */
+  readonly near = new NearRing();
   /** From above, the robot's heading is up; otherwise north. */
   headingUp = true;
   readonly #marker = new RobotMarker();
@@ -67,7 +71,7 @@ export class Stage {
     // In VR, the head starts where the headset says that its eyes are at rest.
     this.renderer.xr.setReferenceSpaceType('local');
     this.scene.background = new Color(BACKGROUND);
-    this.#marker.object.add(this.path.object);
+    this.#marker.object.add(this.near.object, this.path.object);
     this.world.add(this.#marker.object);
     this.rig.add(this.camera, this.headset.front);
     this.camera.add(this.#vignette.object, this.#front.object);
@@ -126,6 +130,11 @@ export class Stage {
     this.#marker.boxed = body === null;
   }
 
+  /** Where a direction of the robot is on the screen, or in the headset's view: radians counter-clockwise from up. */
+  onScreen(bearing: number): number {
+    return bearingOnScreen(bearing, this.#marker.object, this.viewCamera, this.#isFromAbove);
+  }
+
   /** Sets the pose of the robot's body, from telemetry. */
   setBody(pose: BodyPose): void {
     const { object } = this.#marker;
@@ -159,6 +168,7 @@ export class Stage {
     const isSeenFromAbove = inTabletop || this.#isFromAbove;
     this.#marker.onTop = isSeenFromAbove;
     this.path.onTop = isSeenFromAbove;
+    this.near.onTop = isSeenFromAbove;
     if (this.#isFromAbove) this.#placeTopDown();
     else if (!inVr) this.#placeFlatCamera();
   }

@@ -17,12 +17,13 @@ import type { Tone } from '../status/words.ts';
 import { fitText } from './fitted-text.ts';
 
 const WIDTH = 512;
-const HEIGHT = 288;
+const HEIGHT = 376;
 const PANEL_M = 0.18;
 const GAP_M = 0.02;
 /** From one line to the next, and from the edge to the text, pixels. */
 const LINE = 44;
 const EDGE = 24;
+const MOST_LINES = 8;
 const COLOURS: Record<Tone, string> = {
   good: '#35c9b5',
   neutral: '#9fb2c1',
@@ -128,7 +129,7 @@ export class WristPanel {
     context.roundRect(0, 0, WIDTH, HEIGHT, 24);
     context.fill();
     context.textBaseline = 'top';
-    for (const [index, line] of this.#lines.slice(0, 6).entries()) {
+    for (const [index, line] of this.#lines.slice(0, MOST_LINES).entries()) {
       const weight = index === 0 ? 600 : 400;
       const measure = (text: string, size: number) => {
         context.font = `${weight} ${size}px system-ui, sans-serif`;

@@ -5,6 +5,7 @@ import type { Hand } from '../headset/headset-settings.ts';
 import type { PageState } from '../state/page-state.ts';
 import { alarmLine } from '../status/alarm-words.ts';
 import { viewFact } from '../status/headset-words.ts';
+import { nearWords } from '../status/near-words.ts';
 import { stopWords } from '../status/words.ts';
 import { wristLines } from '../status/wrist-lines.ts';
 import type { WristPanel } from './wrist-panel.ts';
@@ -38,6 +39,8 @@ export function showOnWrist({
       wristLines({
         ...{ link: link.line.value, driving: driving.line.value, telemetry: robot.telemetry.value },
         ...{ estopLatched: robot.estop.value.latched, nextRobot: link.nextRobot.value },
+        speed: robot.speed.value,
+        near: robot.tellsNear.value ? nearWords(robot.near.value) : null,
         estopAtRobot: robot.estopAtRobot.value,
         ...{ stop: stopWords[robot.stop.value], afterGap: robot.afterGap.value },
         ...{ driveHand, view: viewFact(headset.view.value, headset.model.scale) },

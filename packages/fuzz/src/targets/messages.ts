@@ -6,6 +6,7 @@ import {
   decodeJson,
   decodeStreamSwitch,
   type JsonCodec,
+  nearSectors,
   operatorControlCodec,
   operatorSessionCodec,
   operatorToServiceCodec,
@@ -49,7 +50,13 @@ export const messageTargets: readonly FuzzTarget[] = [
   codec('operator-control', 'operator-control', operatorControlCodec),
   codec('operator-session', 'operator-session', operatorSessionCodec),
   codec('robot-session', 'robot-session', robotSessionCodec),
-  codec('telemetry', 'telemetry', telemetryCodec),
+  {
+    ...codec('telemetry', 'telemetry', telemetryCodec),
+    run: (input) => {
+      const message = decodeJson(telemetryCodec, input);
+      if (message.type === 'nearField') nearSectors(message);
+    },
+  },
   codec('robot-control', 'robot-control', robotControlCodec),
   codec('robot-to-service', 'signaling-robot-to-service', robotToServiceCodec),
   codec('service-to-robot', 'signaling-service-to-robot', serviceToRobotCodec),

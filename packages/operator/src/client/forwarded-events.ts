@@ -18,6 +18,7 @@ export function forwardedEvents(emitter: Emitter<RobotEvents>) {
     onReading: (reading) => emitter.emit('reading', reading),
     onQuantity: (quantity) => emitter.emit('quantity', quantity),
     onSamples: (samples) => emitter.emit('samples', samples),
+    onNearField: (field) => emitter.emit('nearField', field),
     onDiagnostics: (diagnostics) => emitter.emit('diagnostics', diagnostics),
     onAlarm: (alarm) => emitter.emit('alarm', alarm),
     onRobotFault: (message) => emitter.emit('robotFault', message),

@@ -5,6 +5,7 @@ import type {
   Diagnostics,
   EstopState,
   LeaseState,
+  NearField,
   Operators,
   Quantity,
   Reading,
@@ -73,6 +74,8 @@ export interface RobotEvents {
   quantity: Quantity;
   /** Samples of these numbers. The channel is unordered, so they may come late. */
   samples: Samples;
+  /** What stands around the robot. `link.session.near` has the newest, and its age. */
+  nearField: NearField;
   /** What some of the robot's components report about themselves. `link.session.components` has all of them. */
   diagnostics: Diagnostics;
   /** An alarm was raised, changed its level or was cleared. `link.session.alarms` has those that are raised. */

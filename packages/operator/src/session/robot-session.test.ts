@@ -1,4 +1,4 @@
-import { writePictureChunk } from '@farpoint/protocol';
+import { nearFieldText, writePictureChunk } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { RobotSession } from './robot-session.ts';
@@ -22,6 +22,7 @@ function bench(): { session: RobotSession; told: string[] } {
     onReading: tell('reading'),
     onQuantity: tell('quantity'),
     onSamples: tell('samples'),
+    onNearField: tell('nearField'),
     onDiagnostics: tell('diagnostics'),
     onAlarm: tell('alarm'),
     onCameras: tell('cameras'),
@@ -103,6 +104,28 @@ describe('RobotSession', () => {
     expect(session.components.list()).toMatchObject([{ topic: '/d', reports: [{ name: 'imu' }] }]);
     expect(told).toEqual(['quantity', 'alarm', 'alarm', 'alarm', 'samples', 'diagnostics']);
     expect(session.malformed).toBe(0);
+  });
+
+  test('keeps what is near the robot, unless it was overtaken', () => {
+    const { session, told } = bench();
+    expect(session.near.ageMs(0, null)).toBe(null);
+    const near = (timeMs: number) =>
+      JSON.stringify({
+        type: 'nearField',
+        timeMs,
+        sectors: nearFieldText([{ hit: { kind: 'thing', metres: timeMs / 1000 }, unseen: null }]),
+      });
+    session.onMessage('telemetry', near(2000), 100);
+    session.onMessage('telemetry', near(1000), 110);
+    expect(session.near.sectors[0]).toEqual({ hit: { kind: 'thing', metres: 2 }, unseen: null });
+    expect(told).toEqual(['nearField']);
+    session.onMessage('telemetry', '{"type":"nearField","timeMs":3000,"sectors":"AAAA"}', 120);
+    expect(session.malformed).toBe(1);
+    // By its arrival; and by the robot's clock, once that is known: it was on its way for 300 ms.
+    expect(session.near.ageMs(150, null)).toBe(50);
+    expect(session.near.ageMs(150, 2200)).toBe(350);
+    // A clock that is estimated a little wrong makes nothing younger than its arrival.
+    expect(session.near.ageMs(150, 1890)).toBe(50);
   });
 
   test('ignores telemetry that was overtaken, also across the wrap', () => {

@@ -12,6 +12,7 @@ import {
   type LatencyFrame,
   type LeaseState,
   type MessageData,
+  type NearField,
   nextSequence32,
   type Operators,
   PictureAssembler,
@@ -32,6 +33,7 @@ import {
   type WholePicture,
 } from '@farpoint/protocol';
 import { ComponentReports } from './component-reports.ts';
+import { NearSurroundings } from './near-surroundings.ts';
 import { Readings } from './readings.ts';
 
 /** Channels on which the robot sends. */
@@ -56,6 +58,8 @@ export interface RobotSessionEvents {
   onQuantity(quantity: Quantity): void;
   /** Samples of such numbers. They may come late: the channel is unordered. */
   onSamples(samples: Samples): void;
+  /** What is near the robot. */
+  onNearField(field: NearField): void;
   /** Reports of the robot's components. */
   onDiagnostics(diagnostics: Diagnostics): void;
   /** An alarm was raised, changed its level or was cleared. */
@@ -91,6 +95,8 @@ export class RobotSession {
   estop: EstopState = { type: 'estop', latched: false };
   /** The robot's latest telemetry; `null` before the first. */
   telemetry: Telemetry | null = null;
+  /** What is near the robot, in each direction. */
+  readonly near = new NearSurroundings();
   /** Readings of the robot's sensors and topics. */
   readonly readings = new Readings();
   /** The numbers that the robot measures over time, by the number in their samples. */
@@ -238,6 +244,9 @@ export class RobotSession {
         return;
       case 'samples':
         this.#events.onSamples(telemetry);
+        return;
+      case 'nearField':
+        if (this.near.take(telemetry, nowMs)) this.#events.onNearField(telemetry);
         return;
       case 'diagnostics':
         this.components.take(telemetry);

@@ -1,6 +1,7 @@
 import type { Twist } from '@farpoint/protocol';
 import type { FloorMap } from './floor-map.ts';
 import type { Footprint, Nearness, Outline } from './footprint.ts';
+import { OWN_BODY_M } from './obstacle-guard-options.ts';
 import { type FloorPose, floorClasses } from './sensor-grid.ts';
 
 /** How far the robot could go on its arc, at the velocity that is asked for. */
@@ -29,8 +30,6 @@ const STEP_CELLS = 0.7;
 const MOST_STEPS = 128;
 /** Half the diagonal of a cell: how far from its centre its obstacle may be, cells. */
 const HALF_DIAGONAL = Math.SQRT1_2;
-/** Deeper inside the footprint are parts of the robot itself, metres. */
-const OWN_BODY_M = 0.05;
 /** A motion goes towards an obstacle if more than this share of it does. */
 const TOWARDS = 0.35;
 /** And towards an edge of the floor: nothing holds a robot that slips. */

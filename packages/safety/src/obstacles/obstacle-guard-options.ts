@@ -51,3 +51,5 @@ export const GO_ABOVE_MPS = 0.1;
 export const RELEASE_SHARE = 0.7;
 /** Odometry is carried on by its velocity for at most this long; older, it is silent, ms. */
 export const MOST_EXTRAPOLATION_MS = 300;
+/** Deeper inside the footprint are parts of the robot itself, metres. */
+export const OWN_BODY_M = 0.05;

@@ -1,8 +1,9 @@
-import type { Intervention, Twist } from '@farpoint/protocol';
+import type { Intervention, NearSector, Twist } from '@farpoint/protocol';
 import { FREE, type MotionBound, type MotionGuard } from '../motion/motion-guard.ts';
 import { FloorMap } from './floor-map.ts';
 import type { Footprint } from './footprint.ts';
 import { type FreeWay, FreeWaySearch, type Sweep } from './free-way.ts';
+import { NearFieldSearch } from './near-field-search.ts';
 import {
   CREEPING_MPS,
   CREEPING_SHARE,
@@ -24,6 +25,7 @@ export class ObstacleGuard implements MotionGuard {
   readonly #options: ObstacleGuardOptions;
   readonly #map: FloorMap;
   readonly #search: FreeWaySearch;
+  readonly #nearField: NearFieldSearch;
   readonly #reach: number;
   readonly #whereabouts = new Whereabouts();
   /** When each sensor's newest cloud was taken, ms. */
@@ -45,6 +47,7 @@ export class ObstacleGuard implements MotionGuard {
       // Where something is already nearer.
       ...[(2 * narrow) / 3, narrow / 3],
     ]);
+    this.#nearField = new NearFieldSearch(this.#map, footprint);
     this.#reach = footprint.reach;
     this.#lastMs = new Array<number>(sensors).fill(Number.NEGATIVE_INFINITY);
   }
@@ -98,6 +101,14 @@ export class ObstacleGuard implements MotionGuard {
     const pose = this.#whereabouts.at(nowMs, placed);
     const travel = placed ? 0 : this.#whereabouts.travel(nowMs);
     return this.#search.look({ pose, wish, horizonS, nowMs, travel }, NARROW).unknownS >= horizonS;
+  }
+
+  /** What is around the robot now; `null` while nobody can tell. Changes nothing. */
+  nearField(nowMs: number): NearSector[] | null {
+    const placed = this.#map.placed;
+    if (this.blind(nowMs) || (placed && this.#whereabouts.silent(nowMs))) return null;
+    const travel = placed ? 0 : this.#whereabouts.travel(nowMs);
+    return this.#nearField.look(this.#whereabouts.at(nowMs, placed), nowMs, travel);
   }
 
   bound(wish: Readonly<Twist>, nowMs: number): Readonly<MotionBound> {

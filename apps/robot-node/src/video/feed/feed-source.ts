@@ -1,6 +1,6 @@
 /** Cameras whose pictures come from a program's own code, and not from a GStreamer element. */
 import type { TopicEntry } from '@farpoint/ros';
-import type { CameraOptions } from '@farpoint/sim';
+import type { CameraOptions, Thing } from '@farpoint/sim';
 import type { GraphOptions } from '../../ros/open-graph.ts';
 
 /** A topic of a ROS graph. */
@@ -18,6 +18,8 @@ export interface SimVideoSource {
   seed: number;
   /** The base's thread writes the world here. If undefined, the robot stays at its start and nothing moves. */
   snapshot?: SharedArrayBuffer | undefined;
+  /** Put into the world. */
+  things?: readonly Thing[] | undefined;
 }
 
 /** Plain data, so that it can be passed to the thread that feeds the cameras. */

@@ -1,4 +1,4 @@
-import { officeWorld, SimulatedCamera, type WorldSnapshot } from '@farpoint/sim';
+import { officeWorld, SimulatedCamera, type WorldSnapshot, withThings } from '@farpoint/sim';
 import { SharedWorld } from '../../base/shared-snapshot.ts';
 import type { Feed, FeedTarget } from './feed.ts';
 import type { SimVideoSource } from './feed-source.ts';
@@ -19,8 +19,8 @@ export class SimVideoCameras {
 
   /** @throws {SimulationError} if the camera's options make no camera */
   async open(source: SimVideoSource, target: FeedTarget): Promise<Feed> {
-    const world = officeWorld();
-    const { seed } = source;
+    const { seed, things = [] } = source;
+    const world = withThings(officeWorld(), things);
     const camera = await SimulatedCamera.create({ world, seed, camera: source.camera });
     this.#world ??= new SharedWorld(world, source.snapshot);
     const { width, height } = camera.intrinsics;

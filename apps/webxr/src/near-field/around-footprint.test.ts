@@ -1,0 +1,31 @@
+import fc from 'fast-check';
+import { expect, test } from 'vitest';
+import { distanceFrom, radiusAt, reachOf } from './around-footprint.ts';
+
+const LONG = [
+  { x: 0.6, y: 0.2 },
+  { x: -0.2, y: 0.2 },
+  { x: -0.2, y: -0.2 },
+  { x: 0.6, y: -0.2 },
+];
+
+test('a distance counts from the outline', () => {
+  expect(distanceFrom(LONG, 0.1, 0.1)).toBe(0);
+  expect(distanceFrom(LONG, 0.9, 0)).toBeCloseTo(0.3);
+  expect(distanceFrom(LONG, 0, -0.5)).toBeCloseTo(0.3);
+  expect(distanceFrom(LONG, 0.9, 0.6)).toBeCloseTo(0.5);
+});
+
+test('a point at a bearing and a distance from the outline is that far from it', () => {
+  const bearings = fc.double({ min: -4, max: 4, noNaN: true });
+  const distances = fc.double({ min: 0, max: 4, noNaN: true });
+  const reach = reachOf(LONG);
+  fc.assert(
+    fc.property(bearings, distances, (bearing, metres) => {
+      const radius = radiusAt(LONG, reach, bearing, metres);
+      const away = distanceFrom(LONG, radius * Math.cos(bearing), radius * Math.sin(bearing));
+      expect(away).toBeCloseTo(metres, 2);
+    }),
+    { seed: 1, numRuns: 200 },
+  );
+});
