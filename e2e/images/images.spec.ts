@@ -55,6 +55,30 @@ test('headset-view', async ({ page, startStack }) => {
   await save(page, 'headset-view');
 });
 
+test('headset-tabletop', async ({ page, startStack }) => {
+  await page.setViewportSize({ width: 960, height: 540 });
+  const stack = await startStack({ robots: [SAMPLE] });
+  const headset = await Headset.wear(page);
+  const operator = await OperatorPage.open(page, stack, { robot: SAMPLE.id });
+  await operator.expectPoints(20_000);
+  await page.getByRole('button', { name: /VR/ }).click();
+  await operator.expectState('vr', true);
+  await page.keyboard.press('KeyV');
+  await page.keyboard.press('KeyV');
+  // Two hands bring the model nearer and make it larger.
+  await headset.place('left', [-0.1, 1.25, -0.5]);
+  await headset.place('right', [0.1, 1.25, -0.5]);
+  await headset.frames(3);
+  await headset.button('left', 'trigger', 1);
+  await headset.button('right', 'trigger', 1);
+  await headset.frames(3);
+  await headset.place('left', [-0.28, 1.4, -0.5]);
+  await headset.place('right', [0.28, 1.4, -0.5]);
+  await expect(page.locator('#notice')).toBeHidden();
+  await operator.expectPoints(20_000);
+  await save(page, 'headset-tabletop');
+});
+
 test('dashboard', async ({ page, startStack }) => {
   await page.setViewportSize({ width: 1280, height: 800 });
   const robot = { ...SAMPLE, args: [...SAMPLE.args, '--sim-charge', '19'] };
