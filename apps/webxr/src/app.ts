@@ -44,6 +44,7 @@ import { videoReceiver } from './video/video-receiver.ts';
 import { applyAppearance } from './view/apply-appearance.ts';
 import { FrameLoop } from './view/frame-loop.ts';
 import type { PicturePointer } from './view/picture-pointer.ts';
+import { PredictedView } from './view/predicted-view.ts';
 import { SensorClouds } from './view/sensor-clouds.ts';
 import { showDrivePath } from './view/show-drive-path.ts';
 import { Stage } from './view/stage.ts';
@@ -74,6 +75,8 @@ export class App {
   readonly hold: CloudHold;
   readonly recorder: TelemetryRecorder;
   readonly vr: VrSession;
+  /** Leads the view by the operator's commands. */
+  readonly predicted: PredictedView;
   readonly frames: FrameLoop;
   /** Plays the robot's microphone. */
   readonly player = new SoundPlayer();
@@ -113,6 +116,9 @@ export class App {
       inputs: this.#inputs.all,
       ...(receiver?.adopt === undefined ? {} : { onVideoReceiver: receiver.adopt }),
     });
+    // Before the clouds' views, which may release what it reads.
+    this.predicted = new PredictedView(this.client, settings.predict);
+    this.stage.predicted = this.predicted;
     this.state = new PageState({
       ...{ client: this.client, settings, notices, figures: () => this.figures() },
       placements: new PanelPlacements(loadPlacements(), storePlacements),
@@ -150,6 +156,7 @@ export class App {
     const toggleDashboard = () => dashboard.toggle();
     this.#controls = new ControlsUi({
       ...{ client, state, stage, vr, appearance, estop: this.#estop, choose, toggleDashboard },
+      predicted: this.predicted,
     });
     this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all });
     this.#sound = new SoundUi({
@@ -217,7 +224,9 @@ export class App {
   /** Current figures of the stream and of the drawing. */
   figures(): PageStats {
     const videos = this.videos.stats(performance.now());
-    return this.stats.snapshot(this.client.stats(), this.cloud, this.stage.renderer.domElement, videos);
+    const { renderer } = this.stage;
+    const stats = this.stats.snapshot(this.client.stats(), this.cloud, renderer.domElement, videos);
+    return { ...stats, view: this.predicted.figures };
   }
 
   #show(): void {

@@ -53,6 +53,8 @@ export interface Settings {
   synchronised: boolean;
   /** Whether sound and vibration tell that the robot does less than it is told. */
   cues: boolean;
+  /** Whether the view is led by the operator's commands. */
+  predict: boolean;
   /** Where tiles of a map come from; `null`: no tile is fetched. */
   mapTiles: MapTiles | null;
   /** How videos are received; `null`: as suits this browser best. */
@@ -110,6 +112,7 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
     pointScale: clampScale(stored.pointScale),
     synchronised: parseSwitch(query.get('sync')) ?? stored.synchronised ?? true,
     cues: parseSwitch(query.get('cues')) ?? stored.cues ?? true,
+    predict: parseSwitch(query.get('predict')) ?? true,
     mapTiles: mapTilesOf(stored.mapTiles, stored.mapAttribution, page),
     videoReceiver: VIDEO_RECEIVERS.find((name) => name === query.get('video')) ?? null,
     barcode: parseSwitch(query.get('barcode')) ?? false,

@@ -3,6 +3,7 @@ import type { AfterGap, RobotListing, Telemetry } from '@farpoint/operator';
 import { lossTone, mbps, ms } from './facts.ts';
 import { motionWords } from './motion-words.ts';
 import type { PageStats } from './page-stats.ts';
+import { viewLead } from './view-words.ts';
 import { driveStateWords, type Words } from './words.ts';
 
 export interface WristFacts {
@@ -55,7 +56,7 @@ export function wristLines({
         tone: 'neutral',
       },
     {
-      text: `rtt ${ms(minRttMs)}  frame ${ms(frameLatencyMs?.p50)}  loss ${(lossRate * 100).toFixed(1)} %`,
+      text: `rtt ${ms(minRttMs)}  frame ${ms(frameLatencyMs?.p50)}  loss ${(lossRate * 100).toFixed(1)} %${viewLead(figures.view)}`,
       tone: lossTone(figures),
     },
     estopLatched

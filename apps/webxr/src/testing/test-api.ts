@@ -15,6 +15,7 @@ import type {
 import type { DriveState, LatencyFrame } from '@farpoint/protocol';
 import type { PageStats } from '../status/page-stats.ts';
 import type { DrivePath } from '../view/drive-path.ts';
+import type { ViewFigures } from '../view/predicted-view.ts';
 
 export interface PageState {
   signaling: SignalingState;
@@ -44,6 +45,8 @@ export interface PageState {
   /** The way that is shown on the floor before the robot: metres until it stands, and how much of the wish it follows. */
   path: DrivePath['shown'];
   vr: boolean;
+  /** Where the view stands, REP-103 (m, rad), and whether that is a prediction. */
+  view: { x: number; y: number; z: number; yaw: number } & ViewFigures;
 }
 
 export type { PageStats };

@@ -56,6 +56,10 @@ export function installTestApi(app: App): void {
         gripLost: driver.lost,
         path: app.stage.path.shown,
         vr: app.vr.active.value,
+        view: {
+          ...{ x: -stage.rig.position.z, y: -stage.rig.position.x, z: stage.rig.position.y },
+          ...{ yaw: stage.rig.rotation.y, ...app.predicted.figures },
+        },
       };
     },
     stats: () => app.figures(),

@@ -6,7 +6,9 @@ import { type Camera, Color, Group, PerspectiveCamera, Scene, WebGLRenderer } fr
 import { DrivePath } from './drive-path.ts';
 import { GroundGrid } from './ground-grid.ts';
 import { Look } from './look.ts';
-import { PoseFollower } from './pose-follower.ts';
+import { PoseFollower, shortestTurn } from './pose-follower.ts';
+import type { PredictedView } from './predicted-view.ts';
+import { RobotGhost } from './robot-ghost.ts';
 import { RobotMarker } from './robot-marker.ts';
 import { TopDownCamera } from './top-down-camera.ts';
 
@@ -34,9 +36,12 @@ export class Stage {
   readonly look = new Look();
   /** On the floor before the robot. */
   readonly path = new DrivePath();
+  /** Where the robot is when the picture is shown; `null`: the view follows the clouds. */
+  predicted: PredictedView | null = null;
   /** From above, the robot's heading is up; otherwise north. */
   headingUp = true;
   readonly #marker = new RobotMarker();
+  readonly #ghost = new RobotGhost();
   readonly #grid = new GroundGrid();
   readonly #follower = new PoseFollower(FOLLOW_MS);
   readonly #topDown = new TopDownCamera();
@@ -55,7 +60,7 @@ export class Stage {
     this.renderer.xr.setReferenceSpaceType('local');
     this.scene.background = new Color(BACKGROUND);
     this.#marker.object.add(this.path.object);
-    this.world.add(this.#marker.object);
+    this.world.add(this.#marker.object, this.#ghost.object);
     this.rig.add(this.camera);
     this.scene.add(this.world, this.rig, this.#grid.object);
     this.rig.position.set(0, DEFAULT_EYE_M, 0);
@@ -103,11 +108,13 @@ export class Stage {
     this.#follower.reset();
     this.#bodyFollower.reset();
     this.#marker.object.visible = false;
+    this.#ghost.hide();
   }
 
   /** The robot's outline; `null` while it is not known. */
   set robotBody(body: RobotBody | null) {
     this.path.body = body;
+    this.#ghost.body = body;
     this.#marker.boxed = body === null;
   }
 
@@ -124,11 +131,18 @@ export class Stage {
     const elapsed = nowMs - this.#lastMs;
     this.#lastMs = nowMs;
     const follower = this.#follower;
+    const placed = this.predicted?.places ? this.predicted : null;
     if (cloud.hasPoints) {
-      const { x, y, z } = cloud.cameraPosition;
       this.look.fit(cloud.imageExtent);
-      follower.follow(x, y, z, opticalYaw(cloud.cameraOrientation, follower.yaw), elapsed);
+      if (placed !== null) {
+        const { x, y, z, yaw } = placed.camera;
+        follower.place(x, y, z, yaw, elapsed);
+      } else {
+        const { x, y, z } = cloud.cameraPosition;
+        follower.follow(x, y, z, opticalYaw(cloud.cameraOrientation, follower.yaw), elapsed);
+      }
     }
+    this.#showGhost(placed);
     if (follower.started) {
       this.rig.position.set(-follower.y, follower.z, -follower.x);
       this.rig.rotation.y = follower.yaw;
@@ -136,16 +150,29 @@ export class Stage {
     this.#grid.centreOn(this.rig.position.x, this.rig.position.z);
     this.#marker.onTop = this.#isFromAbove;
     this.path.onTop = this.#isFromAbove;
-    if (this.#isFromAbove) this.#placeTopDown(elapsed);
+    this.#ghost.onTop = this.#isFromAbove;
+    if (this.#isFromAbove) this.#placeTopDown(elapsed, placed);
     else if (!this.renderer.xr.isPresenting) this.#placeFlatCamera();
   }
 
-  #placeTopDown(elapsedMs: number): void {
+  #showGhost(placed: PredictedView | null): void {
+    const { object } = this.#marker;
+    if (placed === null || !placed.isPrediction || !object.visible) {
+      this.#ghost.hide();
+      return;
+    }
+    const { x, y, z, yaw } = placed.body;
+    const off = Math.hypot(x - object.position.x, y - object.position.y);
+    this.#ghost.show(x, y, z, yaw, off, shortestTurn(yaw - bodyYaw(object.quaternion)));
+  }
+
+  #placeTopDown(elapsedMs: number, placed: PredictedView | null): void {
     const { object } = this.#marker;
     const { x, y, z } = object.position;
     // Without telemetry, the camera is the best guess.
     const body = this.#bodyFollower;
-    if (object.visible) body.follow(x, y, z, bodyYaw(object.quaternion), elapsedMs);
+    if (placed !== null) body.place(placed.body.x, placed.body.y, placed.body.z, placed.body.yaw, elapsedMs);
+    else if (object.visible) body.follow(x, y, z, bodyYaw(object.quaternion), elapsedMs);
     const { headingUp, look, camera } = this;
     const robot = body.started ? body : this.#follower;
     this.#topDown.place(robot, { headingUp, reach: look.reach, aspect: camera.aspect });
