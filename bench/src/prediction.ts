@@ -83,7 +83,9 @@ export const bench: Bench = {
       }),
     );
     const target = results.find(({ spec }) => spec.loopMs === TARGET_LOOP_MS) as (typeof results)[number];
-    console.log(`rounds of ${Math.round(ROUND_S)} s; 150 ms ${meetsTargets(target) ? 'meets' : 'MISSES'} its targets`);
+    console.log(
+      `rounds of ${Math.round(ROUND_S)} s; 150 ms ${meetsTargets(target) ? 'meets' : 'MISSES'} its targets`,
+    );
     if (!values.json) return;
     const { predicted, without, inputToViewMs, correctionM, correctionDeg, ratioM, ratioDeg } = target;
     printJson({

@@ -6,11 +6,6 @@ import { OperatorPage } from '../src/operator-page.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 
 const LOOP_MS = 200;
-// For a software-rendered page over a slow link, which sees late.
-const view = ['--view-slow-ms', '2000', '--view-brake-ms', '3000', '--view-stall-ms', '1500'];
-
-test.use({ viewport: headsetViewport });
-
 interface FirstMotion {
   /** From the key to the first display frame with a moved view, ms. */
   viewMs: number;
@@ -60,7 +55,7 @@ test('flat: the view moves before the robot can be seen to, and P and ?predict=0
   const stack = await startStack({ robots: [] });
   const link = await EmulatedLink.start(stack, { args: ['--rtt-ms', String(LOOP_MS)] });
   try {
-    const args = [...lightRobot.args, ...view, '--signaling', link.signalingUrl];
+    const args = [...lightRobot.args, '--signaling', link.signalingUrl];
     await stack.startRobot({ ...lightRobot, args });
     const operator = await OperatorPage.open(page, stack, { robot: lightRobot.id });
     await operator.expectPoints(300);
@@ -72,10 +67,10 @@ test('flat: the view moves before the robot can be seen to, and P and ?predict=0
     await expect(page.locator('#facts')).toContainText(/Predicted \d+ ms ahead/);
     expect((await operator.state()).view.aheadMs).toBeGreaterThan(LOOP_MS / 2);
     await operator.screenshot(testInfo, 'driving');
-    await page.keyboard.press('t');
+    await page.keyboard.press('v');
     await operator.expectFrames(3);
-    await operator.screenshot(testInfo, 'ghost-from-above');
-    await page.keyboard.press('t');
+    await operator.screenshot(testInfo, 'ghost-from-behind');
+    await page.keyboard.press('v');
     await operator.releaseKeys();
     await operator.expectStanding();
     await operator.expectFrames(10);
@@ -106,6 +101,10 @@ test('flat: the view moves before the robot can be seen to, and P and ?predict=0
     await operator.expectFrames(20);
     const [{ view: shown }, { camera }] = [await operator.state(), await operator.probe()];
     expect(Math.hypot(shown.x - (camera?.x ?? 0), shown.y - (camera?.y ?? 0))).toBeLessThan(0.03);
+
+    const plain = await OperatorPage.open(page, stack, { robot: lightRobot.id, predict: '0' });
+    await plain.expectPoints(300);
+    await expect(page.locator('#facts')).toContainText('prediction is off');
   } finally {
     await link.stop();
   }
@@ -118,8 +117,9 @@ test('in the headset: the rig moves at once, and the wrist says that it is predi
   const stack = await startStack({ robots: [] });
   const link = await EmulatedLink.start(stack, { args: ['--rtt-ms', String(LOOP_MS)] });
   try {
-    const args = [...lightRobot.args, ...view, '--signaling', link.signalingUrl];
+    const args = [...lightRobot.args, '--signaling', link.signalingUrl];
     await stack.startRobot({ ...lightRobot, args });
+    await page.setViewportSize(headsetViewport);
     const headset = await Headset.wear(page);
     const operator = await OperatorPage.open(page, stack, { robot: lightRobot.id });
     await operator.expectPoints(300);

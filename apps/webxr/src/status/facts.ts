@@ -38,8 +38,9 @@ export function sessionFacts({
   const facts: Fact[] = [];
   if (name !== null) facts.push({ name: 'Robot', value: name });
   if (telemetry !== null) facts.push(...telemetryFacts(telemetry, estop, afterGap, maxLinear));
+  if (telemetry !== null && figures.view !== undefined)
+    facts.push({ name: 'View', value: viewWords(figures.view) });
   addReadings(facts, readings);
-  if (figures.view !== undefined) facts.push({ name: 'View', value: viewWords(figures.view) });
   facts.push(...streamFacts(figures));
   if (telemetry !== null && telemetry.operators > 1) {
     facts.push({ name: 'Operators', value: String(telemetry.operators) });

@@ -39,8 +39,11 @@ export class RobotGhost {
     const corners = body?.footprint ?? USUAL;
     const ends = corners.flatMap((corner, i) => {
       const next = corners[(i + 1) % corners.length] ?? corner;
+      // A round robot has many corners: four uprights are enough to see a box.
+      const isPost = i % Math.ceil(corners.length / 4) === 0;
       const edge = (z: number) => [corner.x, corner.y, z, next.x, next.y, z];
-      return [...edge(HEIGHT_M), ...edge(BOX_M), corner.x, corner.y, HEIGHT_M, corner.x, corner.y, BOX_M];
+      const post = [corner.x, corner.y, HEIGHT_M, corner.x, corner.y, BOX_M];
+      return [...edge(HEIGHT_M), ...edge(BOX_M), ...(isPost ? post : [])];
     });
     this.object.geometry.dispose();
     this.object.geometry = new BufferGeometry().setAttribute('position', new Float32BufferAttribute(ends, 3));
