@@ -102,6 +102,16 @@ test('flat: the view moves before the robot can be seen to, and P and ?predict=0
     const [{ view: shown }, { camera }] = [await operator.state(), await operator.probe()];
     expect(Math.hypot(shown.x - (camera?.x ?? 0), shown.y - (camera?.y ?? 0))).toBeLessThan(0.03);
 
+    // STOP is believed at once, before the robot has confirmed it.
+    const stood = await operator.body();
+    await operator.holdForward();
+    await operator.expectMovedFrom(stood, 0.2);
+    await expect.poll(async () => (await operator.state()).view.state).toBe('predicted');
+    await page.keyboard.press('x');
+    await expect(page.locator('#facts')).toContainText('As reported: the robot is held');
+    await operator.releaseKeys();
+    await operator.releaseEstop();
+
     const plain = await OperatorPage.open(page, stack, { robot: lightRobot.id, predict: '0' });
     await plain.expectPoints(300);
     await expect(page.locator('#facts')).toContainText('prediction is off');

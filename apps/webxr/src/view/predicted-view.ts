@@ -71,16 +71,17 @@ export class PredictedView {
 
   /** Call it for each display frame. Allocates nothing while nobody drives. @param nowMs `performance.now()` */
   update(nowMs: number): void {
-    const { driver, link } = this.#client;
+    const { driver, link, stops } = this.#client;
     const elapsedMs = nowMs - this.#drawnMs;
     this.#drawnMs = nowMs;
     if (elapsedMs > LEAST_FRAME_MS && elapsedMs < MOST_FRAME_MS)
       this.#frameMs += (elapsedMs - this.#frameMs) / 8;
     this.#atMs = nowMs + this.#frameMs;
     const predictor = this.#predictor;
-    // What stops the robot is believed at once.
-    const follows = driver.holder === 'you' && !link.session.estop.latched && !link.interrupted;
-    predictor.driving = this.on.peek() && link.phase === 'live' && follows;
+    predictor.driving = this.on.peek() && link.phase === 'live' && driver.holder === 'you';
+    // In doubt, only what the robot reports is shown.
+    predictor.stopped = link.session.estop.latched || stops.status === 'unconfirmed';
+    predictor.silent = link.interrupted;
     const { asked } = driver.stream;
     if (asked === null) predictor.noWish(nowMs);
     else predictor.wish(nowMs, asked.linear.x, asked.angular.z);

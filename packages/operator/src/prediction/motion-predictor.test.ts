@@ -87,6 +87,18 @@ describe('a predicted pose', () => {
     expect([xAt(predictor, 2900), predictor.aheadMs(2900)]).toEqual([1.72, 0]);
   });
 
+  test('is as reported as soon as a stop is latched or on its way, or the path is lost', () => {
+    const predictor = newPredictor();
+    const reportedAt = drive(predictor, 2000)(1925);
+    predictor.stopped = true;
+    expect([predictor.stateAt(2016), xAt(predictor, 2016)]).toEqual(['held', reportedAt]);
+    predictor.stopped = false;
+    predictor.silent = true;
+    expect([predictor.stateAt(2016), xAt(predictor, 2016)]).toEqual(['stale', reportedAt]);
+    predictor.silent = false;
+    expect(predictor.stateAt(2016)).toBe('predicted');
+  });
+
   test('is as reported where the pose is old although messages come', () => {
     const predictor = newPredictor();
     drive(predictor, 2000);

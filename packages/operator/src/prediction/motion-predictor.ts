@@ -41,8 +41,12 @@ const USUAL_HANDLING_MS = 30;
 const USUAL_LOOP_MS = 100;
 
 export class MotionPredictor {
-  /** Whether this operator's commands move the robot: it holds the lease, and the path is up. */
+  /** Whether this operator's commands move the robot: it holds the lease. */
   driving = false;
+  /** Whether an emergency stop is latched, or is on its way: from then on only reports count. */
+  stopped = false;
+  /** Whether the path is lost. */
+  silent = false;
   /** Poses that were jumps to another place. */
   jumps = 0;
   readonly #window = new TravelWindow();
@@ -141,8 +145,9 @@ export class MotionPredictor {
   stateAt(atMs: number): PredictionState {
     if (!this.#has) return 'no-pose';
     if (!this.driving) return 'not-driving';
-    if (this.#held) return 'held';
-    const isStale = atMs - this.#arrivedMs > STALE_MS || this.#robotAt(atMs) - this.#robotMs > STALE_MS;
+    if (this.#held || this.stopped) return 'held';
+    const isStale =
+      this.silent || atMs - this.#arrivedMs > STALE_MS || this.#robotAt(atMs) - this.#robotMs > STALE_MS;
     return isStale ? 'stale' : 'predicted';
   }
 
