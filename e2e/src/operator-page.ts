@@ -24,6 +24,8 @@ export interface OpenOptions {
   /** `0`: videos are shown as they come, not in step. */
   sync?: '0';
   cues?: '0';
+  /** `0`: the view is not led by commands. */
+  predict?: '0';
   /** How videos are received; by default what suits the browser best. */
   video?: 'track' | 'native' | 'webcodecs';
 }
@@ -85,6 +87,7 @@ export class OperatorPage {
       'barcode',
       'sync',
       'cues',
+      'predict',
       'video',
     ] as const) {
       const value = options[name];

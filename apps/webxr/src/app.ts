@@ -1,5 +1,5 @@
 /** The page: shows on the screen what the robot sends, and sends the robot what the operator's hands do. */
-import { CloudView, isSoftwareRenderer } from '@farpoint/cloud-view';
+import { CloudView } from '@farpoint/cloud-view';
 import { RobotClient, type TransformSupport } from '@farpoint/operator';
 import { computed, effect, untracked } from '@preact/signals-core';
 import { StoredRobots } from './access/known-robots.ts';
@@ -15,13 +15,13 @@ import { loadPlacements, storePlacements } from './panels/stored-panels.ts';
 import type { Settings } from './settings.ts';
 import { tokenOrigin } from './signaling-tokens.ts';
 import { SoundPlayer } from './sound/sound-player.ts';
-import { CloudAppearance } from './state/cloud-appearance.ts';
+import type { CloudAppearance } from './state/cloud-appearance.ts';
 import type { Notices } from './state/notices.ts';
 import { PageState } from './state/page-state.ts';
 import { PageStatistics, type PageStats } from './status/page-stats.ts';
 import { tellNotices } from './status/tell-notices.ts';
 import { failureWords, leavingWords } from './status/words.ts';
-import { loadAppearance, storeAppearance } from './stored-appearance.ts';
+import { openAppearance } from './stored-appearance.ts';
 import { PresentedInstant } from './telemetry/presented-instant.ts';
 import { TelemetryRecorder } from './telemetry/recorder.ts';
 import { AccessUi } from './ui/access-ui.ts';
@@ -45,6 +45,7 @@ import { VideoFeed } from './video/video-feed.ts';
 import { videoReceiver } from './video/video-receiver.ts';
 import { applyAppearance } from './view/apply-appearance.ts';
 import { FrameLoop } from './view/frame-loop.ts';
+import { PredictedView } from './view/predicted-view.ts';
 import { SensorClouds } from './view/sensor-clouds.ts';
 import { showDrivePath } from './view/show-drive-path.ts';
 import { NearFieldDisplay } from './view/show-near-field.ts';
@@ -76,6 +77,8 @@ export class App {
   readonly hold: CloudHold;
   readonly recorder: TelemetryRecorder;
   readonly vr: VrSession;
+  /** Leads the view by the operator's commands. */
+  readonly predicted: PredictedView;
   readonly frames: FrameLoop;
   readonly near: NearFieldDisplay;
   /** Plays the robot's microphone. */
@@ -84,7 +87,6 @@ export class App {
   readonly #inputs: OperatorInputs;
   readonly #controls: ControlsUi;
   readonly #cloudPanel: CloudPanel;
-  readonly #surfaceByDefault: boolean;
   /** The panel on the wrist in VR. */
   wrist: WristPanel | null = null;
   #headset: HeadsetControls | null = null;
@@ -96,13 +98,9 @@ export class App {
   /** @throws {Error} without WebGL 2 */
   constructor(settings: Settings, transform: TransformSupport, notices: Notices) {
     this.settings = settings;
-    const stored = loadAppearance();
-    this.appearance = new CloudAppearance(
-      { ...stored, surface: settings.surface ?? stored.surface },
-      storeAppearance,
-    );
     this.stage = new Stage(elements.stage, settings.canvas, settings.headset);
     const { renderer, world } = this.stage;
+    this.appearance = openAppearance(settings.surface, renderer.getContext());
     const inputPort = {
       onChange: () => this.client.driver.tick(performance.now()),
       onAction: (action, timeMs) => this.#controls.act(action, timeMs),
@@ -123,6 +121,9 @@ export class App {
       inputs: this.#inputs.all,
       ...(receiver?.adopt === undefined ? {} : { onVideoReceiver: receiver.adopt }),
     });
+    // Before the clouds' views, which may release what it reads.
+    this.predicted = new PredictedView(this.client, settings.predict);
+    this.stage.predicted = this.predicted;
     this.state = new PageState({
       ...{ client: this.client, settings, notices, figures: () => this.figures() },
       placements: new PanelPlacements(loadPlacements(), storePlacements),
@@ -161,10 +162,9 @@ export class App {
     this.#controls = new ControlsUi({
       ...{ client, state, stage, vr, appearance, estop: this.#estop, choose, toggleDashboard },
       nextHeadsetView: () => this.#headset?.nextView(),
+      predicted: this.predicted,
     });
-    this.#surfaceByDefault = !isSoftwareRenderer(renderer.getContext());
-    const surfaceByDefault = this.#surfaceByDefault;
-    this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all, surfaceByDefault });
+    this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all });
     this.#sound = new SoundUi({
       ...{ client, player: this.player, state: state.sound },
       tell: ({ text, tone }) => notices.tell(text, tone),
@@ -219,7 +219,9 @@ export class App {
   /** Current figures of the stream and of the drawing. */
   figures(): PageStats {
     const videos = this.videos.stats(performance.now());
-    return this.stats.snapshot(this.client.stats(), this.cloud, this.stage.renderer.domElement, videos);
+    const { renderer } = this.stage;
+    const stats = this.stats.snapshot(this.client.stats(), this.cloud, renderer.domElement, videos);
+    return { ...stats, view: this.predicted.figures };
   }
 
   #show(): void {
@@ -241,7 +243,6 @@ export class App {
       ...{ appearance, sensors: state.sensors, rings: state.rings, clouds, stage, inVr },
       inTabletop: computed(() => headset.view.value === 'tabletop'),
       client: this.client,
-      surfaceByDefault: this.#surfaceByDefault,
     });
     const { driveHand } = this.settings.headset;
     const panel = new WristPanel(renderer, rig, headset.front, driveHand === 'right' ? 'left' : 'right');

@@ -55,6 +55,12 @@ describe('readSettings', () => {
     expect(settings.signalingUrl).toBe('wss://x.org:8443/operator');
   });
 
+  test('leads the view by the commands unless the page address says otherwise', () => {
+    expect(read('').predict).toBe(true);
+    expect(read('predict=0').predict).toBe(false);
+    expect(read('predict=perhaps').predict).toBe(true);
+  });
+
   test('presents videos in step unless the page address or the stored settings say otherwise', () => {
     expect(read('').synchronised).toBe(true);
     expect(read('sync=0').synchronised).toBe(false);

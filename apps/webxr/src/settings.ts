@@ -59,6 +59,8 @@ export interface Settings {
   cues: boolean;
   /** How the headset shows and is held. */
   headset: HeadsetSettings;
+  /** Whether the view is led by the operator's commands. */
+  predict: boolean;
   /** Where tiles of a map come from; `null`: no tile is fetched. */
   mapTiles: MapTiles | null;
   /** How videos are received; `null`: as suits this browser best. */
@@ -118,6 +120,7 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
     synchronised: parseSwitch(query.get('sync')) ?? stored.synchronised ?? true,
     cues: parseSwitch(query.get('cues')) ?? stored.cues ?? true,
     headset: parseHeadset(stored.headset),
+    predict: parseSwitch(query.get('predict')) ?? true,
     mapTiles: mapTilesOf(stored.mapTiles, stored.mapAttribution, page),
     videoReceiver: VIDEO_RECEIVERS.find((name) => name === query.get('video')) ?? null,
     barcode: parseSwitch(query.get('barcode')) ?? false,

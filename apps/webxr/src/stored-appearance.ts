@@ -1,10 +1,26 @@
 /** The appearance of clouds that this browser keeps. */
-import { appearanceText, parseAppearance, type StoredAppearance } from './state/cloud-appearance.ts';
+import { isSoftwareRenderer } from '@farpoint/cloud-view';
+import {
+  appearanceText,
+  CloudAppearance,
+  parseAppearance,
+  type StoredAppearance,
+} from './state/cloud-appearance.ts';
 
 const KEY = 'farpoint.clouds';
 
+/** @param surface whether clouds are drawn as surfaces, if the page's address says so */
+export function openAppearance(
+  surface: boolean | null,
+  gl: WebGLRenderingContext | WebGL2RenderingContext,
+): CloudAppearance {
+  const stored = load();
+  const wanted = { ...stored, surface: surface ?? stored.surface };
+  return new CloudAppearance(wanted, store, !isSoftwareRenderer(gl));
+}
+
 /** The defaults if the page may not use local storage. */
-export function loadAppearance(): StoredAppearance {
+function load(): StoredAppearance {
   try {
     return parseAppearance(localStorage.getItem(KEY));
   } catch {
@@ -12,7 +28,7 @@ export function loadAppearance(): StoredAppearance {
   }
 }
 
-export function storeAppearance(appearance: StoredAppearance): void {
+function store(appearance: StoredAppearance): void {
   try {
     localStorage.setItem(KEY, appearanceText(appearance));
   } catch {

@@ -39,6 +39,14 @@ describe('the appearance of clouds', () => {
     });
   });
 
+  test('clouds are drawn as surfaces as suits the renderer, until somebody chooses', () => {
+    const appearance = new CloudAppearance(nothing, () => {}, true);
+    expect(appearance.drawsSurface.value).toBe(true);
+    appearance.surface.value = false;
+    expect(appearance.drawsSurface.value).toBe(false);
+    expect(new CloudAppearance({ ...nothing, surface: true }, () => {}).drawsSurface.value).toBe(true);
+  });
+
   test('keeps 32 sensors, those changed last', () => {
     const appearance = new CloudAppearance(nothing, () => {});
     for (let i = 0; i < 40; i++) appearance.setLook(`s${i}`, { mode: 'age', fixed: null });

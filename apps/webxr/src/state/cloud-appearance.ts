@@ -1,6 +1,6 @@
 /** How the page shows clouds: what each sensor's colours mean, which heights are drawn, and whether from above. */
 import { COLOUR_MODES, type ColourMode, type HeightCut, type ValueRange } from '@farpoint/cloud-view';
-import { effect, type Signal, signal } from '@preact/signals-core';
+import { computed, effect, type ReadonlySignal, type Signal, signal } from '@preact/signals-core';
 
 /** How one sensor's cloud is coloured. */
 export interface SensorLook {
@@ -45,18 +45,28 @@ export class CloudAppearance {
   readonly cutFromAbove: Signal<Readonly<HeightCut>>;
   readonly headingUp: Signal<boolean>;
   readonly surface: Signal<boolean | null>;
+  /** Whether clouds of depth cameras are drawn as surfaces, chosen or not. */
+  readonly drawsSurface: ReadonlySignal<boolean>;
   /** Whether the flat screen shows the surroundings from above. Each visit begins with the robot's own view. */
   readonly fromAbove = signal(false);
   /** Whether the sensors' frusta are drawn. Each visit begins without them. */
   readonly frusta = signal(false);
 
-  /** @param store keeps every change */
-  constructor(stored: StoredAppearance, store: (appearance: StoredAppearance) => void) {
+  /**
+   * @param store keeps every change
+   * @param surfaceByDefault whether clouds are drawn as surfaces until somebody chooses
+   */
+  constructor(
+    stored: StoredAppearance,
+    store: (appearance: StoredAppearance) => void,
+    surfaceByDefault = false,
+  ) {
     this.looks = signal(stored.looks);
     this.cut = signal(stored.cut);
     this.cutFromAbove = signal(stored.cutFromAbove);
     this.headingUp = signal(stored.headingUp);
     this.surface = signal(stored.surface);
+    this.drawsSurface = computed(() => this.surface.value ?? surfaceByDefault);
     let first = true;
     effect(() => {
       const { looks, cut, cutFromAbove, headingUp, surface } = this;

@@ -28,6 +28,12 @@ const values = (facts: ReturnType<typeof sessionFacts>) =>
   Object.fromEntries(facts.map(({ name, value }) => [name, value]));
 
 describe('the table of figures', () => {
+  test('says whether the view is a prediction, beside what the robot reports', () => {
+    const seen = { ...figures, view: { state: 'predicted', aheadMs: 142 } } as const;
+    expect(values(sessionFacts({ ...session, figures: seen })).View).toBe('Predicted 140 ms ahead');
+    expect(values(sessionFacts({ ...session, figures: seen, telemetry: null })).View).toBeUndefined();
+  });
+
   test('lists what is known, in order', () => {
     expect(values(sessionFacts(session))).toEqual({
       Robot: 'Rover',

@@ -4,6 +4,7 @@ import { BitRate } from '@farpoint/timing';
 import { motionWords, speedLimitWords } from './motion-words.ts';
 import type { PageStats } from './page-stats.ts';
 import type { ShownReading } from './shown-readings.ts';
+import { viewWords } from './view-words.ts';
 import { driveStateWords, type Tone } from './words.ts';
 
 export interface Fact {
@@ -37,6 +38,8 @@ export function sessionFacts({
   const facts: Fact[] = [];
   if (name !== null) facts.push({ name: 'Robot', value: name });
   if (telemetry !== null) facts.push(...telemetryFacts(telemetry, estop, afterGap, maxLinear));
+  if (telemetry !== null && figures.view !== undefined)
+    facts.push({ name: 'View', value: viewWords(figures.view) });
   addReadings(facts, readings);
   facts.push(...streamFacts(figures));
   if (telemetry !== null && telemetry.operators > 1) {

@@ -3,6 +3,7 @@
 import { type Distribution, type DropCounts, SampleWindow, type StreamStats } from '@farpoint/operator';
 import { RateMeter } from '@farpoint/timing';
 import type { VideoStats } from '../video/video-figures.ts';
+import type { ViewFigures } from '../view/predicted-view.ts';
 
 export interface PageStats extends StreamStats {
   /** Since the session began. */
@@ -19,6 +20,8 @@ export interface PageStats extends StreamStats {
   canvas: { width: number; height: number };
   /** How the cameras' videos are presented. */
   videos: VideoStats;
+  /** Whether the view is predicted. */
+  view?: ViewFigures | undefined;
 }
 
 /** What of the cloud has been drawn since the session began. */

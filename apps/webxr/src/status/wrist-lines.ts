@@ -4,6 +4,7 @@ import type { Hand } from '../headset/headset-settings.ts';
 import { lossTone, mbps, ms } from './facts.ts';
 import { motionWords } from './motion-words.ts';
 import type { PageStats } from './page-stats.ts';
+import { viewLead } from './view-words.ts';
 import { driveStateWords, type Words } from './words.ts';
 
 export interface WristFacts {
@@ -72,7 +73,7 @@ export function wristLines({
         tone: 'neutral',
       },
     {
-      text: `rtt ${ms(minRttMs)}  frame ${ms(frameLatencyMs?.p50)}  loss ${(lossRate * 100).toFixed(1)} %`,
+      text: `rtt ${ms(minRttMs)}  frame ${ms(frameLatencyMs?.p50)}  loss ${(lossRate * 100).toFixed(1)} %${viewLead(figures.view)}`,
       tone: lossTone(figures),
     },
     estopLatched

@@ -18,6 +18,7 @@ import type { NearHit } from '../near-field/directions.ts';
 import type { PageStats } from '../status/page-stats.ts';
 import type { DrivePath } from '../view/drive-path.ts';
 import type { NearRing } from '../view/near-ring.ts';
+import type { ViewFigures } from '../view/predicted-view.ts';
 
 export interface PageState {
   signaling: SignalingState;
@@ -49,6 +50,8 @@ export interface PageState {
   /** What is near the robot: the nearest, the words that the page shows, and what is drawn around the robot. */
   near: NearProbe;
   vr: boolean;
+  /** Where the view stands, REP-103 (m, rad), and whether that is a prediction. */
+  view: { x: number; y: number; z: number; yaw: number } & ViewFigures;
 }
 
 export type { PageStats };

@@ -59,6 +59,10 @@ export function installTestApi(app: App): void {
         path: app.stage.path.shown,
         near: nearProbe(app),
         vr: app.vr.active.value,
+        view: {
+          ...{ x: -stage.rig.position.z, y: -stage.rig.position.x, z: stage.rig.position.y },
+          ...{ yaw: stage.rig.rotation.y, ...app.predicted.figures },
+        },
       };
     },
     stats: () => app.figures(),

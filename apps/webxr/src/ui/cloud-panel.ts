@@ -18,7 +18,6 @@ export interface CloudPanelParts {
   /** Empty for a robot with one sensor. */
   readonly sensors: Switches;
   readonly views: ReadonlySignal<readonly CloudView[]>;
-  readonly surfaceByDefault: boolean;
 }
 
 export class CloudPanel {
@@ -54,7 +53,7 @@ export class CloudPanel {
       legends.replaceChildren(...this.#legends.map((legend) => legend.element));
     });
     const ofSensors = element('');
-    const surface = surfaceControls(appearance, parts.surfaceByDefault);
+    const surface = surfaceControls(appearance);
     controls.append(ofSensors, surface, cutControls(appearance), frustaSwitch(appearance));
     effect(() => {
       const parts = this.#names().map((name, i) =>

@@ -3,6 +3,8 @@ import { LatencyError, type RobotClient } from '@farpoint/operator';
 import { effect } from '@preact/signals-core';
 import type { CloudAppearance } from '../state/cloud-appearance.ts';
 import type { PageState } from '../state/page-state.ts';
+import { predictionWords } from '../status/view-words.ts';
+import type { PredictedView } from '../view/predicted-view.ts';
 import type { Stage } from '../view/stage.ts';
 import type { HeadsetMode, VrSession } from '../view/vr-session.ts';
 import { elements } from './elements.ts';
@@ -28,6 +30,7 @@ export interface Controlled {
   /** Shows the next view in the headset. */
   nextHeadsetView(): void;
   readonly estop: EstopUi;
+  readonly predicted: Pick<PredictedView, 'on'>;
   choose(robotId: string): void;
   /** Opens or closes the dashboard. */
   toggleDashboard(): void;
@@ -87,6 +90,9 @@ export class ControlsUi {
       case 'dashboard':
         this.#parts.toggleDashboard();
         return;
+      case 'predict':
+        this.#togglePrediction();
+        return;
       case 'swap':
         this.#parts.state.swap();
         return;
@@ -107,6 +113,13 @@ export class ControlsUi {
         state.notices.tell(latencyFailureWords[error.reason], 'warning');
       },
     );
+  }
+
+  #togglePrediction(): void {
+    const { predicted, state } = this.#parts;
+    predicted.on.value = !predicted.on.peek();
+    state.notices.tell(predictionWords(predicted.on.peek()));
+    state.sample();
   }
 
   #nextRobot(): void {

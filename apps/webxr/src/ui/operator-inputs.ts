@@ -17,6 +17,7 @@ export type Action =
   | 'from-above'
   | 'enlarge'
   | 'dashboard'
+  | 'predict'
   | 'swap'
   | 'next-robot';
 
@@ -30,6 +31,7 @@ const ACTION_KEYS: Readonly<Record<string, Action>> = {
   KeyE: 'enlarge',
   KeyB: 'dashboard',
   KeyF: 'swap',
+  KeyP: 'predict',
   KeyN: 'next-robot',
 };
 /** Hold to release the emergency stop. Enter on the release control does the same. */

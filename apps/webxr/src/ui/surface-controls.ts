@@ -3,13 +3,12 @@ import { effect } from '@preact/signals-core';
 import type { CloudAppearance } from '../state/cloud-appearance.ts';
 import { quietButton, rowOf } from './panel-parts.ts';
 
-/** @param byDefault how they are drawn until somebody chooses */
-export function surfaceControls({ surface }: CloudAppearance, byDefault: boolean): HTMLElement {
+export function surfaceControls({ surface, drawsSurface }: CloudAppearance): HTMLElement {
   const button = quietButton('Surfaces', 'Draw clouds of depth cameras as surfaces, or as points', () => {
-    surface.value = !(surface.peek() ?? byDefault);
+    surface.value = !drawsSurface.peek();
   });
   effect(() => {
-    button.ariaPressed = String(surface.value ?? byDefault);
+    button.ariaPressed = String(drawsSurface.value);
   });
   return rowOf('Draw', button);
 }

@@ -18,13 +18,11 @@ export interface AppearanceParts {
   /** Whether the headset shows the world as a model, seen from above. */
   readonly inTabletop: ReadonlySignal<boolean>;
   readonly client: Pick<RobotClient, 'drawSurface'>;
-  /** Whether clouds are drawn as surfaces until somebody chooses. */
-  readonly surfaceByDefault: boolean;
 }
 
 export function applyAppearance(parts: AppearanceParts): void {
-  const { appearance, sensors, rings, clouds, stage, inVr, inTabletop, client, surfaceByDefault } = parts;
-  effect(() => client.drawSurface(appearance.surface.value ?? surfaceByDefault));
+  const { appearance, sensors, rings, clouds, stage, inVr, inTabletop, client } = parts;
+  effect(() => client.drawSurface(appearance.drawsSurface.value));
   const { fromAbove, headingUp, cut, cutFromAbove } = appearance;
   effect(() => {
     for (const [i, { colouring }] of clouds.all.value.entries()) {

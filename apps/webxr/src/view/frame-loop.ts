@@ -81,6 +81,7 @@ export class FrameLoop {
     if (!inVr && !this.#gate.mayDraw(cloud.endedFrame, beganMs)) return;
     this.#gate.onDraw(cloud.endedFrame, beganMs);
     if (inVr) this.#parts.readHeadset();
+    stage.predicted?.update(performance.now());
     stage.prepare(cloud, nowMs);
     stage.renderer.render(stage.scene, stage.viewCamera);
     // Wait only when a time is being measured: waiting for the GPU costs frames.

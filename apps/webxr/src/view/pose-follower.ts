@@ -22,6 +22,16 @@ export class PoseFollower {
     return this.#started;
   }
 
+  /** Stands there at once; only the height is followed. What is placed so is smooth by itself. */
+  place(x: number, y: number, z: number, yaw: number, elapsedMs: number): void {
+    const jump = !this.#started || Math.abs(z - this.z) > JUMP_M;
+    this.z += (z - this.z) * (jump ? 1 : this.#share(elapsedMs));
+    this.x = x;
+    this.y = y;
+    this.yaw = yaw;
+    this.#started = true;
+  }
+
   /** @param elapsedMs time since the last call */
   follow(x: number, y: number, z: number, yaw: number, elapsedMs: number): void {
     const dx = x - this.x;
@@ -29,12 +39,16 @@ export class PoseFollower {
     const dz = z - this.z;
     // A step longer than a stride is a jump to another place, not motion.
     const jump = !this.#started || dx * dx + dy * dy + dz * dz > JUMP_M * JUMP_M;
-    const share = jump ? 1 : 1 - Math.exp(-Math.max(elapsedMs, 0) / this.#timeConstantMs);
+    const share = jump ? 1 : this.#share(elapsedMs);
     this.x += dx * share;
     this.y += dy * share;
     this.z += dz * share;
     this.yaw += shortestTurn(yaw - this.yaw) * share;
     this.#started = true;
+  }
+
+  #share(elapsedMs: number): number {
+    return 1 - Math.exp(-Math.max(elapsedMs, 0) / this.#timeConstantMs);
   }
 }
 

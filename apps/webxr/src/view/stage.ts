@@ -12,7 +12,9 @@ import { DrivePath } from './drive-path.ts';
 import { GroundGrid } from './ground-grid.ts';
 import { Look } from './look.ts';
 import { NearRing } from './near-ring.ts';
-import { PoseFollower } from './pose-follower.ts';
+import { PoseFollower, shortestTurn } from './pose-follower.ts';
+import type { PredictedView } from './predicted-view.ts';
+import { RobotGhost } from './robot-ghost.ts';
 import { RobotMarker } from './robot-marker.ts';
 import { TopDownCamera } from './top-down-camera.ts';
 
@@ -44,9 +46,12 @@ export class Stage {
   readonly path = new DrivePath();
   /** What is near the robot, around it. */
   readonly near = new NearRing();
+  /** Where the robot is when the picture is shown; `null`: the view follows the clouds. */
+  predicted: PredictedView | null = null;
   /** From above, the robot's heading is up; otherwise north. */
   headingUp = true;
   readonly #marker = new RobotMarker();
+  readonly #ghost = new RobotGhost();
   readonly #grid = new GroundGrid();
   readonly #follower = new PoseFollower(FOLLOW_MS);
   readonly #topDown = new TopDownCamera();
@@ -72,7 +77,7 @@ export class Stage {
     this.renderer.xr.setReferenceSpaceType('local');
     this.scene.background = new Color(BACKGROUND);
     this.#marker.object.add(this.near.object, this.path.object);
-    this.world.add(this.#marker.object);
+    this.world.add(this.#marker.object, this.#ghost.object);
     this.rig.add(this.camera, this.headset.front);
     this.camera.add(this.#vignette.object, this.#front.object);
     this.scene.add(this.world, this.rig, this.#grid.object);
@@ -122,11 +127,13 @@ export class Stage {
     this.#bodyFollower.reset();
     this.headset.align();
     this.#marker.object.visible = false;
+    this.#ghost.hide();
   }
 
   /** The robot's outline; `null` while it is not known. */
   set robotBody(body: RobotBody | null) {
     this.path.body = body;
+    this.#ghost.body = body;
     this.#marker.boxed = body === null;
   }
 
@@ -148,12 +155,19 @@ export class Stage {
     const elapsed = nowMs - this.#lastMs;
     this.#lastMs = nowMs;
     const follower = this.#follower;
+    const placed = this.predicted?.places ? this.predicted : null;
     if (cloud.hasPoints) {
-      const { x, y, z } = cloud.cameraPosition;
       this.look.fit(cloud.imageExtent);
-      follower.follow(x, y, z, opticalYaw(cloud.cameraOrientation, follower.yaw), elapsed);
+      if (placed !== null) {
+        const { x, y, z, yaw } = placed.camera;
+        follower.place(x, y, z, yaw, elapsed);
+      } else {
+        const { x, y, z } = cloud.cameraPosition;
+        follower.follow(x, y, z, opticalYaw(cloud.cameraOrientation, follower.yaw), elapsed);
+      }
     }
-    this.#followBody(elapsed);
+    this.#followBody(elapsed, placed);
+    this.#showGhost(placed);
     const inVr = this.renderer.xr.isPresenting;
     if (follower.started) {
       if (inVr) this.#placeHeadset(elapsed);
@@ -169,14 +183,29 @@ export class Stage {
     this.#marker.onTop = isSeenFromAbove;
     this.path.onTop = isSeenFromAbove;
     this.near.onTop = isSeenFromAbove;
+    this.#ghost.onTop = isSeenFromAbove;
     if (this.#isFromAbove) this.#placeTopDown();
     else if (!inVr) this.#placeFlatCamera();
   }
 
-  #followBody(elapsedMs: number): void {
+  #followBody(elapsedMs: number, placed: PredictedView | null): void {
     const { visible, position, quaternion } = this.#marker.object;
-    if (!visible) return;
-    this.#bodyFollower.follow(position.x, position.y, position.z, bodyYaw(quaternion), elapsedMs);
+    const body = this.#bodyFollower;
+    if (placed !== null) {
+      const { x, y, z, yaw } = placed.body;
+      body.place(x, y, z, yaw, elapsedMs);
+    } else if (visible) body.follow(position.x, position.y, position.z, bodyYaw(quaternion), elapsedMs);
+  }
+
+  #showGhost(placed: PredictedView | null): void {
+    const { object } = this.#marker;
+    if (placed === null || !placed.isPrediction || !object.visible) {
+      this.#ghost.hide();
+      return;
+    }
+    const { x, y, z, yaw } = placed.body;
+    const off = Math.hypot(x - object.position.x, y - object.position.y);
+    this.#ghost.show(x, y, z, yaw, off, shortestTurn(yaw - bodyYaw(object.quaternion)));
   }
 
   #placeHeadset(elapsedMs: number): void {

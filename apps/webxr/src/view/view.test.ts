@@ -58,6 +58,17 @@ describe('PoseFollower', () => {
     expect(follower.x).toBe(50);
   });
 
+  test('placed, it stands there at once and follows the height; from there it follows again', () => {
+    const follower = new PoseFollower(100);
+    follower.place(1, 2, 1, 0.5, 16);
+    expect([follower.x, follower.y, follower.z, follower.yaw]).toEqual([1, 2, 1, 0.5]);
+    follower.place(3, 2, 1.1, 0.7, 100);
+    expect([follower.x, follower.yaw]).toEqual([3, 0.7]);
+    expect(follower.z).toBeCloseTo(1.0632, 4);
+    follower.follow(3.1, 2, 1.1, 0.7, 100);
+    expect(follower.x).toBeCloseTo(3.0632, 4);
+  });
+
   test('shortestTurn stays within half a turn', () => {
     fc.assert(
       fc.property(fc.double({ min: -100, max: 100, noNaN: true }), (angle) => {

@@ -4,7 +4,7 @@
  * is an argument.
  */
 import { type Command, type DriveLimits, nextSequence32, type Twist, zeroTwist } from '@farpoint/protocol';
-import { type DriveWish, REST, toTwist } from './velocity-mapping.ts';
+import { type DriveWish, intoTwist, REST, toTwist } from './velocity-mapping.ts';
 
 export const COMMANDS_PER_SECOND = 40;
 /** Number of zero commands sent after the grip is released. */
@@ -19,6 +19,7 @@ export class CommandStream {
   #wish: DriveWish = { ...REST };
   #held = false;
   #readMs: number | null = null;
+  readonly #asked: Twist = zeroTwist();
   #stopsLeft = 0;
   #restsLeft = 0;
   #nextMs = 0;
@@ -74,10 +75,10 @@ export class CommandStream {
     this.#restsLeft = FIRST_RESTS;
   }
 
-  /** The velocity that the hand asks for now; `null` while it drives nothing. */
+  /** The velocity that the hand asks for now, the same object each time; `null` while it drives nothing. */
   get asked(): Twist | null {
     if (!this.#held || this.#limits === null || this.#lease === null) return null;
-    return toTwist(this.#wish, this.#limits);
+    return intoTwist(this.#wish, this.#limits, this.#asked);
   }
 
   /** The command due now, if any. */

@@ -24,6 +24,8 @@ const LEASE_RETRY_MS = 500;
 export class Driver {
   /** The commands that are sent. */
   readonly stream = new CommandStream();
+  /** Called for each command that leaves. */
+  onCommand: ((command: Command) => void) | null = null;
   readonly #port: DriverPort;
   readonly #inputs: DriveInput[];
   #input: DriveInput | null = null;
@@ -150,7 +152,9 @@ export class Driver {
     if (held && this.#holder !== 'you') this.#ask(nowMs);
     if (!held) this.#toldOther = false;
     const command = this.stream.tick(nowMs);
-    if (command !== null) this.#port.sendCommand(command);
+    if (command === null) return;
+    this.#port.sendCommand(command);
+    this.onCommand?.(command);
   }
 
   #ask(nowMs: number): void {

@@ -1,0 +1,30 @@
+import { expect, test } from 'vitest';
+import { meetsTargets } from './prediction.ts';
+import { type DriveSpec, driveOnce } from './prediction-run.ts';
+
+const spec: DriveSpec = {
+  ...{ base: 'sim', loopMs: 150, upShare: 0.5, jitterMs: 0, loss: 0, noiseM: 0, rounds: 2, seed: 1 },
+};
+
+test('over a loop of 150 ms at 1 m/s the view is where the robot is, from a model that was not given', () => {
+  const result = driveOnce(spec);
+  expect(meetsTargets(result), JSON.stringify(result)).toBe(true);
+});
+
+test('the same drive gives the same figures', () => {
+  const short = { ...spec, loopMs: 60 };
+  expect(driveOnce(short)).toEqual(driveOnce(short));
+});
+
+test('a base that lags, ignores small commands and is slower than told is learnt as well', () => {
+  const { ratioM, ratioDeg, correctionM, model } = driveOnce({ ...spec, base: 'sluggish' });
+  expect(Math.min(ratioM, ratioDeg)).toBeGreaterThan(3);
+  expect(correctionM).toBeLessThanOrEqual(0.03);
+  expect((model.linear as { gain: number }).gain).toBeCloseTo(0.85, 1);
+});
+
+test('jitter and loss do not tear the view about', () => {
+  const { ratioM, correctionM } = driveOnce({ ...spec, jitterMs: 20, loss: 0.05 });
+  expect(ratioM).toBeGreaterThan(2);
+  expect(correctionM).toBeLessThanOrEqual(0.03);
+});

@@ -1,0 +1,101 @@
+/**
+ * How a wheeled base follows velocity commands: after a dead time each axis approaches gain · command with a first-order
+ * lag, and no faster than its acceleration allows. Unicycle kinematics. SI units, REP-103. Allocates nothing.
+ */
+
+/** One axis: along the heading in m/s, or about the vertical in rad/s. */
+export interface AxisModel {
+  /** The velocity that a command of 1 leads to. */
+  gain: number;
+  /** Time constant of the lag, s. */
+  lagS: number;
+  /** The most that the velocity changes away from zero, m/s² or rad/s². */
+  rise: number;
+  /** The most that it changes towards zero, m/s² or rad/s². */
+  fall: number;
+}
+
+export interface BaseModel {
+  /** From the sending of a command until the operator could see its first effect on the fastest way back, ms. */
+  delayMs: number;
+  linear: AxisModel;
+  angular: AxisModel;
+}
+
+/** Where a base is and how fast it moves. */
+export interface BaseMotion {
+  /** base_link in the world, m. */
+  x: number;
+  y: number;
+  /** Radians, not wrapped. */
+  yaw: number;
+  /** m/s along the heading. */
+  linear: number;
+  /** rad/s, positive to the left. */
+  angular: number;
+}
+
+/** Longest step of an integration, ms. */
+export const STEP_MS = 10;
+
+/**
+ * What is assumed of a robot of which nothing is known yet. Rather slow: who expects too little is never ahead of the
+ * robot.
+ */
+export function usualBase(delayMs: number): BaseModel {
+  return {
+    delayMs,
+    linear: { gain: 1, lagS: 0.15, rise: 0.7, fall: 1.5 },
+    angular: { gain: 1, lagS: 0.15, rise: 2, fall: 2 },
+  };
+}
+
+/** The axis' velocity after `dtS` seconds of this target. */
+export function stepAxis(velocity: number, target: number, axis: Readonly<AxisModel>, dtS: number): number {
+  const difference = target - velocity;
+  const slower = velocity * target < 0 || Math.abs(target) < Math.abs(velocity);
+  const most = (slower ? axis.fall : axis.rise) * dtS;
+  const change = difference * -Math.expm1(-dtS / axis.lagS);
+  return velocity + Math.min(Math.max(change, -most), most);
+}
+
+/** Lets `dtS` seconds pass, along the chord of the arc. @param linear and angular: what the axes approach */
+export function stepBase(
+  motion: BaseMotion,
+  model: Readonly<BaseModel>,
+  linear: number,
+  angular: number,
+  dtS: number,
+): void {
+  const nextLinear = stepAxis(motion.linear, linear, model.linear, dtS);
+  const nextAngular = stepAxis(motion.angular, angular, model.angular, dtS);
+  coast(motion, (motion.linear + nextLinear) / 2, (motion.angular + nextAngular) / 2, dtS);
+  motion.linear = nextLinear;
+  motion.angular = nextAngular;
+}
+
+/** Moves with a constant velocity for `dtS` seconds, which may be negative. */
+export function coast(motion: BaseMotion, linear: number, angular: number, dtS: number): void {
+  const turn = angular * dtS;
+  const heading = motion.yaw + turn / 2;
+  motion.x += linear * dtS * Math.cos(heading);
+  motion.y += linear * dtS * Math.sin(heading);
+  motion.yaw += turn;
+}
+
+export function copyMotion(from: Readonly<BaseMotion>, into: BaseMotion): void {
+  into.x = from.x;
+  into.y = from.y;
+  into.yaw = from.yaw;
+  into.linear = from.linear;
+  into.angular = from.angular;
+}
+
+export function standingAt(x = 0, y = 0, yaw = 0): BaseMotion {
+  return { x, y, yaw, linear: 0, angular: 0 };
+}
+
+/** The angle between −π and π, radians. */
+export function shortestTurn(angle: number): number {
+  return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
+}
