@@ -72,9 +72,9 @@ export class App {
   readonly stats = new PageStatistics();
   /** The capture instant of what is shown. */
   readonly presented = new PresentedInstant();
-  /** The robot's telemetry over time. */
   /** Clouds wait here for the videos that were captured with them. */
   readonly hold: CloudHold;
+  /** The robot's telemetry over time. */
   readonly recorder: TelemetryRecorder;
   readonly vr: VrSession;
   /** Leads the view by the operator's commands. */
@@ -153,10 +153,9 @@ export class App {
       tell: ({ text, tone }) => notices.tell(text, tone),
     });
     this.#estop = new EstopUi(this.client, this.state.robot, this.#release);
-    const { client, state, stage, cloud, clouds, videos, stats, vr, appearance } = this;
+    const { client, state, stage, cloud, clouds, videos, stats, vr, appearance, recorder, presented } = this;
     this.near = new NearFieldDisplay(client, stage, vr.active);
     const choose = (robotId: string) => this.choose(robotId);
-    const { recorder, presented } = this;
     const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });
     const toggleDashboard = () => dashboard.toggle();
     this.#controls = new ControlsUi({

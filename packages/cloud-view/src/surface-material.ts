@@ -126,9 +126,10 @@ void main() {
   vec4 world = vec4(direction + pose.xyz * inverse, inverse);
   gl_Position = projectionMatrix * (modelViewMatrix * world);
   height = world.zw;
-  // A metre at a depth of 1 m covers this in this picture; gl_Position.w is how many times as far away the eye is.
+  // A metre at a depth of 1 m covers this in this picture; gl_Position.w is how many times as far away the eye is, in a
+  // world that may be a model.
   float s0 = 0.5 * viewportHeight * projectionMatrix[1][1];
-  float nominal = gl_Position.w / s0;
+  float nominal = gl_Position.w / (s0 * length(modelViewMatrix[0].xyz));
   leastPixels = lens.x * lens.y * nominal * nominal / ${MOST_STRETCH.toFixed(1)};
 
   uint colour = texel >> 16;

@@ -2,31 +2,22 @@
 
 use core::ops::Range;
 
+use crate::fill::write_thinned;
+use crate::mend::mend;
 use crate::paint::Colours;
+use crate::surface_sample::{bits565, half};
 use crate::tile::{Grid, Pattern, Place, TILE, Tile};
 
 /// Samples of a tile.
 pub const TILE_SAMPLES: usize = TILE * TILE;
 /// Planes that pass the camera's centre nearer than this are torn where they are seen from the side, metres.
 const NEAREST_PLANE: f32 = 0.2;
-/// Noise of inverse depth between neighbouring pixels, as a share of it.
-const NOISE: f32 = 0.02;
-
 /// The tiles of a frame, [`TILE_SAMPLES`] each, row by row. A sample is the inverse depth as a half float, 1/m, 0 where
 /// nothing was seen, in the lower 16 bits, and the colour in 5-6-5 bits, R highest, in the upper.
 pub(crate) struct Surface {
     pub samples: Vec<u32>,
     /// The largest difference of inverse depth of neighbouring pixels on one surface, beside the noise, 1/m.
     slope: f32,
-}
-
-/// A pixel being filled in.
-#[derive(Clone, Copy, Default)]
-struct Sample {
-    /// Inverse depth, 1/m; 0 for none.
-    inverse: f32,
-    /// R, G, B, 0 to 255.
-    colour: [f32; 3],
 }
 
 impl Surface {
@@ -58,19 +49,6 @@ impl Surface {
     }
 }
 
-/// A positive number as a half float, rounded to the nearest; those below 2⁻¹⁴ mean nothing.
-#[inline(always)]
-fn half(value: f32) -> u32 {
-    const BIAS: u32 = (127 - 15) << 23;
-    (value.to_bits().wrapping_sub(BIAS).wrapping_add(1 << 12) >> 13) & 0x7fff
-}
-
-/// From R, G, B, A, R lowest.
-#[inline(always)]
-const fn bits565(rgba: u32) -> u32 {
-    (rgba & 0xf8) << 8 | (rgba >> 5 & 0x7e0) | (rgba >> 19 & 0x1f)
-}
-
 /// A tile of which every pixel may have come.
 #[inline(never)]
 fn write_whole(tile: &Tile, colours: &Colours, step: f32, samples: &mut [u32; TILE_SAMPLES]) {
@@ -85,151 +63,10 @@ fn write_whole(tile: &Tile, colours: &Colours, step: f32, samples: &mut [u32; TI
     }
 }
 
-/// Fills in pixels that were not seen beside those of a surface, such as a stereo camera's speckle: no more than a pixel, which is
-/// what a disc of a pixel's width covers, too.
-#[inline(never)]
-fn mend(tile: &Tile, slope: f32, inside: (usize, usize), samples: &mut [u32; TILE_SAMPLES]) {
-    let before = *samples;
-    let in_image = u16::MAX >> TILE.saturating_sub(inside.0);
-    for (y, row) in tile.rows.iter().enumerate().take(inside.1) {
-        let mut missing = !row & in_image;
-        while missing != 0 {
-            let x = missing.trailing_zeros() as usize;
-            missing &= missing - 1;
-            if let Some(mean) = mean_around(&before, x, y, slope) {
-                samples[y * TILE + x] = mean;
-            }
-        }
-    }
-}
-
-/// The mean of the neighbours in the tile that lie on one surface with their median, where these are three of eight or as large
-/// a share.
-fn mean_around(samples: &[u32; TILE_SAMPLES], x: usize, y: usize, slope: f32) -> Option<u32> {
-    let (mut seen, mut count, mut near) = ([0; 8], 0, 0);
-    for v in y.saturating_sub(1)..=(y + 1).min(TILE - 1) {
-        for u in x.saturating_sub(1)..=(x + 1).min(TILE - 1) {
-            near += usize::from((u, v) != (x, y));
-            let sample = samples[v * TILE + u];
-            if sample != 0 {
-                seen[count] = sample;
-                count += 1;
-            }
-        }
-    }
-    if 8 * count < 3 * near {
-        return None;
-    }
-    let seen = &mut seen[..count];
-    // Half floats above 0 have the order of their bits.
-    seen.sort_unstable_by_key(|sample| sample & 0xffff);
-    let median = value(seen[count / 2]);
-    let limit = 2.0 * slope + NOISE * median;
-    let (mut sum, mut channels, mut on) = (0.0, [0_u32; 3], 0_u32);
-    for sample in seen.iter().filter(|sample| (value(**sample) - median).abs() <= limit) {
-        sum += value(*sample);
-        let colour = sample >> 16;
-        for (channel, own) in channels.iter_mut().zip([colour >> 11, colour >> 5 & 63, colour & 31]) {
-            *channel += own;
-        }
-        on += 1;
-    }
-    if 8 * (on as usize) < 3 * near {
-        return None;
-    }
-    let [r, g, b] = channels.map(|sum| (sum + on / 2) / on);
-    Some(half(sum / on as f32) | (r << 11 | g << 5 | b) << 16)
-}
-
-/// The inverse depth of a sample that is there.
-#[inline(always)]
-fn value(sample: u32) -> f32 {
-    f32::from_bits(((sample & 0x7fff) << 13) + ((127 - 15) << 23))
-}
-
-/// A tile whose other pixels are filled in: on a surface with what lies between its neighbours, at an edge with the nearest.
-#[inline(never)]
-fn write_thinned(
-    tile: &Tile,
-    colours: &Colours,
-    step: f32,
-    slope: f32,
-    inside: (usize, usize),
-    samples: &mut [u32; TILE_SAMPLES],
-) {
-    let Pattern(pattern) = tile.pattern;
-    let (width, height) = (tile.pattern.width(), tile.pattern.height());
-    let odd = usize::from(pattern & 1);
-    let shift = pattern >> 1;
-    let mut rows = [[Sample::default(); TILE]; TILE];
-    for (y, row) in rows.iter_mut().enumerate().take(height) {
-        let mut kept = [Sample::default(); TILE];
-        let depths = tile.depth.row(y);
-        for x in (0..width).filter(|x| tile.rows[y] >> x & 1 == 1) {
-            let [r, g, b, _] = colours.rgba[y * TILE + x].to_le_bytes();
-            kept[x] = Sample { inverse: f32::from(depths[x]) * step, colour: [r.into(), g.into(), b.into()] };
-        }
-        fill(&kept[..width], (odd & y) << shift, 1 << (usize::from(shift) + odd), slope, row);
-    }
-    for x in 0..TILE.min(inside.0) {
-        let column = rows.map(|row| row[x]);
-        let mut filled = [Sample::default(); TILE];
-        fill(&column[..height], 0, 1 << shift, slope, &mut filled);
-        for (y, Sample { inverse, colour: [r, g, b] }) in filled.into_iter().enumerate().take(inside.1) {
-            let rgba = u32::from_le_bytes([r as u8, g as u8, b as u8, 255]);
-            samples[y * TILE + x] = if inverse > 0.0 { half(inverse) | bits565(rgba) << 16 } else { 0 };
-        }
-    }
-}
-
-/// True where two samples some pixels apart may lie on one surface.
-fn joined(a: Sample, b: Sample, pixels: f32, slope: f32) -> bool {
-    a.inverse > 0.0
-        && b.inverse > 0.0
-        && (a.inverse - b.inverse).abs() <= slope * pixels + NOISE * a.inverse.max(b.inverse)
-}
-
-/// Fills a line in whose pixels `first`, `first + step`, … are kept.
-fn fill(kept: &[Sample], first: usize, step: usize, slope: f32, line: &mut [Sample; TILE]) {
-    if step == 1 {
-        line[..kept.len()].copy_from_slice(kept);
-        return;
-    }
-    let pixels = step as f32;
-    let last = kept.len() - 1;
-    for (x, own) in line.iter_mut().enumerate() {
-        let left = (x.saturating_sub(first) / step).min(last);
-        let beyond = x < first || left == last;
-        // Beyond the last one, the line goes on as it was before.
-        let (a, b, from) = if !beyond {
-            (kept[left], kept[left + 1], first + left * step)
-        } else if last == 0 {
-            *own = kept[0];
-            continue;
-        } else if left == last {
-            (kept[last], kept[last - 1], first + last * step)
-        } else {
-            (kept[0], kept[1], first)
-        };
-        let away = (x.abs_diff(from)) as f32 / pixels;
-        let is_joined = joined(a, b, pixels, slope);
-        *own = match (is_joined, beyond) {
-            (true, false) => Sample {
-                inverse: a.inverse + (b.inverse - a.inverse) * away,
-                colour: core::array::from_fn(|c| a.colour[c] + (b.colour[c] - a.colour[c]) * away),
-            },
-            (true, true) => Sample { inverse: (a.inverse - (b.inverse - a.inverse) * away).max(0.0), ..a },
-            (false, true) => a,
-            // In the middle, what was seen.
-            (false, false) if away < 0.5 || (away == 0.5 && b.inverse == 0.0) => a,
-            (false, false) => b,
-        };
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surface_sample::value;
 
     const FOCAL: f32 = 400.0;
 
