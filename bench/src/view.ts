@@ -18,7 +18,7 @@ and loss delivers them, are decoded and drawn in a headless Chromium without a G
 camera's place sees, and one above and behind the robot, is compared with what is truly there: holes is the share of
 pixels that should show something and show nothing, ssim the similarity of brightness, depthErrorM the median error.
 Drawn as surfaces, as discs (the same packets), and as the reference system's points (points64, sampled, at the same
-rate). --pictures writes the last second's pictures as PNG files.`;
+rate). --pictures writes the last second's pictures, one PNG file for each eye: truth, surface, discs, reference.`;
 
 /** What is compared: how the robot codes its clouds, and how they are drawn. */
 const MODES = [
@@ -67,14 +67,16 @@ export const bench: Bench = {
     const seconds = numberOption('seconds', values.seconds, FROM_S + 1);
     const browser = await ViewBrowser.open();
     const results: Record<string, ModeResult> = {};
+    const last: Picture[][] = EYES.map(() => []);
     try {
       for (const mode of MODES) {
         console.error(`${mode.name} …`);
-        results[mode.name] = await drawn(browser, mode, options, seconds, values.pictures);
+        results[mode.name] = await drawn(browser, mode, options, seconds, last);
       }
     } finally {
       await browser.close();
     }
+    if (values.pictures !== undefined) writePictures(values.pictures, last, options.size);
     printTable(
       ['', 'holes', 'ssim', 'depth error m', 'behind: holes', 'ssim', 'draw ms p50', 'main ms p50'],
       Object.entries(results).map(([name, { eyes, drawMs, mainThreadMs }]) => {
@@ -97,10 +99,10 @@ export const bench: Bench = {
 
 async function drawn(
   browser: ViewBrowser,
-  { name, format, surface }: (typeof MODES)[number],
+  { format, surface }: (typeof MODES)[number],
   options: DriveOptions,
   seconds: number,
-  pictures: string | undefined,
+  last: Picture[][],
 ): Promise<ModeResult> {
   const { framesPerSecond, size } = options;
   // The same seed: every mode sees the same drive.
@@ -118,10 +120,10 @@ async function drawn(
       const seen = await browser.look(pose, eye.fieldOfView);
       differences[i]?.push(differenceOf(seen.picture, truth, size));
       if (i === 0) drawMs.push(seen.drawMs);
-      if (pictures === undefined || frame + framesPerSecond <= frames) continue;
-      mkdirSync(pictures, { recursive: true });
-      write(join(pictures, `${eye.name}-${name}.png`), seen.picture, size);
-      write(join(pictures, `${eye.name}-truth.png`), truth, size);
+      if (frame + framesPerSecond <= frames) continue;
+      const pictures = last[i] as Picture[];
+      if (pictures.length === 0) pictures.push(truth);
+      pictures.push(seen.picture);
     }
   }
   drive.close();
@@ -140,8 +142,20 @@ function meanOf(all: readonly PictureDifference[]): PictureDifference {
   };
 }
 
-function write(file: string, { colour }: Picture, size: number): void {
-  const data = colour.slice();
-  for (let i = 3; i < data.length; i += 4) data[i] = 255;
-  writeFileSync(file, encode({ width: size, height: size, data, channels: 4 }));
+/** Side by side, a file for each eye. */
+function writePictures(folder: string, last: readonly (readonly Picture[])[], size: number): void {
+  mkdirSync(folder, { recursive: true });
+  for (const [i, pictures] of last.entries()) {
+    const width = size * pictures.length;
+    const data = new Uint8Array(width * size * 4).fill(255);
+    for (const [place, { colour }] of pictures.entries()) {
+      for (let pixel = 0; pixel < size * size; pixel++) {
+        const at = (Math.floor(pixel / size) * width + place * size + (pixel % size)) * 4;
+        for (let channel = 0; channel < 3; channel++)
+          data[at + channel] = colour[pixel * 4 + channel] as number;
+      }
+    }
+    const file = join(folder, `${EYES[i]?.name}.png`);
+    writeFileSync(file, encode({ width, height: size, data, channels: 4 }));
+  }
 }

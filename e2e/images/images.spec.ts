@@ -6,7 +6,7 @@ import { Headset } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
-const WHOLE_CLOUD = { ...simulatedRobot, args: ['--source', 'sim', '--sim-seed', '1', '--fps', '10'] };
+const WHOLE_CLOUD = { ...simulatedRobot, args: ['--source', 'sim', '--sim-seed', '1', '--fps', '5'] };
 
 /** Two eyes, or a dashboard, are more than the software renderer of a small machine draws beside the whole cloud. */
 const SAMPLE = {
@@ -25,7 +25,9 @@ async function expectQuiet(page: Page): Promise<void> {
 test('operator-view', async ({ page, startStack }) => {
   await page.setViewportSize({ width: 1280, height: 720 });
   const stack = await startStack({ robots: [WHOLE_CLOUD] });
-  const operator = await OperatorPage.open(page, stack, { robot: WHOLE_CLOUD.id, every: '1' });
+  const operator = await OperatorPage.open(page, stack, {
+    ...{ robot: WHOLE_CLOUD.id, every: '1', surface: '1' },
+  });
   await operator.expectPoints(100_000);
   await expectQuiet(page);
   await save(page, 'operator-view');
