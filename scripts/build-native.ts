@@ -1,7 +1,7 @@
 /**
- * `pnpm build:native [shared-memory] [gpio] [systemd] [udp-batch] [dds] [video] [sound]`: builds the native addons and the
- * programs for video and sound; without a name, all of them. In that case DDS, video and sound may be missing, because they need
- * libraries that not every robot has.
+ * `pnpm build:native [shared-memory] [gpio] [systemd] [udp-batch] [dds] [video] [sound]`: builds the native addons and
+ * the programs for video and sound; without a name, all of them. In that case DDS, video and sound may be missing,
+ * because they need libraries that not every robot has.
  */
 import * as dds from '../packages/dds/src/build.ts';
 import * as gpio from '../packages/gpio/src/build.ts';
