@@ -10,6 +10,7 @@ import * as gpio from '../packages/gpio/src/build.ts';
 import * as sharedMemory from '../packages/shared-memory/src/build.ts';
 import * as sound from '../packages/sound/src/build.ts';
 import * as systemd from '../packages/systemd/src/build.ts';
+import * as udpBatch from '../packages/udp-batch/src/build.ts';
 import * as video from '../packages/video/src/build.ts';
 import { auditDependencies } from './lib/audit-dependencies.ts';
 import { ensureChromium } from './lib/ensure-chromium.ts';
@@ -91,6 +92,7 @@ const steps: Step[] = [
         ['shared memory', sharedMemory],
         ['a stop by GPIO', gpio],
         ['the systemd unit', systemd],
+        ['sending many packets by one system call', udpBatch],
         ['ROS 2', dds],
         ['camera video', video],
         ['sound', sound],

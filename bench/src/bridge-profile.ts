@@ -7,6 +7,7 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { BridgeProcess, LocalStack } from '@farpoint/local-stack';
 import { buildAddon } from '@farpoint/shared-memory/build';
+import { buildAddon as buildUdpBatch } from '@farpoint/udp-batch/build';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { distributionCells, printJson, printTable } from './report.ts';
 import { readFrameLog } from './robot-frames.ts';
@@ -46,6 +47,7 @@ const STAGES: readonly [name: string, from: keyof FrameTimes, to: keyof FrameTim
 /** Rate control and plan are the robot's defaults: it does not know how much the path carries. */
 export async function profile({ points, fps, seconds, json }: ProfileOptions): Promise<void> {
   buildAddon();
+  buildUdpBatch();
   const folder = mkdtempSync('/dev/shm/farpoint-profile-');
   const [packetLog, frameLog, stats] = ['packets.csv', 'frames.csv', 'frames.jsonl'].map((name) =>
     join(folder, name),

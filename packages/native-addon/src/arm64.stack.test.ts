@@ -31,7 +31,7 @@ describe.skipIf(!here)(`for arm64 (needs ${compiler})`, () => {
   afterAll(() => rmSync(out, { recursive: true }));
 
   it.skipIf(dds === undefined).each(['dds'])('%s (needs cyclonedds-dev)', (name) => compile(name, 'gnu11'));
-  it.each(['shared-memory', 'gpio', 'systemd'])('%s', (name) => compile(name, 'c11'));
+  it.each(['shared-memory', 'gpio', 'systemd', 'udp-batch'])('%s', (name) => compile(name, 'c11'));
 
   function compile(name: string, standard: string): void {
     const folder = join(packages, name, 'native');

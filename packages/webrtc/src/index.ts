@@ -1,6 +1,7 @@
 export { type Unproven, UnprovenPeerError } from './dtls/peer-proof.ts';
 export { type CandidateRefusal, candidateRefusals } from './ice/candidate-gate.ts';
 export { type Refusal, Refusals } from './refusal.ts';
+export { datagramsSent } from './werift/datagram-batches.ts';
 export { type ConnectionGuardEvents, guardConnection } from './werift/guard-connection.ts';
 export { IcePath } from './werift/ice-path.ts';
 export { discardSockets, dropDefaultStun, pairLateCandidates, startChecks } from './werift/ice-restart.ts';

@@ -159,6 +159,15 @@ describe('CaptureLoop over a source with its own timing', () => {
     expect([captures, skips]).toEqual([[1540], [2091]]);
   });
 
+  it('is ticked when its next report is due, not a fraction of a millisecond before', () => {
+    const { loop, wait } = setUp(true);
+    expect(loop.tick()).toBe(20);
+    wait(0.3);
+    expect(loop.tick()).toBe(20);
+    wait(19);
+    expect(loop.tick()).toBe(1);
+  });
+
   it('skips a cloud if all buffers are in use', () => {
     const { loop, ready, fillBuffers, captures, skips } = setUp(true);
     loop.onRequest(STREAMING);

@@ -138,7 +138,8 @@ export class CaptureLoop {
       this.#tellRings();
     }
     const after = this.#now();
-    if (this.#ownRhythm) return Math.max(this.#nextStateMs - after, 0);
+    // Timers cut off fractions: it would be called early, and once more.
+    if (this.#ownRhythm) return Math.max(Math.ceil(this.#nextStateMs - after), 0);
     return Math.min(Math.max(this.#nextFrameMs - after, 0), MAX_WAIT_MS);
   }
 

@@ -1,13 +1,15 @@
 import { Buffer } from 'node:buffer';
 import type { Socket } from 'node:dgram';
+import type { DatagramBatch } from '@farpoint/udp-batch';
 import type { RTCDtlsTransport } from 'werift';
+import { batchOf } from './datagram-batches.ts';
 import { guardSocket } from './ice-sockets.ts';
 
 /** A socket with a longer backlog than this, bytes, gets no more for now: the kernel's queue is already full. */
 const MAX_SOCKET_BACKLOG = 524_288;
 
 interface UdpPath {
-  socket: Socket;
+  batch: DatagramBatch;
   address: string;
   port: number;
 }
@@ -17,7 +19,7 @@ interface StunProtocolShape {
   transport: { type: string; closed: boolean; socket: Socket };
 }
 
-/** The peer as ICE currently sees it. If the path is plain UDP, datagrams go straight to the socket. */
+/** The peer as ICE currently sees it. If the path is plain UDP, datagrams go straight to the socket, in batches. */
 export class IcePath {
   readonly #dtls: RTCDtlsTransport;
   #udp: UdpPath | null = null;
@@ -51,7 +53,8 @@ export class IcePath {
     }
     if (transport.closed || transport.socket.getSendQueueSize() > MAX_SOCKET_BACKLOG) return false;
     guardSocket(transport.socket);
-    this.#udp = { socket: transport.socket, address: pair.remoteAddr[0], port: pair.remoteAddr[1] };
+    const [address, port] = pair.remoteAddr;
+    this.#udp = { batch: batchOf(transport.socket), address, port };
     return true;
   }
 
@@ -65,11 +68,14 @@ export class IcePath {
     return true;
   }
 
-  /** Sends the parts as one datagram. They must not be changed before the next turn of the event loop. */
+  /**
+   * Sends the parts as one datagram, together with others of this turn of the event loop. They must not be changed
+   * before the next turn.
+   */
   send(parts: readonly Buffer[]): void {
     const udp = this.#udp;
     if (udp !== null) {
-      udp.socket.send(parts as Buffer[], udp.port, udp.address);
+      udp.batch.send(parts, udp.port, udp.address);
       return;
     }
     this.#dtls.iceTransport.connection.send(concat(parts)).catch(() => {

@@ -1,5 +1,6 @@
 import type { RateSnapshot } from '@farpoint/congestion';
 import type { PulledMetrics } from '@farpoint/service';
+import { datagramsSent } from '@farpoint/webrtc';
 import type { Robot } from '../../robot.ts';
 import type { StreamSender } from '../../transport/stream-sender.ts';
 
@@ -21,6 +22,12 @@ export function addPathMetrics(metrics: PulledMetrics, { operators }: Pick<Robot
     'packets_sent',
     'Packets to operators connected now',
     total((sender) => sender.counters.packetsSent),
+  );
+  metrics.sums(
+    'media_datagrams',
+    'Datagrams of clouds and videos since the start, by how they left: with others by one system call, one by one, or not',
+    'way',
+    () => Object.entries(datagramsSent),
   );
   metrics.gauge(
     'bytes_sent',

@@ -1,0 +1,2 @@
+export { type Addon, loadAddon } from './addon.ts';
+export { DatagramBatch, type SendCounters } from './datagram-batch.ts';
