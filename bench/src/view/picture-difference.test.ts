@@ -4,7 +4,10 @@ import { differenceOf, type Picture } from './picture-difference.ts';
 const SIZE = 32;
 
 /** A picture of this brightness and depth at each pixel. */
-function picture(brightness: (x: number, y: number) => number, depth: (x: number, y: number) => number): Picture {
+function picture(
+  brightness: (x: number, y: number) => number,
+  depth: (x: number, y: number) => number,
+): Picture {
   const made = { colour: new Uint8Array(SIZE * SIZE * 4), depth: new Float32Array(SIZE * SIZE) };
   for (let y = 0; y < SIZE; y++) {
     for (let x = 0; x < SIZE; x++) {
@@ -29,12 +32,24 @@ test('counts holes only where the true picture has something', () => {
 });
 
 test('takes the median of the error of depth', () => {
-  expect(differenceOf(picture(stripes, (x) => (x === 0 ? 9 : 2.5)), truth, SIZE).depthErrorM).toBe(0.5);
+  expect(
+    differenceOf(
+      picture(stripes, (x) => (x === 0 ? 9 : 2.5)),
+      truth,
+      SIZE,
+    ).depthErrorM,
+  ).toBe(0.5);
 });
 
 test('other structure is less similar than other brightness', () => {
-  const brighter = picture((x) => stripes(x) + 20, () => 2);
-  const flat = picture(() => 120, () => 2);
+  const brighter = picture(
+    (x) => stripes(x) + 20,
+    () => 2,
+  );
+  const flat = picture(
+    () => 120,
+    () => 2,
+  );
   const similar = differenceOf(brighter, truth, SIZE).ssim;
   expect(similar).toBeGreaterThan(0.9);
   expect(differenceOf(flat, truth, SIZE).ssim).toBeLessThan(0.1);

@@ -13,7 +13,13 @@ import {
   writePlacement,
   writePointPacketHeader,
 } from '@farpoint/protocol';
-import { type CameraOptions, type CloudFrame, officeWorld, SimulatedBase, SimulatedCamera } from '@farpoint/sim';
+import {
+  type CameraOptions,
+  type CloudFrame,
+  officeWorld,
+  SimulatedBase,
+  SimulatedCamera,
+} from '@farpoint/sim';
 import { BitRate } from '@farpoint/timing';
 import {
   BYTES_PER_POINT,
@@ -128,7 +134,10 @@ export class SimulatedDrive {
   /** What each of {@link EYES} truly sees now, and from where. */
   truth(): { pose: Pose; picture: Picture }[] {
     return this.#eyes.map((eye) => {
-      const { cameraPose, colour, depth } = eye.render(this.#base.snapshot, { groundTruth: true, points: false });
+      const { cameraPose, colour, depth } = eye.render(this.#base.snapshot, {
+        groundTruth: true,
+        points: false,
+      });
       return { pose: cameraPose, picture: { colour: colour.slice(), depth: depth.slice() } };
     });
   }
@@ -179,7 +188,12 @@ export class SimulatedDrive {
 }
 
 /** An RTP payload of our own profile. */
-function payloadOf(header: PointPacketHeader, data: Uint8Array, format: CloudFormat, pose: Pose): ArrayBuffer {
+function payloadOf(
+  header: PointPacketHeader,
+  data: Uint8Array,
+  format: CloudFormat,
+  pose: Pose,
+): ArrayBuffer {
   const payload = new Uint8Array(HEADER_BYTES + data.length + PLACEMENT_BYTES);
   const view = new DataView(payload.buffer);
   writePointPacketHeader(view, 0, header);

@@ -6,8 +6,8 @@ import { extname, join } from 'node:path';
 import { chromiumLaunchOptions, repositoryRoot } from '@farpoint/local-stack';
 import type { Pose } from '@farpoint/protocol';
 import { chromium, type Page } from '@playwright/test';
-import type { Picture } from './picture-difference.ts';
 import type {} from './page/view-page.ts';
+import type { Picture } from './picture-difference.ts';
 
 /** Answered from the bundle; nothing leaves this machine. */
 const ORIGIN = 'http://view.test';

@@ -44,7 +44,9 @@ describe('Batch', () => {
     worker.addTiles(header, emptyPlacement(), 40, 3, 5, LOOK, grid);
     worker.add(header, emptyPlacement(), 2, 5, LOOK);
     const page = new Batch(worker.buffer, worker.packets, worker.pointCount);
-    expect([page.firstTile(0), page.tilesOf(0), page.pointsOf(0), page.pointsCame(0)]).toEqual([40, 3, 384, 100]);
+    expect([page.firstTile(0), page.tilesOf(0), page.pointsOf(0), page.pointsCame(0)]).toEqual([
+      40, 3, 384, 100,
+    ]);
     expect([page.tilesOf(1), page.pointsOf(1)]).toEqual([0, 2]);
     const read = { width: 0, height: 0, fx: 0, fy: 0, cx: 0, cy: 0 };
     page.readGrid(0, read);

@@ -143,8 +143,8 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
     }
     if (decoder.isSurface) {
       this.#tiles.write(
-        ...[decoder.samples, result.firstTile, result.tiles, header, placement, receivedAtMs] as const,
-        ...[this.#look, this.#grid, writer] as const,
+        ...([decoder.samples, result.firstTile, result.tiles, header, placement, receivedAtMs] as const),
+        ...([this.#look, this.#grid, writer] as const),
       );
       return;
     }
