@@ -44,6 +44,7 @@ import { videoReceiver } from './video/video-receiver.ts';
 import { applyAppearance } from './view/apply-appearance.ts';
 import { FrameLoop } from './view/frame-loop.ts';
 import type { PicturePointer } from './view/picture-pointer.ts';
+import { RememberedWorld } from './view/remembered-world.ts';
 import { SensorClouds } from './view/sensor-clouds.ts';
 import { showDrivePath } from './view/show-drive-path.ts';
 import { Stage } from './view/stage.ts';
@@ -62,6 +63,8 @@ export class App {
   readonly cloud: CloudView;
   /** The clouds of a robot with several sensors. */
   readonly clouds: SensorClouds;
+  /** What was seen before. */
+  readonly remembered: RememberedWorld;
   readonly client: RobotClient;
   /** Reads and presents the robot's videos. */
   readonly videos: VideoFeed;
@@ -69,7 +72,6 @@ export class App {
   readonly stats = new PageStatistics();
   /** The capture instant of what is shown. */
   readonly presented = new PresentedInstant();
-  /** The robot's telemetry over time. */
   /** Clouds wait here for the videos that were captured with them. */
   readonly hold: CloudHold;
   readonly recorder: TelemetryRecorder;
@@ -81,7 +83,7 @@ export class App {
   readonly #inputs: OperatorInputs;
   readonly #controls: ControlsUi;
   readonly #cloudPanel: CloudPanel;
-  readonly #surfaceByDefault: boolean;
+  readonly #drawsFast: boolean;
   /** The panel on the wrist in VR. */
   wrist: WristPanel | null = null;
   #pictures: PicturePointer | null = null;
@@ -95,7 +97,7 @@ export class App {
     this.settings = settings;
     const stored = loadAppearance();
     this.appearance = new CloudAppearance(
-      { ...stored, surface: settings.surface ?? stored.surface },
+      { ...stored, surface: settings.surface ?? stored.surface, memory: settings.memory ?? stored.memory },
       storeAppearance,
     );
     this.stage = new Stage(elements.stage, settings.canvas);
@@ -138,6 +140,7 @@ export class App {
     const held = new HeldClouds(this.client, this.hold, () => performance.now());
     this.cloud = new CloudView(renderer, held);
     world.add(this.cloud);
+    this.remembered = new RememberedWorld({ renderer, world, client: this.client, held });
     this.clouds = new SensorClouds({
       ...{ renderer, world, client: held, first: this.cloud, sensors, pointScale },
     });
@@ -157,9 +160,14 @@ export class App {
     this.#controls = new ControlsUi({
       ...{ client, state, stage, vr, appearance, estop: this.#estop, choose, toggleDashboard },
     });
-    this.#surfaceByDefault = !isSoftwareRenderer(renderer.getContext());
-    const surfaceByDefault = this.#surfaceByDefault;
-    this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all, surfaceByDefault });
+    this.#drawsFast = !isSoftwareRenderer(renderer.getContext());
+    this.#cloudPanel = new CloudPanel({
+      ...{ appearance, sensors, views: clouds.all, surfaceByDefault: this.#drawsFast },
+      memory: {
+        ...{ remembered: this.remembered, byDefault: this.#drawsFast },
+        tell: (text, tone) => notices.tell(text, tone),
+      },
+    });
     this.#sound = new SoundUi({
       ...{ client, player: this.player, state: state.sound },
       tell: ({ text, tone }) => notices.tell(text, tone),
@@ -169,16 +177,8 @@ export class App {
       this.#pictures?.update();
     };
     this.frames = new FrameLoop({
-      settings,
-      client,
-      stage,
-      held,
-      cloud,
-      clouds,
-      videos,
-      stats,
-      vr,
-      readHeadset,
+      ...{ settings, client, stage, held, cloud, clouds, remembered: this.remembered },
+      ...{ videos, stats, vr, readHeadset },
     });
   }
 
@@ -206,6 +206,7 @@ export class App {
     setInterval(() => {
       const nowMs = performance.now();
       this.stats.tick(this.cloud, nowMs);
+      this.stats.remembered = this.remembered.figures;
       this.videos.measure(nowMs);
       this.state.looking.value = this.vr.active.value || !document.hidden;
       this.state.sample();
@@ -241,14 +242,8 @@ export class App {
     showPicturePanels(state, { inVr: vr.active, isGripped: () => this.client.driver.stream.held });
     const { appearance, clouds } = this;
     applyAppearance({
-      appearance,
-      sensors: state.sensors,
-      rings: state.rings,
-      clouds,
-      stage,
-      inVr: vr.active,
-      client: this.client,
-      surfaceByDefault: this.#surfaceByDefault,
+      ...{ appearance, sensors: state.sensors, rings: state.rings, clouds, stage, inVr: vr.active },
+      ...{ client: this.client, remembered: this.remembered, drawsFast: this.#drawsFast },
     });
     const panel = new WristPanel(stage.renderer, stage.rig);
     this.wrist = panel;

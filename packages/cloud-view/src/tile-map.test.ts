@@ -18,7 +18,9 @@ describe('TileMap', () => {
     const before = map.newestSlot;
     put(map, 6, [0, 1, 2, 4], 20);
     expect(map.newestSlot).not.toBe(before);
-    expect([...map.slots]).toEqual(all.map((tile) => ([0, 1, 2, 4].includes(tile) ? map.newestSlot : before)));
+    expect([...map.slots]).toEqual(
+      all.map((tile) => ([0, 1, 2, 4].includes(tile) ? map.newestSlot : before)),
+    );
     expect(map.shown).toBe(TILES);
   });
 

@@ -20,6 +20,8 @@ export interface StoredAppearance {
   readonly headingUp: boolean;
   /** Whether clouds of depth cameras are drawn as surfaces; `null`: as suits the renderer. */
   readonly surface: boolean | null;
+  /** Whether what was seen is remembered; `null`: as suits the renderer. */
+  readonly memory: boolean | null;
 }
 
 /** The cloud of a robot with one sensor, which has no name. */
@@ -45,6 +47,7 @@ export class CloudAppearance {
   readonly cutFromAbove: Signal<Readonly<HeightCut>>;
   readonly headingUp: Signal<boolean>;
   readonly surface: Signal<boolean | null>;
+  readonly memory: Signal<boolean | null>;
   /** Whether the flat screen shows the surroundings from above. Each visit begins with the robot's own view. */
   readonly fromAbove = signal(false);
 
@@ -55,13 +58,14 @@ export class CloudAppearance {
     this.cutFromAbove = signal(stored.cutFromAbove);
     this.headingUp = signal(stored.headingUp);
     this.surface = signal(stored.surface);
+    this.memory = signal(stored.memory);
     let first = true;
     effect(() => {
-      const { looks, cut, cutFromAbove, headingUp, surface } = this;
+      const { looks, cut, cutFromAbove, headingUp, surface, memory } = this;
       const now = {
         ...{ looks: looks.value, cut: cut.value },
         ...{ cutFromAbove: cutFromAbove.value, headingUp: headingUp.value },
-        surface: surface.value,
+        ...{ surface: surface.value, memory: memory.value },
       };
       if (!first) store(now);
       first = false;
@@ -99,6 +103,7 @@ export function parseAppearance(text: string | null): StoredAppearance {
     cutFromAbove: parseCut(record.cutFromAbove) ?? CEILING,
     headingUp: record.headingUp !== false,
     surface: typeof record.surface === 'boolean' ? record.surface : null,
+    memory: typeof record.memory === 'boolean' ? record.memory : null,
   };
 }
 

@@ -6,7 +6,7 @@ import { wristLines } from './wrist-lines.ts';
 
 const figures = {
   ...{ pointsPerFrame: 12_345.6, framesPerSecond: 10, bitsPerSecond: 3_210_000, lossRate: 0 },
-  ...{ drawnOneOf: 1, minRttMs: 42, frameLatencyMs: null, mtpMs: null },
+  ...{ drawnOneOf: 1, remembered: null, minRttMs: 42, frameLatencyMs: null, mtpMs: null },
 } as PageStats;
 const telemetry = {
   drive: 'idle',
@@ -28,6 +28,18 @@ const values = (facts: ReturnType<typeof sessionFacts>) =>
   Object.fromEntries(facts.map(({ name, value }) => [name, value]));
 
 describe('the table of figures', () => {
+  test('says how old what is remembered may be', () => {
+    const of = (oldestS: number) =>
+      values(sessionFacts({ ...session, figures: { ...figures, remembered: { points: 5, oldestS } } }))
+        .Remembered;
+    expect(of(0)).toBe('up to 10 s old');
+    expect(of(41)).toBe('up to 50 s old');
+    expect(of(181)).toBe('up to 4 min old');
+    expect(of(7300)).toBe('up to 3 h old');
+    expect(of(90_000)).toBe('a day old or more');
+    expect('Remembered' in values(sessionFacts(session))).toBe(false);
+  });
+
   test('lists what is known, in order', () => {
     expect(values(sessionFacts(session))).toEqual({
       Robot: 'Rover',

@@ -10,6 +10,7 @@ import { colourControls } from './colour-controls.ts';
 import { cutControls } from './cut-controls.ts';
 import { elements } from './elements.ts';
 import { type Legend, legendOf } from './legend.ts';
+import { type MemoryControlsParts, memoryControls } from './memory-controls.ts';
 import { quietButton } from './panel-parts.ts';
 import { surfaceControls } from './surface-controls.ts';
 
@@ -19,6 +20,7 @@ export interface CloudPanelParts {
   readonly sensors: Switches;
   readonly views: ReadonlySignal<readonly CloudView[]>;
   readonly surfaceByDefault: boolean;
+  readonly memory: MemoryControlsParts;
 }
 
 export class CloudPanel {
@@ -54,7 +56,10 @@ export class CloudPanel {
       legends.replaceChildren(...this.#legends.map((legend) => legend.element));
     });
     const ofSensors = element('');
-    controls.append(ofSensors, surfaceControls(appearance, parts.surfaceByDefault), cutControls(appearance));
+    controls.append(
+      ...[ofSensors, surfaceControls(appearance, parts.surfaceByDefault)],
+      ...[memoryControls(appearance, parts.memory), cutControls(appearance)],
+    );
     effect(() => {
       const parts = this.#names().map((name, i) =>
         untracked(() =>

@@ -3,6 +3,7 @@ import type { RobotClient } from '@farpoint/operator';
 import { effect, type ReadonlySignal } from '@preact/signals-core';
 import { type CloudAppearance, UNNAMED } from '../state/cloud-appearance.ts';
 import type { Switches } from '../state/switches.ts';
+import type { RememberedWorld } from './remembered-world.ts';
 import type { SensorClouds } from './sensor-clouds.ts';
 import type { Stage } from './stage.ts';
 
@@ -15,13 +16,17 @@ export interface AppearanceParts {
   readonly stage: Pick<Stage, 'look' | 'headingUp'>;
   readonly inVr: ReadonlySignal<boolean>;
   readonly client: Pick<RobotClient, 'drawSurface'>;
-  /** Whether clouds are drawn as surfaces until somebody chooses. */
-  readonly surfaceByDefault: boolean;
+  readonly remembered: Pick<RememberedWorld, 'on'>;
+  /** Whether clouds are drawn as surfaces, and what was seen is remembered, until somebody chooses. */
+  readonly drawsFast: boolean;
 }
 
 export function applyAppearance(parts: AppearanceParts): void {
-  const { appearance, sensors, rings, clouds, stage, inVr, client, surfaceByDefault } = parts;
-  effect(() => client.drawSurface(appearance.surface.value ?? surfaceByDefault));
+  const { appearance, sensors, rings, clouds, stage, inVr, client, remembered, drawsFast } = parts;
+  effect(() => client.drawSurface(appearance.surface.value ?? drawsFast));
+  effect(() => {
+    remembered.on = appearance.memory.value ?? drawsFast;
+  });
   const { fromAbove, headingUp, cut, cutFromAbove } = appearance;
   effect(() => {
     for (const [i, { colouring }] of clouds.all.value.entries()) {

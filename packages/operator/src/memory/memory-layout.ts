@@ -24,6 +24,25 @@ export const CLOCK_START_S = 24 * 3600;
 /** Ages are handed on in units of this, s. */
 export const AGE_UNIT_S = 4;
 
+/** The most pages: 2²¹ surfels, which is a building of 30 × 30 m. */
+export const PAGES = 8192;
+
+/** What whoever draws {@link MemoryPages} must know. */
+export const MEMORY_LAYOUT = {
+  /** The most pages. */
+  pages: PAGES,
+  /** The most surfels of a page. */
+  pageSurfels: PAGE_SURFELS,
+  /** Sides of a chunk and of a voxel, metres. */
+  chunkM: CHUNK_M,
+  voxelM: VOXEL_M,
+  /** Steps of a surfel's position along a chunk's side. */
+  chunkSteps: CHUNK_STEPS,
+  /** A unit of age, and the age that the clock shows when the memory begins, seconds. */
+  ageUnitS: AGE_UNIT_S,
+  clockStartS: CLOCK_START_S,
+} as const;
+
 /** A place in a chunk, packed: x in bits 0–9, y in 10–19, z in 20–29, in steps. */
 export function packPlace(x: number, y: number, z: number): number {
   return x | (y << 10) | (z << 20);

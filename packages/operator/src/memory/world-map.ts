@@ -13,6 +13,7 @@ import {
   CHUNK_M,
   CHUNK_STEPS,
   PAGE_SURFELS,
+  PAGES,
   packPlace,
   STEPS_PER_METRE,
   TICKS_PER_S,
@@ -34,11 +35,9 @@ export const DISTANCE_STEP_M = 0.05;
 const BETTER = 0.7;
 /** When something must be forgotten, a metre counts as much as so many seconds. */
 const SECONDS_PER_METRE = 10;
-/** 2²¹ surfels: a building of 30 × 30 m. Takes 42 MB. */
-const DEFAULT_PAGES = 8192;
 
 export interface WorldMapOptions {
-  /** The most pages of 256 surfels. */
+  /** The most pages of 256 surfels; the default takes 42 MB. */
   pages?: number;
   limits?: MotionLimits;
 }
@@ -65,7 +64,7 @@ export class WorldMap {
   readonly #near = { x: Number.NaN, y: 0, z: 0 };
   #ticks = 0;
 
-  constructor({ pages = DEFAULT_PAGES, limits = { linear: 2, angular: 2 } }: WorldMapOptions = {}) {
+  constructor({ pages = PAGES, limits = { linear: 2, angular: 2 } }: WorldMapOptions = {}) {
     this.store = new SurfelStore(pages);
     this.jump = new PoseJump(limits);
     this.#carve = new CarvePass(this.store);
