@@ -184,9 +184,25 @@ export class OrganisedDecoder {
      */
     put_two(length: number, second_length: number): number;
     /**
+     * How many samples there are: 0 where the frame is no surface.
+     */
+    sample_count(): number;
+    /**
+     * Samples of a surface, 4 bytes each, 256 for each tile of the image.
+     */
+    samples_ptr(): number;
+    /**
      * See [`OrganisedDecoder::put_two`].
      */
     second(): number;
+    /**
+     * Where the first tile and the number of tiles stand, of each of the packets put last.
+     */
+    tiles_ptr(): number;
+    /**
+     * Whether frames that begin from now on are surfaces.
+     */
+    want_surface(wanted: boolean): void;
     /**
      * Image width, pixels.
      */
@@ -401,7 +417,11 @@ export interface InitOutput {
     readonly organiseddecoder_points_ptr: (a: number) => number;
     readonly organiseddecoder_put: (a: number, b: number) => number;
     readonly organiseddecoder_put_two: (a: number, b: number, c: number) => number;
+    readonly organiseddecoder_sample_count: (a: number) => number;
+    readonly organiseddecoder_samples_ptr: (a: number) => number;
     readonly organiseddecoder_second: (a: number) => number;
+    readonly organiseddecoder_tiles_ptr: (a: number) => number;
+    readonly organiseddecoder_want_surface: (a: number, b: number) => void;
     readonly organiseddecoder_width: (a: number) => number;
     readonly organisedencoder_begin: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number) => [number, number];
     readonly organisedencoder_bits_in_one_packet: (a: number, b: number) => number;

@@ -430,12 +430,43 @@ export class OrganisedDecoder {
         return ret;
     }
     /**
+     * How many samples there are: 0 where the frame is no surface.
+     * @returns {number}
+     */
+    sample_count() {
+        const ret = wasm.organiseddecoder_sample_count(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Samples of a surface, 4 bytes each, 256 for each tile of the image.
+     * @returns {number}
+     */
+    samples_ptr() {
+        const ret = wasm.organiseddecoder_samples_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
      * See [`OrganisedDecoder::put_two`].
      * @returns {number}
      */
     second() {
         const ret = wasm.organiseddecoder_second(this.__wbg_ptr);
         return ret;
+    }
+    /**
+     * Where the first tile and the number of tiles stand, of each of the packets put last.
+     * @returns {number}
+     */
+    tiles_ptr() {
+        const ret = wasm.organiseddecoder_tiles_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
+     * Whether frames that begin from now on are surfaces.
+     * @param {boolean} wanted
+     */
+    want_surface(wanted) {
+        wasm.organiseddecoder_want_surface(this.__wbg_ptr, wanted);
     }
     /**
      * Image width, pixels.

@@ -1,5 +1,6 @@
 /** A cloud on a camera's grid, drawn as a surface: writes tiles to the GPU as they arrive. Allocates nothing. */
 import type { Batch, TileGrid } from '@farpoint/operator';
+import { pointsOfBytes } from '@farpoint/protocol';
 import {
   BufferAttribute,
   DoubleSide,
@@ -10,6 +11,7 @@ import {
   Vector3,
   type WebGLRenderer,
 } from 'three';
+import { writePose } from './batch-pose.ts';
 import type { PointUniforms } from './point-material.ts';
 import { createSurfaceMaterial } from './surface-material.ts';
 import { STRIDES, strideFor, TILE, tileIndices } from './tile-geometry.ts';
@@ -68,7 +70,10 @@ export class CloudSurface extends Mesh<InstancedBufferGeometry, RawShaderMateria
     const before = map.newestFrame;
     const slot = map.open(batch.frameNumber(packet), end / map.slots.length, nowMs);
     if (slot === null) return false;
-    if (map.newestFrame !== before) this.#place(batch, packet, slot);
+    if (map.newestFrame !== before) {
+      const { tilePosition, tileOrientation } = this.#uniforms;
+      writePose(batch, packet, tilePosition.value[slot]!, 0, tileOrientation.value[slot]!);
+    }
     const { samples } = batch;
     let run = first;
     for (let tile = first; tile < end; tile++) {
@@ -78,6 +83,7 @@ export class CloudSurface extends Mesh<InstancedBufferGeometry, RawShaderMateria
       run = tile + 1;
     }
     this.#write(samples, at, first, run, end);
+    map.count(slot, batch.pointsCame(packet), pointsOfBytes(batch.frameLength(packet)));
     this.#changed = true;
     return true;
   }
@@ -105,7 +111,8 @@ export class CloudSurface extends Mesh<InstancedBufferGeometry, RawShaderMateria
     this.forget();
   }
 
-  dispose(): void {
+  /** Frees the GPU's memory. */
+  override dispose(): void {
     this.#textures?.dispose();
     this.geometry.dispose();
     this.material.dispose();
@@ -117,13 +124,6 @@ export class CloudSurface extends Mesh<InstancedBufferGeometry, RawShaderMateria
   #write(samples: Uint32Array, at: number, first: number, from: number, end: number): void {
     if (end <= from) return;
     this.#textures?.write(samples, (at + (from - first) * TILE_ROOM) * 2, from, end - from);
-  }
-
-  /** Where the camera was. */
-  #place(batch: Batch, packet: number, slot: number): void {
-    const component = (index: number) => batch.poseComponent(packet, index);
-    this.#uniforms.tilePosition.value[slot]!.set(component(0), component(1), component(2), 0);
-    this.#uniforms.tileOrientation.value[slot]!.set(component(3), component(4), component(5), component(6));
   }
 
   /** Begins anew if the image or the camera is another. */

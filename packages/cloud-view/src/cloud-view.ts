@@ -11,25 +11,25 @@ import type {
   RobotClient,
 } from '@farpoint/operator';
 import { BufferGeometry, Points, type RawShaderMaterial, Sphere, Vector3, type WebGLRenderer } from 'three';
+import { writePose } from './batch-pose.ts';
 import type { CloudColouring } from './cloud-colouring.ts';
 import type { CloudSource, CloudViewOptions } from './cloud-source.ts';
 import { CloudSurface } from './cloud-surface.ts';
-import type { DrawnPoints, FramePose } from './drawn-points.ts';
+import { type DrawnPoints, type FramePose, readDrawnPoints } from './drawn-points.ts';
 import { FrameWindow } from './frame-window.ts';
+import { freshnessAt } from './freshness.ts';
 import { GpuCompletion } from './gpu-completion.ts';
 import { PointColouring } from './point-colouring.ts';
 import { createPointMaterial, spacingPerMetre } from './point-material.ts';
 import { PointRing } from './point-ring.ts';
 import { TileSampler } from './tile-sampler.ts';
+import { type UploadEvents, uploadPoints } from './upload-points.ts';
+import { viewportHeightOf } from './viewport-height.ts';
+import { WaitingBatches } from './waiting-batches.ts';
 
 const FIRST_CAPACITY = 1 << 19;
 /** 128 MiB on the GPU. */
 const MAX_CAPACITY = 1 << 24;
-/** Maximum number of batches that wait for the next display frame; beyond it the oldest are dropped. */
-const MAX_WAITING = 40;
-/** After this time without points the picture starts to turn grey; {@link STALE_FADE_MS} later it is grey. */
-const STALE_AFTER_MS = 600;
-const STALE_FADE_MS = 1400;
 /** A field of view of 90°, until a frame has given an estimate. */
 const DEFAULT_EXTENT = 2;
 
@@ -62,7 +62,19 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
   readonly #surface: CloudSurface;
   readonly #sampler = new TileSampler();
   readonly #uniforms: ReturnType<typeof createPointMaterial>['uniforms'];
-  readonly #waiting: Batch[] = [];
+  readonly #waiting: WaitingBatches;
+  readonly #take = (batch: Batch) => (batch.hasTiles ? this.#uploadTiles(batch) : this.#uploadPoints(batch));
+  readonly #events: UploadEvents = {
+    beginFrame: (batch, packet) =>
+      this.#beginFrame(batch, packet, this.window.newestSlot, this.window.newestTotal),
+    draw: (batch, packet, at) => {
+      const { newestFrame, newestSlot } = this.window;
+      const slot = batch.frameNumber(packet) === newestFrame ? newestSlot : 1 - newestSlot;
+      this.#colouring.sample(batch.points, at, batch.pointsOf(packet), slot);
+      this.#noteDrawn(batch, packet);
+    },
+    drop: (reason) => this.#drop(reason),
+  };
   readonly #stop: (() => void)[];
 
   /**
@@ -75,6 +87,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     super(new BufferGeometry(), material);
     this.#renderer = renderer;
     this.#source = source;
+    this.#waiting = new WaitingBatches(source);
     this.#completion = new GpuCompletion(renderer);
     this.#uniforms = uniforms;
     this.#colouring = new PointColouring(uniforms);
@@ -93,7 +106,11 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.geometry.boundingSphere = new Sphere(new Vector3(), Number.POSITIVE_INFINITY);
     this.frustumCulled = false;
     this.visible = false;
-    const recreate = () => this.#recreate();
+    const recreate = () => {
+      this.#ring.recreate();
+      this.window.reset();
+      this.#surface.recreate();
+    };
     // three's own listener runs first, so its state has been restored by then.
     renderer.domElement.addEventListener('webglcontextrestored', recreate);
     this.#stop = [
@@ -155,29 +172,20 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
 
   /** Height of one eye's picture, pixels. */
   get viewportHeight(): number {
-    const { xr, domElement } = this.#renderer;
-    if (!xr.isPresenting) return domElement.height;
-    return xr.getCamera().cameras[0]?.viewport?.w ?? domElement.height;
+    return viewportHeightOf(this.#renderer);
   }
 
   /**
    * Uploads the points received. Call it in the frame loop, before rendering.
-   *
    * @param nowMs `performance.now()`
    */
   update(nowMs: number): void {
     this.#nowMs = nowMs;
-    for (const batch of this.#waiting) {
-      if (batch.packets > 0 && batch.tilesOf(0) > 0) this.#uploadTiles(batch);
-      else this.#upload(batch);
-      this.#source.release(batch);
-    }
-    this.#waiting.length = 0;
+    this.#waiting.drain(this.#take);
     const { head, tail, runCount } = this.window;
     this.#uniforms.runCount.value = runCount;
     this.#uniforms.viewportHeight.value = this.viewportHeight;
-    const stale = (nowMs - this.#source.pointsAtMs - STALE_AFTER_MS) / STALE_FADE_MS;
-    this.#uniforms.freshness.value = 1 - Math.min(Math.max(stale, 0), 1);
+    this.#uniforms.freshness.value = freshnessAt(nowMs, this.#source.pointsAtMs);
     this.#colouring.update(nowMs);
     this.geometry.setDrawRange(head, tail - head);
     this.#surface.update(nowMs);
@@ -212,12 +220,8 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
       this.#source.release(batch);
       return;
     }
-    if (this.#waiting.length >= MAX_WAITING) {
-      const oldest = this.#waiting.shift()!;
-      this.#drop('page-behind', oldest.packets);
-      this.#source.release(oldest);
-    }
-    this.#waiting.push(batch);
+    const dropped = this.#waiting.add(batch);
+    if (dropped > 0) this.#drop('page-behind', dropped);
   }
 
   #drop(reason: DropReason, packets = 1): void {
@@ -226,8 +230,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
 
   /** Discards all points, drawn and waiting: another session begins, or these clouds are no longer wanted. */
   forget(): void {
-    for (const batch of this.#waiting) this.#source.release(batch);
-    this.#waiting.length = 0;
+    this.#waiting.drain(() => undefined);
     this.window.reset();
     this.#surface.forget();
     this.#colouring.forget();
@@ -238,25 +241,13 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.points = 0;
   }
 
-  /** A lost GPU context was restored. */
-  #recreate(): void {
-    this.#ring.recreate();
-    this.window.reset();
-    this.#surface.recreate();
-  }
-
   /** Copies the drawn points out, for tests: x, y, z, colour int16 each. A surface has none. */
   readBack(): DrawnPoints {
-    const drawn = this.window.tail - this.window.head;
-    const points = new Int16Array(drawn * 4);
-    if (drawn > 0) this.#ring.read(this.window.head, points);
-    const slots = Array.from({ length: drawn }, (_, i) => this.window.slotOf(this.window.head + i));
-    return { points, slots };
+    return readDrawnPoints(this.window, this.#ring);
   }
 
   /**
    * The pose of a frame that is drawn.
-   *
    * @param slot 0 or 1
    */
   pose(slot: number): FramePose {
@@ -267,6 +258,17 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     };
   }
 
+  #uploadPoints(batch: Batch): void {
+    if (this.#surface.map.newestFrame !== null) this.#surface.forget();
+    uploadPoints(batch, this.window, this.#ring, this.#events);
+  }
+
+  #noteDrawn(batch: Batch, packet: number): void {
+    this.packets++;
+    this.points += batch.pointsCame(packet);
+    this.#source.noteUploaded(batch, packet);
+  }
+
   #uploadTiles(batch: Batch): void {
     const surface = this.#surface;
     if (this.window.newestFrame !== null) this.window.reset();
@@ -274,60 +276,15 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     for (let packet = 0; packet < batch.packets; packet++) {
       const before = surface.map.newestFrame;
       // Of a frame from before surfaces were wanted.
-      const isPoints = batch.tilesOf(packet) === 0;
-      if (isPoints) this.#drop('superseded');
+      if (batch.tilesOf(packet) === 0) this.#drop('superseded');
       else if (surface.take(batch, packet, at, this.#nowMs)) {
         const slot = surface.map.newestSlot & 1;
         if (surface.map.newestFrame !== before) this.#beginFrame(batch, packet, slot, this.#sampler.total);
         this.#sampler.sample(batch, packet, at, this.#colouring, slot);
-        this.packets++;
-        this.points += batch.pointsCame(packet);
-        this.#source.noteUploaded(batch, packet);
+        this.#noteDrawn(batch, packet);
       } else this.#drop('late');
       at += batch.pointsOf(packet);
     }
-  }
-
-  #upload(batch: Batch): void {
-    const { window } = this;
-    if (this.#surface.map.newestFrame !== null) this.#surface.forget();
-    const move = window.reserve(batch.pointCount);
-    if (move !== null) this.#ring.relocate(move);
-    // Adjacent packets are uploaded in one write.
-    let first = 0;
-    let count = 0;
-    let vertex = window.tail;
-    let at = 0;
-    for (let packet = 0; packet < batch.packets; packet++) {
-      const points = batch.pointsOf(packet);
-      const frame = batch.frameNumber(packet);
-      const before = window.newestFrame;
-      const drop = window.accept(
-        frame,
-        batch.frameLength(packet),
-        batch.sequenceOffset(packet),
-        batch.sequenceLength(packet),
-        points,
-      );
-      if (drop === null) {
-        if (window.newestFrame !== before)
-          this.#beginFrame(batch, packet, window.newestSlot, window.newestTotal);
-        const newest = window.newestSlot;
-        this.#colouring.sample(batch.points, at, points, frame === window.newestFrame ? newest : 1 - newest);
-        count += points;
-        this.packets++;
-        this.points += batch.pointsCame(packet);
-        this.#source.noteUploaded(batch, packet);
-      } else {
-        this.#drop(drop);
-        if (count > 0) this.#ring.write(batch.points, first, count, vertex);
-        first = at + points;
-        count = 0;
-        vertex = window.tail;
-      }
-      at += points;
-    }
-    if (count > 0) this.#ring.write(batch.points, first, count, vertex);
   }
 
   #beginFrame(batch: Batch, packet: number, slot: number, total: number): void {
@@ -335,17 +292,8 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.imageExtent = batch.imageExtent(packet);
     this.#colouring.beginFrame(slot, total, this.#nowMs);
     this.#uniforms.frameUnit.value[slot] = batch.unit(packet);
-    this.#uniforms.framePosition.value[slot]!.set(
-      batch.poseComponent(packet, 0),
-      batch.poseComponent(packet, 1),
-      batch.poseComponent(packet, 2),
-      spacingPerMetre(total, this.imageExtent, batch.cover(packet)),
-    );
-    this.#uniforms.frameOrientation.value[slot]!.set(
-      batch.poseComponent(packet, 3),
-      batch.poseComponent(packet, 4),
-      batch.poseComponent(packet, 5),
-      batch.poseComponent(packet, 6),
-    );
+    const spacing = spacingPerMetre(total, this.imageExtent, batch.cover(packet));
+    const { framePosition, frameOrientation } = this.#uniforms;
+    writePose(batch, packet, framePosition.value[slot]!, spacing, frameOrientation.value[slot]!);
   }
 }

@@ -6,6 +6,7 @@ export const TILE = 16;
 export const TILE_VERTICES = TILE + 1;
 /** Which samples are drawn: every, every second or every fourth in a row and in a column. */
 export const STRIDES = [1, 2, 4] as const;
+/** Every how many samples of a row and of a column one is drawn. */
 export type Stride = (typeof STRIDES)[number];
 
 /**

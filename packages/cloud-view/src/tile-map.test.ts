@@ -55,6 +55,24 @@ describe('TileMap', () => {
     expect(put(map, 1, [3], 25)).toEqual([false]);
   });
 
+  test('once a frame is whole, tiles that it did not have are empty', () => {
+    const map = new TileMap(TILES);
+    put(map, 1, all, 0);
+    put(map, 2, [0, 1, 2], 20);
+    map.count(map.newestSlot, 300, 500);
+    expect(map.shown).toBe(TILES);
+    put(map, 2, [3, 4], 21);
+    map.count(map.newestSlot, 200, 500);
+    expect([...map.slots].map((slot) => slot === HIDDEN)).toEqual(all.map((tile) => tile > 4));
+    // A frame with a lost packet is never whole: everything stays.
+    put(map, 3, all, 40);
+    put(map, 4, [0, 1], 60);
+    map.count(map.newestSlot, 200, 500);
+    put(map, 5, [0], 80);
+    map.count(map.newestSlot, 100, 500);
+    expect(map.shown).toBe(TILES);
+  });
+
   test('what is far behind the newest frame is hidden, but not because no frame comes', () => {
     const map = new TileMap(TILES);
     put(map, 1, all, 0);

@@ -30,6 +30,8 @@ export class TileMap {
   #previousFrame: number | null = null;
   readonly #frames = new Float64Array(FRAME_SLOTS);
   readonly #beganMs = new Float64Array(FRAME_SLOTS);
+  /** Points of each slot's frame that have not come. */
+  readonly #missing = new Float64Array(FRAME_SLOTS);
   /** Which frame each tile has, counted as `#begun` does; 0 for none. */
   readonly #shows: Uint32Array;
 
@@ -87,11 +89,34 @@ export class TileMap {
    * @returns whether the tile's samples are to be written
    */
   show(tile: number, slot: number, empty: boolean): boolean {
-    const count = this.#begun - ((this.newestSlot - slot + FRAME_SLOTS) % FRAME_SLOTS);
+    const count = this.#countOf(slot);
     if ((this.#shows[tile] as number) > count) return false;
     this.#shows[tile] = count;
     this.#set(tile, empty ? HIDDEN : slot);
     return true;
+  }
+
+  /**
+   * Counts a packet's points, after its tiles were shown. Once all of a frame's points have come, tiles that it did not
+   * have are empty, and are hidden.
+   *
+   * @param points the packet's
+   * @param total the frame's
+   */
+  count(slot: number, points: number, total: number): void {
+    const before = this.#missing[slot] as number;
+    const missing = (before < 0 ? total : before) - points;
+    this.#missing[slot] = Math.max(missing, 0);
+    if (missing > 0) return;
+    const count = this.#countOf(slot);
+    for (let tile = 0; tile < this.slots.length; tile++) {
+      if ((this.#shows[tile] as number) < count) this.#set(tile, HIDDEN);
+    }
+  }
+
+  /** How many frames had begun with a slot's. */
+  #countOf(slot: number): number {
+    return this.#begun - ((this.newestSlot - slot + FRAME_SLOTS) % FRAME_SLOTS);
   }
 
   #begin(frame: number, nowMs: number): void {
@@ -101,6 +126,7 @@ export class TileMap {
     this.#begun++;
     this.newestSlot = this.#begun % FRAME_SLOTS;
     this.#frames[this.newestSlot] = frame;
+    this.#missing[this.newestSlot] = -1;
     this.#beganMs[this.newestSlot] = nowMs;
     this.#hideStale(nowMs);
   }

@@ -169,7 +169,6 @@ export class RobotClient {
   /**
    * Latches the emergency stop, which only {@link releaseEstop} releases. Sent until the robot confirms it, and kept for
    * up to 60 s without a session; the `stop` event says what has become of it.
-   *
    * @returns false if no robot is chosen
    */
   estop(): boolean {
@@ -180,7 +179,6 @@ export class RobotClient {
    * Asks the robot to release the emergency stop, as it is known here: it stays latched if STOP was pressed again in the
    * meantime. If nobody drives, this requests the lease first. Call it only for a deliberate act, e.g. a button held for
    * a second. An own STOP that is not yet confirmed is still delivered.
-   *
    * @returns whether it was sent, which needs a session. The `estop` event confirms it.
    */
   releaseEstop(): boolean {
@@ -228,7 +226,6 @@ export class RobotClient {
   /**
    * Measures motion to photon: the time until a green cloud that is requested now has been drawn. Whatever draws the
    * clouds must call {@link noteUploaded} and {@link noteDrawn}, as `CloudView` of `@farpoint/cloud-view` does.
-   *
    * @param startedAtMs when the operator acted, `performance.now()`
    * @throws {LatencyError} if there is no session, another test runs, somebody else drives, or no frame came within 3 s
    */
@@ -245,7 +242,6 @@ export class RobotClient {
   drawEvery(every: number, everySample = 1): void {
     this.#parts.receiver.drawEvery(every, everySample);
   }
-
   /** Whether clouds on a camera's grid come as tiles of a surface, from their next frame on. Default: as points. */
   drawSurface(wanted: boolean): void {
     this.#parts.receiver.drawSurface(wanted);

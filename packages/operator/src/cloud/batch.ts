@@ -46,18 +46,23 @@ export interface PointLook {
 
 /** The image that tiles belong to, and the camera that captured it: pixel (u, v) sees along ((u − cx) / fx, (v − cy) / fy, 1). */
 export interface TileGrid {
-  /** Pixels. */
+  /** Pixels in a row. */
   width: number;
+  /** Rows. */
   height: number;
+  /** Focal length across, pixels. */
   fx: number;
+  /** Focal length down, pixels. */
   fy: number;
+  /** Column of the optical axis. */
   cx: number;
+  /** Row of the optical axis. */
   cy: number;
 }
 
 /**
  * Decoded points, or tiles of a surface, of one sensor, in one buffer: an entry for each packet, then what the packets
- * hold, one after another. A batch has either points or tiles. The accessors that take a `packet` expect its index, 0 to `packets` − 1.
+ * hold, one after another. The accessors that take a `packet` expect its index, 0 to `packets` − 1.
  */
 export class Batch {
   /** The memory behind all views, `BATCH_BYTES` long. Detached once the batch is released. */
@@ -200,6 +205,10 @@ export class Batch {
   /** Number of the packet's points in this batch, or the room that its tiles take. */
   pointsOf(packet: number): number {
     return this.#u32[packet * WORDS + 5] as number;
+  }
+  /** Whether it has tiles. A batch that begins with tiles may end with the points of an earlier frame, and vice versa. */
+  get hasTiles(): boolean {
+    return this.packets > 0 && this.tilesOf(0) > 0;
   }
   /** Number of the packet's tiles in this batch; 0 if it has points. */
   tilesOf(packet: number): number {

@@ -230,7 +230,10 @@ describe('OrganisedPacketDecoder', () => {
       }
       expect(at).toBe(batch.pointCount);
     }
-    expect(seen.size).toBe(900);
+    // Tiles of the hole need not be sent.
+    for (let tile = 0; tile < 900; tile++) {
+      if (tile % 30 < 19 || tile < 750) expect(seen.has(tile)).toBe(true);
+    }
     expect(points * 8).toBe((second[0] as Packet).header.frameLength);
   });
 

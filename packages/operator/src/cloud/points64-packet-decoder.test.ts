@@ -12,7 +12,7 @@ const placement = emptyPlacement();
 function writer(every: number): BatchWriter & { batch: Batch } {
   const batch = new Batch(new ArrayBuffer(BATCH_BYTES));
   const drop = (reason: string) => expect.unreachable(reason);
-  return { every: 1, everySample: every, batch, batchFor: () => batch, drop };
+  return { every: 1, everySample: every, surface: false, batch, batchFor: () => batch, drop };
 }
 
 /** Blocks of a frame: x, y, z differ from point to point. */
@@ -86,7 +86,13 @@ describe('Points64PacketDecoder', () => {
     expect(into.batch.pointCount).toBe(10);
     const drops: string[] = [];
     const drop = (reason: string) => drops.push(reason);
-    decoder.add(header, placement, data, 5, { every: 1, everySample: 1, batchFor: () => null, drop });
+    decoder.add(header, placement, data, 5, {
+      every: 1,
+      everySample: 1,
+      surface: false,
+      batchFor: () => null,
+      drop,
+    });
     expect(drops).toEqual(['no-buffer']);
   });
 });

@@ -24,7 +24,13 @@ impl OrganisedDecoder {
     /// nothing.
     pub fn create(header: &[u8], images: bool) -> Option<OrganisedDecoder> {
         let decoder = Decoder::new(StreamHeader::parse(header).ok()?, images)?;
-        Some(Self { decoder, packets: Box::new([[0; PACKET_ROOM]; 2]), second: 0, latency_test: false, tiles: [0; 4] })
+        Some(Self {
+            decoder,
+            packets: Box::new([[0; PACKET_ROOM]; 2]),
+            second: 0,
+            latency_test: false,
+            tiles: [0; 4],
+        })
     }
 
     /// 0, or what is wrong with a header: 1 length, 2 magic, 3 version, 4 check value, 5 a value.

@@ -162,8 +162,17 @@ impl Decoder {
         if (first.sets(), first.mode) != (second.sets(), second.mode) {
             return None;
         }
-        let Self { scene, tables, rooms: [room, other_room], points, count, second_points, come, outputs, .. } =
-            self;
+        let Self {
+            scene,
+            tables,
+            rooms: [room, other_room],
+            points,
+            count,
+            second_points,
+            come,
+            outputs,
+            ..
+        } = self;
         tables.choose(first.sets());
         let points = &mut points[*count..];
         let mut one = OpenPacket::new(first, packets[0], room, tables, scene, come, points).ok()?;
@@ -208,12 +217,6 @@ impl Decoder {
         }
         let start = self.count;
         self.count += points;
-        Put {
-            start,
-            points,
-            first_tile,
-            tiles: tile_count,
-            latency_test: header.mode == ColourMode::None,
-        }
+        Put { start, points, first_tile, tiles: tile_count, latency_test: header.mode == ColourMode::None }
     }
 }

@@ -45,10 +45,13 @@ impl Surface {
     pub fn write(&mut self, tile: &Tile, colours: &Colours, grid: Grid, place: Place, step: f32) -> usize {
         let start = (place.row * grid.columns + place.column) * TILE_SAMPLES;
         let Some(samples) = self.samples[start..].first_chunk_mut() else { return 0 };
+        let inside = (grid.width - place.column * TILE, grid.height - place.row * TILE);
         if tile.pattern == Pattern(0) {
             write_whole(tile, colours, step, samples);
+            if tile.rows.iter().any(|row| *row != u16::MAX) {
+                mend(tile, self.slope, inside, samples);
+            }
         } else {
-            let inside = (grid.width - place.column * TILE, grid.height - place.row * TILE);
             write_thinned(tile, colours, step, self.slope, inside, samples);
         }
         tile.rows[..tile.pattern.height()].iter().map(|row| row.count_ones() as usize).sum()
@@ -82,6 +85,68 @@ fn write_whole(tile: &Tile, colours: &Colours, step: f32, samples: &mut [u32; TI
     }
 }
 
+/// Fills in pixels that were not seen beside those of a surface, such as a stereo camera's speckle: no more than a pixel, which is
+/// what a disc of a pixel's width covers, too.
+#[inline(never)]
+fn mend(tile: &Tile, slope: f32, inside: (usize, usize), samples: &mut [u32; TILE_SAMPLES]) {
+    let before = *samples;
+    let in_image = u16::MAX >> TILE.saturating_sub(inside.0);
+    for (y, row) in tile.rows.iter().enumerate().take(inside.1) {
+        let mut missing = !row & in_image;
+        while missing != 0 {
+            let x = missing.trailing_zeros() as usize;
+            missing &= missing - 1;
+            if let Some(mean) = mean_around(&before, x, y, slope) {
+                samples[y * TILE + x] = mean;
+            }
+        }
+    }
+}
+
+/// The mean of the neighbours in the tile that lie on one surface with their median, where these are three of eight or as large
+/// a share.
+fn mean_around(samples: &[u32; TILE_SAMPLES], x: usize, y: usize, slope: f32) -> Option<u32> {
+    let (mut seen, mut count, mut near) = ([0; 8], 0, 0);
+    for v in y.saturating_sub(1)..=(y + 1).min(TILE - 1) {
+        for u in x.saturating_sub(1)..=(x + 1).min(TILE - 1) {
+            near += usize::from((u, v) != (x, y));
+            let sample = samples[v * TILE + u];
+            if sample != 0 {
+                seen[count] = sample;
+                count += 1;
+            }
+        }
+    }
+    if 8 * count < 3 * near {
+        return None;
+    }
+    let seen = &mut seen[..count];
+    // Half floats above 0 have the order of their bits.
+    seen.sort_unstable_by_key(|sample| sample & 0xffff);
+    let median = value(seen[count / 2]);
+    let limit = 2.0 * slope + NOISE * median;
+    let (mut sum, mut channels, mut on) = (0.0, [0_u32; 3], 0_u32);
+    for sample in seen.iter().filter(|sample| (value(**sample) - median).abs() <= limit) {
+        sum += value(*sample);
+        let colour = sample >> 16;
+        for (channel, own) in channels.iter_mut().zip([colour >> 11, colour >> 5 & 63, colour & 31]) {
+            *channel += own;
+        }
+        on += 1;
+    }
+    if 8 * (on as usize) < 3 * near {
+        return None;
+    }
+    let [r, g, b] = channels.map(|sum| (sum + on / 2) / on);
+    Some(half(sum / on as f32) | (r << 11 | g << 5 | b) << 16)
+}
+
+/// The inverse depth of a sample that is there.
+#[inline(always)]
+fn value(sample: u32) -> f32 {
+    f32::from_bits(((sample & 0x7fff) << 13) + ((127 - 15) << 23))
+}
+
 /// A tile whose other pixels are filled in: on a surface with what lies between its neighbours, at an edge with the nearest.
 #[inline(never)]
 fn write_thinned(
@@ -102,10 +167,7 @@ fn write_thinned(
         let depths = tile.depth.row(y);
         for x in (0..width).filter(|x| tile.rows[y] >> x & 1 == 1) {
             let [r, g, b, _] = colours.rgba[y * TILE + x].to_le_bytes();
-            kept[x] = Sample {
-                inverse: f32::from(depths[x]) * step,
-                colour: [r.into(), g.into(), b.into()],
-            };
+            kept[x] = Sample { inverse: f32::from(depths[x]) * step, colour: [r.into(), g.into(), b.into()] };
         }
         fill(&kept[..width], (odd & y) << shift, 1 << (usize::from(shift) + odd), slope, row);
     }
@@ -158,7 +220,8 @@ fn fill(kept: &[Sample], first: usize, step: usize, slope: f32, line: &mut [Samp
             },
             (true, true) => Sample { inverse: (a.inverse - (b.inverse - a.inverse) * away).max(0.0), ..a },
             (false, true) => a,
-            (false, false) if away < 0.5 => a,
+            // In the middle, what was seen.
+            (false, false) if away < 0.5 || (away == 0.5 && b.inverse == 0.0) => a,
             (false, false) => b,
         };
     }
@@ -169,11 +232,6 @@ mod tests {
     use super::*;
 
     const FOCAL: f32 = 400.0;
-
-    /// The value of a half float above 0.
-    fn value(half: u32) -> f32 {
-        f32::from_bits(((half & 0x7fff) << 13) + ((127 - 15) << 23))
-    }
 
     /// A tile of a pattern whose inverse depths are steps of 0.001/m at its pixels in the image.
     fn tile(pattern: u8, depth: impl Fn(usize, usize) -> i16) -> Tile {
@@ -222,7 +280,7 @@ mod tests {
                 let (u, v) = (i % TILE, i / TILE);
                 // Quincunx rows have their own ends: what goes on beyond them is a plane, too.
                 assert!((own - f32::from(plane(u, v))).abs() < 0.6, "pattern {pattern}, {u}, {v}: {own}");
-                assert_eq!(sample >> 16, 0b11111_100000_00001);
+                assert_eq!(sample >> 16, 0xfc01);
             }
         }
     }
@@ -234,9 +292,31 @@ mod tests {
             let (_, samples) = written(&tile(pattern, edge), (TILE, TILE));
             for sample in samples {
                 let own = (value(sample & 0xffff) * 1000.0).round();
-                assert!((own - 2000.0).abs() <= 1.0 || (own - 500.0).abs() <= 1.0, "pattern {pattern}: {own}");
+                assert!(
+                    (own - 2000.0).abs() <= 1.0 || (own - 500.0).abs() <= 1.0,
+                    "pattern {pattern}: {own}"
+                );
             }
         }
+    }
+
+    #[test]
+    fn a_speck_is_filled_in_on_its_surface() {
+        for (u, v) in [(0, 0), (15, 7), (6, 9), (15, 15)] {
+            let plane = |x: usize, y: usize| if (x, y) == (u, v) { 0 } else { (1000 + 3 * x + 2 * y) as i16 };
+            let (points, samples) = written(&tile(0, plane), (TILE, TILE));
+            assert_eq!(points, TILE_SAMPLES - 1);
+            let filled = value(samples[v * TILE + u]) * 1000.0;
+            assert!((filled - (1000 + 3 * u + 2 * v) as f32).abs() <= 3.0, "{u}, {v}: {filled}");
+            assert_eq!(samples[v * TILE + u] >> 16, 0xfc01);
+        }
+        let edge = |x: usize, y: usize| match (x, y) {
+            (7, 5) => 0,
+            (..7, _) => 2000,
+            _ => 500,
+        };
+        let (_, samples) = written(&tile(0, edge), (TILE, TILE));
+        assert!((value(samples[5 * TILE + 7]) * 1000.0 - 500.0).abs() < 1.0);
     }
 
     #[test]
@@ -244,9 +324,14 @@ mod tests {
         let hole = |u: usize, v: usize| if u < 4 && v < 4 { 0 } else { 1000 };
         let (points, samples) = written(&tile(0, hole), (TILE, TILE));
         assert_eq!(points, TILE_SAMPLES - 16);
-        assert_eq!(samples.iter().filter(|sample| **sample == 0).count(), 16);
+        // It shrinks by a pixel on each side that was seen.
+        assert_eq!(samples.iter().filter(|sample| **sample == 0).count(), 9);
+        let (_, samples) = written(&tile(0, |u, v| if u < 10 && v < 7 { 1000 } else { 0 }), (10, 7));
+        assert_eq!(samples.iter().filter(|sample| **sample != 0).count(), 70);
         let (_, samples) = written(&tile(2, |u, v| if u < 10 && v < 7 { 1000 } else { 0 }), (10, 7));
-        assert!(samples.iter().enumerate().all(|(i, sample)| *sample == 0 || (i % TILE < 10 && i / TILE < 7)));
+        assert!(
+            samples.iter().enumerate().all(|(i, sample)| *sample == 0 || (i % TILE < 10 && i / TILE < 7))
+        );
         assert_eq!(samples.iter().filter(|sample| **sample != 0).count(), 70);
     }
 }
