@@ -18,6 +18,7 @@ import {
 import type { HeightCut } from './cloud-colouring.ts';
 import { createMemoryMaterial } from './memory-material.ts';
 import { MemoryTexture } from './memory-texture.ts';
+import { viewportHeightOf } from './viewport-height.ts';
 
 const { pages: PAGES, pageSurfels, chunkM, ageUnitS, clockStartS } = MEMORY_LAYOUT;
 const PLACE = 4;
@@ -107,7 +108,7 @@ export class MemoryView extends Points<InstancedBufferGeometry, RawShaderMateria
 
   /** Finds what is in view. Call it before each rendering, after the camera was placed. */
   update(camera: Camera): void {
-    const { xr, domElement } = this.#renderer;
+    const { xr } = this.#renderer;
     // In VR, of the picture before: both eyes together.
     const eye = xr.isPresenting ? xr.getCamera() : camera;
     if (!xr.isPresenting) eye.updateWorldMatrix(true, false);
@@ -124,12 +125,11 @@ export class MemoryView extends Points<InstancedBufferGeometry, RawShaderMateria
       cut.below === null ? -UNLIMITED_M : ground + cut.below,
       cut.above === null ? UNLIMITED_M : ground + cut.above,
     );
-    const eyeHeight = xr.isPresenting ? xr.getCamera().cameras[0]?.viewport?.w : undefined;
-    this.#uniforms.viewportHeight.value = eyeHeight ?? domElement.height;
+    this.#uniforms.viewportHeight.value = viewportHeightOf(this.#renderer);
   }
 
   /** Frees the GPU's memory. */
-  dispose(): void {
+  override dispose(): void {
     this.#stop();
     if (this.#memory.listener === this) this.#memory.listener = null;
     this.removeFromParent();
