@@ -54,7 +54,7 @@ void main() {
   else inView.xyz *= 1.0 + behind / max(away, 0.05);
   gl_Position = projectionMatrix * inView;
   float s0 = 0.5 * viewportHeight * projectionMatrix[1][1];
-  gl_PointSize = clamp(${(voxelM * 1.3).toFixed(3)} * s0 / max(gl_Position.w, 0.01), 1.0, 0.08 * viewportHeight);
+  gl_PointSize = clamp(${(voxelM * 1.5).toFixed(3)} * s0 / max(gl_Position.w, 0.01), 1.0, 0.08 * viewportHeight);
 
   uint colour = surfel.g & 0xffffu;
   vec3 rgb = vec3(float(colour >> 11) / 31.0, float((colour >> 5) & 63u) / 63.0, float(colour & 31u) / 31.0);

@@ -20,11 +20,17 @@ class Sink {
 }
 
 /** A batch with points of one frame, from byte `offset` on. */
-function points(frameNumber: number, offset: number, count: number, total: number): Batch {
+function points(
+  frameNumber: number,
+  offset: number,
+  count: number,
+  total: number,
+  latencyTest = false,
+): Batch {
   const batch = new Batch(new ArrayBuffer(BATCH_BYTES));
   for (let i = 0; i < count; i++) batch.points.set([offset / 8 + i, -1, 1000, -1], i * 4);
   const header = { frameNumber, frameLength: total * 8, sequenceOffset: offset, sequenceLength: count * 8 };
-  batch.add(header, emptyPlacement(), count, 0, LOOK);
+  batch.add(header, { ...emptyPlacement(), latencyTest }, count, 0, LOOK);
   return batch;
 }
 
@@ -54,6 +60,15 @@ describe('KeyFrameFeed', () => {
     expect(sink.sent).toEqual([]);
     feed.take(points(3, 0, 3, 5), 1150);
     expect(sink.sent.map(({ samples }) => samples)).toEqual([3]);
+  });
+
+  test('leaves out the green frame of a latency test', () => {
+    const sink = new Sink();
+    const feed = new KeyFrameFeed(sink);
+    feed.take(points(1, 0, 5, 5, true), 1000);
+    expect(sink.sent).toEqual([]);
+    feed.take(points(2, 0, 5, 5), 1010);
+    expect(sink.sent.length).toBe(1);
   });
 
   test('takes nothing while no buffer is free', () => {

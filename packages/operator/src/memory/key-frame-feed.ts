@@ -65,6 +65,8 @@ export class KeyFrameFeed {
     }
     // A frame that has begun already would be seen in part only.
     if (nowMs - this.#beganMs < INTERVAL_MS || batch.sequenceOffset(packet) !== 0) return null;
+    // Its colours are not those of the world.
+    if (batch.isLatencyTest(packet)) return null;
     const frame = this.#sink.takeFrame();
     if (frame === null) return null;
     this.#frame = frame;

@@ -27,6 +27,7 @@ export type FromMemoryWorker =
   | { type: 'loaded'; ticket: number; points: number }
   | { type: 'refused'; ticket: number; message: string };
 
+/** Figures of a memory. */
 export interface MemoryStats {
   /** Surfels, including those that are not confirmed yet. */
   surfels: number;

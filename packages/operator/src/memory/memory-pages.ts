@@ -16,7 +16,9 @@ const SURFELS_AT = BUFFER_PAGES * HEADER_WORDS;
 export const PAGE_WORDS = PAGE_SURFELS * 2;
 export const PAGES_BYTES = (SURFELS_AT + BUFFER_PAGES * PAGE_WORDS) * 4;
 
+/** Changed pages of what is remembered: surfels of one chunk each, packed as the GPU takes them. */
 export class MemoryPages {
+  /** The memory behind all views. */
   readonly buffer: ArrayBuffer;
   /** All words of the buffer; those of a page's surfels begin at {@link surfelsAt}. */
   readonly words: Uint32Array;
@@ -44,7 +46,7 @@ export class MemoryPages {
   chunk(index: number, axis: number): number {
     return this.#headers[index * HEADER_WORDS + 2 + axis] as number;
   }
-  /** When the surfel that was seen least recently was seen, in units of {@link AGE_UNIT_S}. */
+  /** When the surfel that was seen least recently was seen, in units of age. */
   oldest(index: number): number {
     return this.#headers[index * HEADER_WORDS + 5] as number;
   }

@@ -1,12 +1,15 @@
 /**
  * How far one sees in each direction from where a frame was captured: the least range in each cell of an octahedral map
- * of all directions, whose cells are some 0.5° wide. Serves cameras and LiDARs alike. Allocates nothing.
+ * of all directions, whose cells are some 0.6° wide. Serves cameras and LiDARs alike. Allocates nothing.
  */
 
 /** Cells along the map's side. */
-const SIDE = 256;
-/** With fewer of the nine cells around a direction seen, nothing is said about it. */
-const LEAST_CELLS = 3;
+const SIDE = 192;
+/**
+ * With fewer of the nine cells around a direction seen, nothing is said about it. One ring of a LiDAR fills fewer: between
+ * two rings, the floor is nearer than where the upper one meets it.
+ */
+const LEAST_CELLS = 5;
 
 export class RangePicture {
   /** Metres; 0 where nothing was seen. */

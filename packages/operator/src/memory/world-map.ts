@@ -63,6 +63,8 @@ export class WorldMap {
   readonly #found = { chunk: -1, place: 0 };
   readonly #near = { x: Number.NaN, y: 0, z: 0 };
   #ticks = 0;
+  /** Other sensors than the first may be LiDARs, whose intensities are no colours: they colour only what is new. */
+  #recolours = true;
 
   constructor({ pages = PAGES, limits = { linear: 2, angular: 2 } }: WorldMapOptions = {}) {
     this.store = new SurfelStore(pages);
@@ -82,6 +84,7 @@ export class WorldMap {
     effect.jumped = this.jump.isJump(frame);
     if (effect.jumped) this.store.clear();
     this.#ticks = ticksOf(frame.arrivedMs);
+    this.#recolours = frame.sensor === 0;
     const samples = this.#samples;
     samples.read(frame);
     this.#view.set(frame, samples);
@@ -195,7 +198,7 @@ export class WorldMap {
     if (!isConfirmed || isBetter || since > 4 * TICKS_PER_S) store.noteChange(page);
     const weight = isBetter ? 1 : sightings + 1;
     store.places[surfel] = towards(store.places[surfel] as number, place, weight);
-    store.colours[surfel] = colour;
+    if (this.#recolours) store.colours[surfel] = colour;
     store.seen[surfel] = this.#ticks;
     store.sightings[surfel] = Math.min(sightings + 1, MOST_SIGHTINGS);
     store.distances[surfel] = Math.min(store.distances[surfel] as number, distance);

@@ -22,6 +22,7 @@ export interface MemoryListener {
 
 /** A file was not read; the message says why. */
 export class MemoryFileError extends Error {
+  /** `MemoryFileError` */
   override readonly name = 'MemoryFileError';
 }
 
