@@ -3,9 +3,9 @@
  *
  *     0    32 bytes for each page, i32: number of the page, surfels, x, y, z of its chunk, the oldest age unit, 2 unused
  *   2048   2048 bytes for each page: u32 ×2 for each confirmed surfel: its place in its chunk (memory-layout.ts); its colour,
- *          5-6-5 bits, and, from bit 16 on, when it was last seen, in units of {@link AGE_UNIT_S}
+ *          5-6-5 bits, and, from bit 16 on, when it was last seen, in units of age
  */
-import { AGE_UNIT_S, ageUnits, PAGE_SURFELS } from './memory-layout.ts';
+import { ageUnits, PAGE_SURFELS } from './memory-layout.ts';
 import type { SurfelStore } from './surfel-store.ts';
 
 /** The most pages of a buffer. */
