@@ -28,12 +28,16 @@ export function memoryControls(
   const input = document.createElement('input');
   Object.assign(input, { type: 'file', accept: '.ply', hidden: true });
   input.ariaLabel = 'Point cloud to remember';
+  const group = document.createElement('div');
+  const file = rowOf('File', save, load, input);
+  const anew = rowOf('Anew', forget);
   input.addEventListener('change', () => void loadFile(input.files?.[0]));
   effect(() => {
     toggle.ariaPressed = String(isOn());
-    for (const button of [forget, save, load]) button.hidden = !isOn();
+    for (const row of [file, anew]) row.hidden = !isOn();
   });
-  return rowOf('Seen before', toggle, forget, save, load, input);
+  group.append(rowOf('Keep', toggle), file, anew);
+  return group;
 
   async function saveFile(): Promise<void> {
     const bytes = await remembered.save();

@@ -29,6 +29,7 @@ describe('MemoryKeeping', () => {
     const port = new Port();
     const keeping = new MemoryKeeping(port, { pages: 512 });
     look(keeping, 3);
+    for (let i = 0; i < 5; i++) keeping.onMessage({ type: 'resend' });
     const all = port.take();
     const pages = all.filter((message) => message.type === 'pages');
     expect(pages.length).toBe(4);

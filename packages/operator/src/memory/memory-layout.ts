@@ -33,13 +33,15 @@ export const MEMORY_LAYOUT = {
   pages: PAGES,
   /** The most surfels of a page. */
   pageSurfels: PAGE_SURFELS,
-  /** Sides of a chunk and of a voxel, metres. */
+  /** Side of a chunk, metres. */
   chunkM: CHUNK_M,
+  /** Side of a voxel, metres. */
   voxelM: VOXEL_M,
   /** Steps of a surfel's position along a chunk's side. */
   chunkSteps: CHUNK_STEPS,
-  /** A unit of age, and the age that the clock shows when the memory begins, seconds. */
+  /** A unit of age, seconds. */
   ageUnitS: AGE_UNIT_S,
+  /** What the clock of ages shows when the memory begins, seconds. */
   clockStartS: CLOCK_START_S,
 } as const;
 
