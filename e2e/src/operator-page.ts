@@ -17,6 +17,8 @@ export interface OpenOptions {
   every?: string;
   /** `1`: draw clouds of depth cameras as surfaces, which a software renderer does not by default. */
   surface?: '0' | '1';
+  /** `1`: remember what was seen, which a page with a software renderer does not by default. */
+  memory?: '0' | '1';
   /** Take the stream from this bridge. */
   bridge?: string;
   /** `1`: videos carry their capture time in the picture. */
@@ -84,6 +86,7 @@ export class OperatorPage {
       'mode',
       'every',
       'surface',
+      'memory',
       'barcode',
       'sync',
       'cues',

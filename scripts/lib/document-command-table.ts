@@ -255,6 +255,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
         'faults',
         'safety',
         'sampling --plot FILE.svg',
+        'memory',
       ],
     ].map((rest) => [`pnpm bench ${rest}`, MEASURES]),
   ),

@@ -46,6 +46,7 @@ import { videoReceiver } from './video/video-receiver.ts';
 import { applyAppearance } from './view/apply-appearance.ts';
 import { FrameLoop } from './view/frame-loop.ts';
 import { PredictedView } from './view/predicted-view.ts';
+import { RememberedWorld } from './view/remembered-world.ts';
 import { SensorClouds } from './view/sensor-clouds.ts';
 import { showDrivePath } from './view/show-drive-path.ts';
 import { NearFieldDisplay } from './view/show-near-field.ts';
@@ -65,6 +66,8 @@ export class App {
   readonly cloud: CloudView;
   /** The clouds of a robot with several sensors. */
   readonly clouds: SensorClouds;
+  /** What was seen before. */
+  readonly remembered: RememberedWorld;
   readonly client: RobotClient;
   /** Reads and presents the robot's videos. */
   readonly videos: VideoFeed;
@@ -100,7 +103,7 @@ export class App {
     this.settings = settings;
     this.stage = new Stage(elements.stage, settings.canvas, settings.headset);
     const { renderer, world } = this.stage;
-    this.appearance = openAppearance(settings.surface, renderer.getContext());
+    this.appearance = openAppearance(settings, renderer.getContext());
     const inputPort = {
       onChange: () => this.client.driver.tick(performance.now()),
       onAction: (action, timeMs) => this.#controls.act(action, timeMs),
@@ -143,6 +146,7 @@ export class App {
     const held = new HeldClouds(this.client, this.hold, () => performance.now());
     this.cloud = new CloudView(renderer, held);
     world.add(this.cloud);
+    this.remembered = new RememberedWorld({ renderer, world, client: this.client, held });
     this.clouds = new SensorClouds({
       ...{ renderer, world, client: held, first: this.cloud, sensors, pointScale },
     });
@@ -163,7 +167,8 @@ export class App {
       nextHeadsetView: () => this.#headset?.nextView(),
       predicted: this.predicted,
     });
-    this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all });
+    const memory = { remembered: this.remembered, tell: notices.tell.bind(notices) };
+    this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all, memory });
     this.#sound = new SoundUi({
       ...{ client, player: this.player, state: state.sound },
       tell: ({ text, tone }) => notices.tell(text, tone),
@@ -171,6 +176,7 @@ export class App {
     const readHeadset = () => this.#headset?.read();
     this.frames = new FrameLoop({
       ...{ settings, client, stage, held, cloud, clouds, videos, stats, vr, readHeadset },
+      remembered: this.remembered,
     });
   }
 
@@ -199,6 +205,7 @@ export class App {
     setInterval(() => {
       const nowMs = performance.now();
       this.stats.tick(this.cloud, nowMs);
+      this.stats.remembered = this.remembered.figures;
       this.videos.measure(nowMs);
       this.state.looking.value = this.vr.active.value || !document.hidden;
       this.state.sample();
@@ -241,7 +248,7 @@ export class App {
     applyAppearance({
       ...{ appearance, sensors: state.sensors, rings: state.rings, clouds, stage, inVr },
       inTabletop: computed(() => headset.view.value === 'tabletop'),
-      client: this.client,
+      ...{ client: this.client, remembered: this.remembered },
     });
     const { driveHand } = this.settings.headset;
     const panel = new WristPanel(renderer, rig, headset.front, driveHand === 'right' ? 'left' : 'right');

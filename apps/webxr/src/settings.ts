@@ -52,6 +52,8 @@ export interface Settings {
   drawEvery: number | null;
   /** Whether clouds of depth cameras are drawn as surfaces; `null`: as was chosen before, or as suits the renderer. */
   surface: boolean | null;
+  /** Whether what was seen is remembered; `null`: as was chosen before, or as suits the renderer. */
+  memory: boolean | null;
   pointScale: number;
   /** Whether videos are presented in step: frames wait for what was captured at the same time. */
   synchronised: boolean;
@@ -116,6 +118,7 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
     mode: query.get('mode') === 'points64' ? 'points64' : 'auto',
     drawEvery: parseEvery(query.get('every')),
     surface: parseSwitch(query.get('surface')) ?? null,
+    memory: parseSwitch(query.get('memory')) ?? null,
     pointScale: clampScale(stored.pointScale),
     synchronised: parseSwitch(query.get('sync')) ?? stored.synchronised ?? true,
     cues: parseSwitch(query.get('cues')) ?? stored.cues ?? true,

@@ -1,5 +1,6 @@
 /** The appearance of clouds that this browser keeps. */
 import { isSoftwareRenderer } from '@farpoint/cloud-view';
+import type { Settings } from './settings.ts';
 import {
   appearanceText,
   CloudAppearance,
@@ -9,13 +10,14 @@ import {
 
 const KEY = 'farpoint.clouds';
 
-/** @param surface whether clouds are drawn as surfaces, if the page's address says so */
+/** @param asked what the page's address says; it comes before what is stored */
 export function openAppearance(
-  surface: boolean | null,
+  asked: Pick<Settings, 'surface' | 'memory'>,
   gl: WebGLRenderingContext | WebGL2RenderingContext,
 ): CloudAppearance {
   const stored = load();
-  const wanted = { ...stored, surface: surface ?? stored.surface };
+  const [surface, memory] = [asked.surface ?? stored.surface, asked.memory ?? stored.memory];
+  const wanted = { ...stored, surface, memory };
   return new CloudAppearance(wanted, store, !isSoftwareRenderer(gl));
 }
 

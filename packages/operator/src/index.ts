@@ -100,6 +100,11 @@ export { LatencyError, type LatencyProbe, type LatencyReport } from './latency/l
 export type { LatencyFailure, LatencyResult } from './latency/latency-test.ts';
 export { type Distribution, SampleWindow } from './latency/sample-window.ts';
 export type { RobotLink } from './link/robot-link.ts';
+export { MEMORY_LAYOUT } from './memory/memory-layout.ts';
+export type { MemoryStats } from './memory/memory-messages.ts';
+export type { MemoryPages } from './memory/memory-pages.ts';
+export type { MotionLimits } from './memory/pose-jump.ts';
+export { MemoryFileError, type MemoryListener, WorldMemory } from './memory/world-memory.ts';
 export { type TransformSupport, transformSupport } from './peer/encoded-transform.ts';
 export type { Picture } from './pictures/picture-feed.ts';
 export { ComponentReports, type ReportedComponents } from './session/component-reports.ts';

@@ -29,6 +29,7 @@ describe('the appearance of clouds', () => {
     appearance.cutFromAbove.value = { below: null, above: null };
     appearance.headingUp.value = false;
     appearance.surface.value = true;
+    appearance.memory.value = false;
     const again: StoredAppearance = parseAppearance(text);
     expect([...again.looks]).toEqual([['LiDAR', { mode: 'distance', fixed: { min: 1, max: 8 } }]]);
     expect(again).toMatchObject({
@@ -36,6 +37,7 @@ describe('the appearance of clouds', () => {
       cutFromAbove: { below: null, above: null },
       headingUp: false,
       surface: true,
+      memory: false,
     });
   });
 

@@ -20,6 +20,8 @@ export interface StoredAppearance {
   readonly headingUp: boolean;
   /** Whether clouds of depth cameras are drawn as surfaces; `null`: as suits the renderer. */
   readonly surface: boolean | null;
+  /** Whether what was seen is remembered; `null`: as suits the renderer. */
+  readonly memory: boolean | null;
 }
 
 /** The cloud of a robot with one sensor, which has no name. */
@@ -47,6 +49,9 @@ export class CloudAppearance {
   readonly surface: Signal<boolean | null>;
   /** Whether clouds of depth cameras are drawn as surfaces, chosen or not. */
   readonly drawsSurface: ReadonlySignal<boolean>;
+  readonly memory: Signal<boolean | null>;
+  /** Whether what was seen is remembered, chosen or not. */
+  readonly remembers: ReadonlySignal<boolean>;
   /** Whether the flat screen shows the surroundings from above. Each visit begins with the robot's own view. */
   readonly fromAbove = signal(false);
   /** Whether the sensors' frusta are drawn. Each visit begins without them. */
@@ -54,26 +59,28 @@ export class CloudAppearance {
 
   /**
    * @param store keeps every change
-   * @param surfaceByDefault whether clouds are drawn as surfaces until somebody chooses
+   * @param drawsFast whether clouds are drawn as surfaces, and what was seen is remembered, until somebody chooses
    */
   constructor(
     stored: StoredAppearance,
     store: (appearance: StoredAppearance) => void,
-    surfaceByDefault = false,
+    drawsFast = false,
   ) {
     this.looks = signal(stored.looks);
     this.cut = signal(stored.cut);
     this.cutFromAbove = signal(stored.cutFromAbove);
     this.headingUp = signal(stored.headingUp);
     this.surface = signal(stored.surface);
-    this.drawsSurface = computed(() => this.surface.value ?? surfaceByDefault);
+    this.drawsSurface = computed(() => this.surface.value ?? drawsFast);
+    this.memory = signal(stored.memory);
+    this.remembers = computed(() => this.memory.value ?? drawsFast);
     let first = true;
     effect(() => {
-      const { looks, cut, cutFromAbove, headingUp, surface } = this;
+      const { looks, cut, cutFromAbove, headingUp, surface, memory } = this;
       const now = {
         ...{ looks: looks.value, cut: cut.value },
         ...{ cutFromAbove: cutFromAbove.value, headingUp: headingUp.value },
-        surface: surface.value,
+        ...{ surface: surface.value, memory: memory.value },
       };
       if (!first) store(now);
       first = false;
@@ -111,6 +118,7 @@ export function parseAppearance(text: string | null): StoredAppearance {
     cutFromAbove: parseCut(record.cutFromAbove) ?? CEILING,
     headingUp: record.headingUp !== false,
     surface: typeof record.surface === 'boolean' ? record.surface : null,
+    memory: typeof record.memory === 'boolean' ? record.memory : null,
   };
 }
 

@@ -6,7 +6,7 @@ import { wristLines } from './wrist-lines.ts';
 
 const figures = {
   ...{ pointsPerFrame: 12_345.6, framesPerSecond: 10, bitsPerSecond: 3_210_000, lossRate: 0 },
-  ...{ drawnOneOf: 1, minRttMs: 42, frameLatencyMs: null, mtpMs: null },
+  ...{ drawnOneOf: 1, remembered: null, minRttMs: 42, frameLatencyMs: null, mtpMs: null },
 } as PageStats;
 const telemetry = {
   drive: 'idle',
@@ -32,6 +32,18 @@ describe('the table of figures', () => {
     const seen = { ...figures, view: { state: 'predicted', aheadMs: 142 } } as const;
     expect(values(sessionFacts({ ...session, figures: seen })).View).toBe('Predicted 140 ms ahead');
     expect(values(sessionFacts({ ...session, figures: seen, telemetry: null })).View).toBeUndefined();
+  });
+
+  test('says how old what is remembered may be', () => {
+    const of = (oldestS: number) =>
+      values(sessionFacts({ ...session, figures: { ...figures, remembered: { points: 5, oldestS } } }))
+        .Remembered;
+    expect(of(0)).toBe('up to 10 s old');
+    expect(of(41)).toBe('up to 50 s old');
+    expect(of(181)).toBe('up to 4 min old');
+    expect(of(7300)).toBe('up to 3 h old');
+    expect(of(90_000)).toBe('a day old or more');
+    expect('Remembered' in values(sessionFacts(session))).toBe(false);
   });
 
   test('lists what is known, in order', () => {

@@ -96,6 +96,7 @@ function streamFacts(figures: PageStats): Fact[] {
       value: `${Math.round(figures.pointsPerFrame).toLocaleString('en')} × ${figures.framesPerSecond.toFixed(0)}/s`,
     },
     ...thinningFacts(figures),
+    ...memoryFacts(figures),
     { name: 'Rate', value: `${mbps(figures)} Mbit/s` },
     { name: 'Loss', value: `${(figures.lossRate * 100).toFixed(1)} %`, tone: lossTone(figures) },
     { name: 'Round trip', value: ms(figures.minRttMs) },
@@ -113,6 +114,19 @@ function thinningFacts({ pointsPerFrame, drawnOneOf }: PageStats): Fact[] {
   if (drawnOneOf === 1) return [];
   const [drawn, came] = [pointsPerFrame / drawnOneOf, pointsPerFrame].map(hundreds);
   return [{ name: 'Drawn', value: `${drawn} of ${came}: this computer is slow`, tone: 'warning' }];
+}
+
+/** How old what is drawn beside the live clouds may be. */
+function memoryFacts({ remembered }: PageStats): Fact[] {
+  if (remembered === null) return [];
+  return [{ name: 'Remembered', value: rememberedAge(remembered.oldestS) }];
+}
+
+/** @param oldestS age of the oldest, seconds */
+export function rememberedAge(oldestS: number): string {
+  if (oldestS < 60) return `up to ${Math.max(Math.ceil(oldestS / 10) * 10, 10)} s old`;
+  if (oldestS < 5400) return `up to ${Math.ceil(oldestS / 60)} min old`;
+  return oldestS < 24 * 3600 ? `up to ${Math.ceil(oldestS / 3600)} h old` : 'a day old or more';
 }
 
 function hundreds(points: number): string {

@@ -14,6 +14,8 @@ export interface PageStats extends StreamStats {
   pointsPerFrame: number;
   /** Only about one of this many points is drawn, because this computer is too slow for more; 1: all. */
   drawnOneOf: number;
+  /** What of the remembered world is in view; `null`: nothing. */
+  remembered: RememberedFigures | null;
   /** Milliseconds of the frame loop's own work. With `?canvas=` it includes the time until the GPU has finished. */
   renderMs: Distribution | null;
   displayFramesPerSecond: number;
@@ -22,6 +24,13 @@ export interface PageStats extends StreamStats {
   videos: VideoStats;
   /** Whether the view is predicted. */
   view?: ViewFigures | undefined;
+}
+
+/** What of the remembered world is in view. */
+export interface RememberedFigures {
+  points: number;
+  /** How long ago the oldest of it was seen, seconds. */
+  oldestS: number;
 }
 
 /** What of the cloud has been drawn since the session began. */
@@ -39,6 +48,8 @@ export class PageStatistics {
   #displayFrames = 0;
   /** Set by what governs the drawing. */
   drawnOneOf = 1;
+  /** Set by what draws the remembered world. */
+  remembered: RememberedFigures | null = null;
 
   /** Starts a new session. */
   reset(): void {
@@ -87,6 +98,7 @@ export class PageStatistics {
       pointsPerFrame: frames > 0 ? this.#points.perSecond / frames : 0,
       renderMs: this.#render.distribution(),
       drawnOneOf: this.drawnOneOf,
+      remembered: this.remembered,
       displayFramesPerSecond: this.#display.perSecond,
       canvas: { width: canvas.width, height: canvas.height },
       videos,

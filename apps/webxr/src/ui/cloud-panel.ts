@@ -10,6 +10,7 @@ import { colourControls } from './colour-controls.ts';
 import { cutControls } from './cut-controls.ts';
 import { elements } from './elements.ts';
 import { type Legend, legendOf } from './legend.ts';
+import { type MemoryControlsParts, memoryControls } from './memory-controls.ts';
 import { quietButton, rowOf } from './panel-parts.ts';
 import { surfaceControls } from './surface-controls.ts';
 
@@ -18,6 +19,7 @@ export interface CloudPanelParts {
   /** Empty for a robot with one sensor. */
   readonly sensors: Switches;
   readonly views: ReadonlySignal<readonly CloudView[]>;
+  readonly memory: MemoryControlsParts;
 }
 
 export class CloudPanel {
@@ -53,8 +55,8 @@ export class CloudPanel {
       legends.replaceChildren(...this.#legends.map((legend) => legend.element));
     });
     const ofSensors = element('');
-    const surface = surfaceControls(appearance);
-    controls.append(ofSensors, surface, cutControls(appearance), frustaSwitch(appearance));
+    const drawing = [surfaceControls(appearance), memoryControls(appearance, parts.memory)];
+    controls.append(ofSensors, ...drawing, cutControls(appearance), frustaSwitch(appearance));
     effect(() => {
       const parts = this.#names().map((name, i) =>
         untracked(() =>

@@ -14,6 +14,8 @@ export class HeldClouds implements CloudSource {
   readonly #hold: CloudHold;
   readonly #now: () => number;
   #session = 0;
+  /** Called with each batch as it comes, before it is held; it must copy what it keeps. */
+  onBatch: ((batch: Batch) => void) | null = null;
 
   constructor(source: ClockedCloudSource, hold: CloudHold, now: () => number) {
     this.latency = source.latency;
@@ -59,6 +61,7 @@ export class HeldClouds implements CloudSource {
   }
 
   #take(batch: Batch, take: (batch: Batch) => void): void {
+    this.onBatch?.(batch);
     const nowMs = this.#now();
     const { offsetMs } = this.#source.link.session.clock;
     // Without videos, nothing says what time it is, and there is nothing to wait for.

@@ -3,6 +3,7 @@ import type { RobotClient } from '@farpoint/operator';
 import { effect, type ReadonlySignal } from '@preact/signals-core';
 import { type CloudAppearance, UNNAMED } from '../state/cloud-appearance.ts';
 import type { Switches } from '../state/switches.ts';
+import type { RememberedWorld } from './remembered-world.ts';
 import type { SensorClouds } from './sensor-clouds.ts';
 import { SensorFrusta } from './sensor-frusta.ts';
 import type { Stage } from './stage.ts';
@@ -18,11 +19,15 @@ export interface AppearanceParts {
   /** Whether the headset shows the world as a model, seen from above. */
   readonly inTabletop: ReadonlySignal<boolean>;
   readonly client: Pick<RobotClient, 'drawSurface'>;
+  readonly remembered: Pick<RememberedWorld, 'on'>;
 }
 
 export function applyAppearance(parts: AppearanceParts): void {
-  const { appearance, sensors, rings, clouds, stage, inVr, inTabletop, client } = parts;
+  const { appearance, sensors, rings, clouds, stage, inVr, inTabletop, client, remembered } = parts;
   effect(() => client.drawSurface(appearance.drawsSurface.value));
+  effect(() => {
+    remembered.on = appearance.remembers.value;
+  });
   const { fromAbove, headingUp, cut, cutFromAbove } = appearance;
   effect(() => {
     for (const [i, { colouring }] of clouds.all.value.entries()) {

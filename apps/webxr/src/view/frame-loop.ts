@@ -5,6 +5,7 @@ import type { Settings } from '../settings.ts';
 import type { PageStatistics } from '../status/page-stats.ts';
 import type { HeldClouds } from '../video/held-clouds.ts';
 import type { VideoFeed } from '../video/video-feed.ts';
+import type { RememberedWorld } from './remembered-world.ts';
 import type { SensorClouds } from './sensor-clouds.ts';
 import type { Stage } from './stage.ts';
 import type { VrSession } from './vr-session.ts';
@@ -16,6 +17,7 @@ export interface FrameLoopParts {
   readonly held: HeldClouds;
   readonly cloud: CloudView;
   readonly clouds: SensorClouds;
+  readonly remembered: RememberedWorld;
   readonly videos: VideoFeed;
   readonly stats: PageStatistics;
   readonly vr: VrSession;
@@ -67,7 +69,7 @@ export class FrameLoop {
   }
 
   #frame(nowMs: number): void {
-    const { client, held, cloud, clouds, videos, settings, stage, stats, vr } = this.#parts;
+    const { client, held, cloud, clouds, remembered, videos, settings, stage, stats, vr } = this.#parts;
     // Videos are shown beside the scene: they need not wait until it can be drawn again.
     const nowOnClockMs = performance.now();
     videos.tick(nowOnClockMs);
@@ -83,6 +85,7 @@ export class FrameLoop {
     if (inVr) this.#parts.readHeadset();
     stage.predicted?.update(performance.now());
     stage.prepare(cloud, nowMs);
+    remembered.update(stage.viewCamera, cloud.colouring);
     stage.renderer.render(stage.scene, stage.viewCamera);
     // Wait only when a time is being measured: waiting for the GPU costs frames.
     if (client.latency.wantsTime || settings.canvas !== null) {

@@ -1,0 +1,60 @@
+/** Whether what was seen is remembered; and buttons that forget, save and load it. */
+import { MemoryFileError } from '@farpoint/operator';
+import { effect } from '@preact/signals-core';
+import type { CloudAppearance } from '../state/cloud-appearance.ts';
+import type { RememberedWorld } from '../view/remembered-world.ts';
+import { quietButton, rowOf } from './panel-parts.ts';
+
+export interface MemoryControlsParts {
+  readonly remembered: Pick<RememberedWorld, 'forget' | 'save' | 'load'>;
+  tell(text: string, tone: 'good' | 'warning'): void;
+}
+
+export function memoryControls(
+  { memory, remembers }: CloudAppearance,
+  { remembered, tell }: MemoryControlsParts,
+): HTMLElement {
+  const toggle = quietButton('Memory', 'Remember what was seen: dimmer where it is not seen now', () => {
+    memory.value = !remembers.peek();
+  });
+  const forget = quietButton('Forget', 'Forget everything that was seen until now', () =>
+    remembered.forget(),
+  );
+  const save = quietButton('Save', 'Save what is remembered as a point cloud (PLY)', () => void saveFile());
+  const load = quietButton('Load', 'Add a point cloud (PLY) to what is remembered', () => input.click());
+  const input = document.createElement('input');
+  Object.assign(input, { type: 'file', accept: '.ply', hidden: true });
+  input.ariaLabel = 'Point cloud to remember';
+  const group = document.createElement('div');
+  const file = rowOf('File', save, load, input);
+  const anew = rowOf('Anew', forget);
+  input.addEventListener('change', () => void loadFile(input.files?.[0]));
+  effect(() => {
+    toggle.ariaPressed = String(remembers.value);
+    for (const row of [file, anew]) row.hidden = !remembers.value;
+  });
+  group.append(rowOf('Keep', toggle), file, anew);
+  return group;
+
+  async function saveFile(): Promise<void> {
+    const bytes = await remembered.save();
+    if (bytes === null) return;
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(new Blob([bytes], { type: 'application/octet-stream' }));
+    link.download = `farpoint-${new Date().toISOString().slice(0, 19).replaceAll(':', '-')}.ply`;
+    link.click();
+    URL.revokeObjectURL(link.href);
+  }
+
+  async function loadFile(file: File | undefined): Promise<void> {
+    input.value = '';
+    if (file === undefined) return;
+    try {
+      const points = await remembered.load(file);
+      tell(`${points.toLocaleString('en')} points loaded from ${file.name}`, 'good');
+    } catch (error) {
+      if (!(error instanceof MemoryFileError)) throw error;
+      tell(`${file.name} cannot be loaded: ${error.message}`, 'warning');
+    }
+  }
+}

@@ -1,0 +1,102 @@
+import { readFileSync } from 'node:fs';
+import type { Page } from '@playwright/test';
+import { OperatorPage } from '../src/operator-page.ts';
+import { type Part, type Rgb, sharesNear } from '../src/picture.ts';
+import { expect, test } from '../src/stack-test.ts';
+
+const BACKGROUND: Rgb = [11, 15, 20];
+/** Behind the robot, when it is seen from above; and the floor before the operator. */
+const BEHIND: Part = { left: 0.42, top: 0.7, width: 0.16, height: 0.12 };
+const FLOOR: Part = { left: 0.35, top: 0.67, width: 0.3, height: 0.12 };
+
+const robot = {
+  id: 'memory',
+  name: 'Memory',
+  args: ['--source', 'sim', '--sim-seed', '1', '--fps', '5', '--start-mbps', '20', '--bitrate-mbps', '30'],
+};
+
+/** Share of a part of the page where something is drawn. */
+async function drawnShare(page: Page, part: Part): Promise<number> {
+  const [empty] = await sharesNear(page, await page.screenshot(), part, [BACKGROUND], 6);
+  return 1 - (empty as number);
+}
+
+/** Turns the robot in place until it looks away from where it looked. */
+async function turnRound(operator: OperatorPage, page: Page): Promise<void> {
+  const { yaw } = await operator.body();
+  const turned = async () => {
+    await page.evaluate(() => window.farpoint.drive({ forward: 0, left: 1 }, 400));
+    const now = (await operator.body()).yaw;
+    return Math.abs(Math.atan2(Math.sin(now - yaw), Math.cos(now - yaw)));
+  };
+  await expect
+    .poll(turned, { message: 'radians turned', intervals: [10], timeout: 60_000 })
+    .toBeGreaterThan(2.5);
+}
+
+/** Looks to the right by dragging, as far as the robot turns to the left. */
+async function lookBack(page: Page): Promise<void> {
+  for (let i = 0; i < 2; i++) {
+    await page.mouse.move(900, 250);
+    await page.mouse.down();
+    await page.mouse.move(330, 250, { steps: 5 });
+    await page.mouse.up();
+  }
+}
+
+test('what was seen stays behind the robot, can be saved and loaded, and is forgotten on reload', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const stack = await startStack({ robots: [robot] });
+  const open = { robot: robot.id, canvas: '640x360', every: '4', memory: '1' } as const;
+  const operator = await OperatorPage.open(page, stack, open);
+  await operator.expectPoints(10_000);
+  const rememberedPoints = async () => (await operator.stats()).remembered?.points ?? 0;
+  await expect.poll(rememberedPoints, { message: 'remembered points in view' }).toBeGreaterThan(3000);
+  await expect(page.locator('#facts')).toContainText(/Remembered\s*up to \d+ s old/);
+
+  await turnRound(operator, page);
+  await operator.expectFrames(5);
+  await lookBack(page);
+  await operator.screenshot(testInfo, 'looking-back');
+  expect(await drawnShare(page, FLOOR)).toBeGreaterThan(0.6);
+  await page.keyboard.press('t');
+  await operator.screenshot(testInfo, 'from-above');
+  const above = await drawnShare(page, BEHIND);
+  expect(above).toBeGreaterThan(0.25);
+
+  await page.getByRole('button', { name: 'Colours', exact: true }).click();
+  const memory = page.getByRole('button', { name: 'Memory', exact: true });
+  await expect(memory).toHaveAttribute('aria-pressed', 'true');
+  await operator.screenshot(testInfo, 'panel');
+  const downloading = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save', exact: true }).click();
+  const file = testInfo.outputPath('remembered.ply');
+  await (await downloading).saveAs(file);
+  expect(readFileSync(file).subarray(0, 200).toString('latin1')).toMatch(
+    /^ply\nformat binary_little_endian 1\.0\n/,
+  );
+  await memory.click();
+  await expect
+    .poll(() => drawnShare(page, BEHIND), { message: 'drawn without memory' })
+    .toBeLessThan(above / 4);
+  await memory.click();
+  await expect.poll(() => drawnShare(page, BEHIND), { message: 'drawn again' }).toBeGreaterThan(above / 2);
+
+  await page.reload();
+  await page.waitForFunction(() => window.farpoint !== undefined);
+  await operator.expectPoints(10_000);
+  await page.keyboard.press('t');
+  await operator.expectFrames(5);
+  expect(await drawnShare(page, BEHIND)).toBeLessThan(above / 4);
+  await page.getByLabel('Point cloud to remember').setInputFiles(file);
+  await expect
+    .poll(() => drawnShare(page, BEHIND), { message: 'drawn from the file' })
+    .toBeGreaterThan(above / 2);
+  await operator.screenshot(testInfo, 'loaded');
+  await page.getByLabel('Point cloud to remember').setInputFiles({
+    ...{ name: 'not.ply', mimeType: 'application/octet-stream', buffer: Buffer.from('pcd') },
+  });
+  await expect.poll(async () => (await operator.state()).notice).toContain('not.ply cannot be loaded');
+});

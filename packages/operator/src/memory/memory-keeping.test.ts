@@ -1,0 +1,77 @@
+import { describe, expect, test } from 'vitest';
+import { MemoryKeeping } from './memory-keeping.ts';
+import type { FromMemoryWorker } from './memory-messages.ts';
+import { MemoryPages } from './memory-pages.ts';
+import { cameraAt, frameOfRoom } from './testing/room.ts';
+
+class Port {
+  readonly posted: FromMemoryWorker[] = [];
+  now = 0;
+  post(message: FromMemoryWorker): void {
+    this.posted.push(message);
+  }
+  nowMs(): number {
+    return this.now++;
+  }
+  /** What was posted since the last call. */
+  take(): FromMemoryWorker[] {
+    return this.posted.splice(0);
+  }
+}
+
+function look(keeping: MemoryKeeping, frames: number): void {
+  for (let i = 0; i < frames; i++)
+    keeping.onMessage({ type: 'frame', buffer: frameOfRoom(cameraAt(1, 0, 0), i * 350).buffer });
+}
+
+describe('MemoryKeeping', () => {
+  test('hands changes on as long as it has buffers, and the rest when one comes back', () => {
+    const port = new Port();
+    const keeping = new MemoryKeeping(port, { pages: 512 });
+    look(keeping, 3);
+    for (let i = 0; i < 5; i++) keeping.onMessage({ type: 'resend' });
+    const all = port.take();
+    const pages = all.filter((message) => message.type === 'pages');
+    expect(pages.length).toBe(4);
+    expect(all.filter(({ type }) => type === 'taken').length).toBe(3);
+    const waiting = keeping.map.store.changedPages;
+    expect(waiting).toBeGreaterThan(0);
+    const { buffer, count } = pages[0] as FromMemoryWorker & { type: 'pages' };
+    expect(new MemoryPages(buffer, count).count).toBe(count);
+    keeping.onMessage({ type: 'return', buffer });
+    expect(port.take().map(({ type }) => type)).toEqual(['pages']);
+    expect(keeping.map.store.changedPages).toBeLessThan(waiting);
+  });
+
+  test('says when it has forgotten, also because of a jump', () => {
+    const port = new Port();
+    const keeping = new MemoryKeeping(port, { pages: 512, limits: { linear: 1, angular: 1 } });
+    look(keeping, 3);
+    port.take();
+    keeping.onMessage({ type: 'frame', buffer: frameOfRoom(cameraAt(4.5, 0, 0), 1100).buffer });
+    expect(port.take()[0]).toEqual({ type: 'forgotten', jumped: true });
+    keeping.onMessage({ type: 'forget' });
+    expect(port.take()).toEqual([{ type: 'forgotten', jumped: false }]);
+    expect(keeping.map.store.count).toBe(0);
+  });
+
+  test('loads what it has saved, as old as it is, and refuses other files', () => {
+    const port = new Port();
+    const keeping = new MemoryKeeping(port, { pages: 512 });
+    look(keeping, 3);
+    port.take();
+    keeping.onMessage({ type: 'save', ticket: 7, nowMs: 5000, savedAt: '2026-01-01T00:00:00Z' });
+    const saved = port.take()[0] as FromMemoryWorker & { type: 'saved' };
+    expect(saved.ticket).toBe(7);
+    const other = new MemoryKeeping(port, { pages: 512 });
+    other.onMessage({ type: 'load', ticket: 8, nowMs: 0, agoS: 60, bytes: saved.bytes });
+    const loaded = port.take().find((message) => message.type === 'loaded');
+    expect(loaded?.points).toBeGreaterThan(3000);
+    // Seen at 0.7 s, saved at 5 s, loaded a minute later, which is when this memory begins.
+    const { store } = other.map;
+    const page = store.pageChunks.findIndex((chunk) => chunk >= 0);
+    expect(24 * 3600 - (store.seen[page * 256] as number) / 16).toBeCloseTo(64.3, 0);
+    other.onMessage({ type: 'load', ticket: 9, nowMs: 0, agoS: 0, bytes: new ArrayBuffer(5) });
+    expect(port.take()).toEqual([{ type: 'refused', ticket: 9, message: 'this is no PLY file' }]);
+  });
+});
