@@ -20,11 +20,12 @@ import type { Notices } from './state/notices.ts';
 import { PageState } from './state/page-state.ts';
 import { PageStatistics, type PageStats } from './status/page-stats.ts';
 import { tellNotices } from './status/tell-notices.ts';
-import { failureWords, leavingWords } from './status/words.ts';
+import { leavingWords } from './status/words.ts';
 import { openAppearance } from './stored-appearance.ts';
 import { PresentedInstant } from './telemetry/presented-instant.ts';
 import { TelemetryRecorder } from './telemetry/recorder.ts';
 import { AccessUi } from './ui/access-ui.ts';
+import { listenToCanvas } from './ui/canvas-events.ts';
 import { CloudPanel } from './ui/cloud-panel.ts';
 import { ControlsUi } from './ui/controls-ui.ts';
 import { DashboardOpener } from './ui/dashboard-opener.ts';
@@ -182,7 +183,7 @@ export class App {
 
   start(): void {
     this.#listen();
-    this.#listenToCanvas();
+    listenToCanvas(elements.stage, this.stage, this.state.notices);
     this.#controls.start();
     this.#sound.start();
     this.#access.start();
@@ -292,16 +293,5 @@ export class App {
     });
     tellNotices(client, this.state.notices);
     if (this.settings.cues) giveCues(client, this.vr, () => performance.now());
-  }
-
-  #listenToCanvas(): void {
-    const { failure } = this.state.notices;
-    new ResizeObserver(() => this.stage.resize()).observe(elements.stage);
-    elements.stage.addEventListener('webglcontextlost', () => {
-      failure.value = failureWords.contextLost;
-    });
-    elements.stage.addEventListener('webglcontextrestored', () => {
-      failure.value = null;
-    });
   }
 }

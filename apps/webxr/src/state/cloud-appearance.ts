@@ -61,11 +61,7 @@ export class CloudAppearance {
    * @param store keeps every change
    * @param drawsFast whether clouds are drawn as surfaces, and what was seen is remembered, until somebody chooses
    */
-  constructor(
-    stored: StoredAppearance,
-    store: (appearance: StoredAppearance) => void,
-    drawsFast = false,
-  ) {
+  constructor(stored: StoredAppearance, store: (appearance: StoredAppearance) => void, drawsFast = false) {
     this.looks = signal(stored.looks);
     this.cut = signal(stored.cut);
     this.cutFromAbove = signal(stored.cutFromAbove);

@@ -1,8 +1,7 @@
 //! Filling in what the encoder has thinned.
 
 use crate::paint::Colours;
-use crate::surface::TILE_SAMPLES;
-use crate::surface_sample::{NOISE, bits565, half};
+use crate::surface_sample::{NOISE, TILE_SAMPLES, bits565, half};
 use crate::tile::{Pattern, TILE, Tile};
 
 /// A pixel being filled in.

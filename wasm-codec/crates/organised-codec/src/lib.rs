@@ -59,7 +59,7 @@ pub use load::{Left, Source};
 pub use packet::{PacketError, seal};
 pub use stream::{HeaderError, StreamHeader};
 pub use stream_palette::with_palette;
-pub use surface::TILE_SAMPLES;
+pub use surface_sample::TILE_SAMPLES;
 pub use thinning::Validity;
 pub use tile::ColourMode;
 

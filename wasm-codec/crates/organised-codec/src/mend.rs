@@ -1,7 +1,6 @@
 //! Filling in what a sensor missed.
 
-use crate::surface::TILE_SAMPLES;
-use crate::surface_sample::{NOISE, half, value};
+use crate::surface_sample::{NOISE, TILE_SAMPLES, half, value};
 use crate::tile::{TILE, Tile};
 
 /// Fills in pixels that were not seen beside those of a surface, such as a stereo camera's speckle: no more than a pixel, which is

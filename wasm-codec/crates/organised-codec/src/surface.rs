@@ -5,11 +5,9 @@ use core::ops::Range;
 use crate::fill::write_thinned;
 use crate::mend::mend;
 use crate::paint::Colours;
-use crate::surface_sample::{bits565, half};
+use crate::surface_sample::{TILE_SAMPLES, bits565, half};
 use crate::tile::{Grid, Pattern, Place, TILE, Tile};
 
-/// Samples of a tile.
-pub const TILE_SAMPLES: usize = TILE * TILE;
 /// Planes that pass the camera's centre nearer than this are torn where they are seen from the side, metres.
 const NEAREST_PLANE: f32 = 0.2;
 /// The tiles of a frame, [`TILE_SAMPLES`] each, row by row. A sample is the inverse depth as a half float, 1/m, 0 where

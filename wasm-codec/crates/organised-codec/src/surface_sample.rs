@@ -1,5 +1,9 @@
 //! A surface's sample: inverse depth and colour.
 
+use crate::tile::TILE;
+
+/// Samples of a tile.
+pub const TILE_SAMPLES: usize = TILE * TILE;
 /// Noise of inverse depth between neighbouring pixels, as a share of it.
 pub(crate) const NOISE: f32 = 0.02;
 
