@@ -256,6 +256,8 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
         'safety',
         'sampling --plot FILE.svg',
         'memory',
+        'prediction',
+        'view',
       ],
     ].map((rest) => [`pnpm bench ${rest}`, MEASURES]),
   ),

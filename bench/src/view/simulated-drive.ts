@@ -63,10 +63,9 @@ export interface DriveFrame {
 const HEADER_BYTES = 16;
 /** For whose headers room is left in a frame's budget. */
 const PACKETS = 60;
-/** The robot drives curves, and looks around. */
-const SPEED = 0.5;
-const TURN = 0.7;
-const TURN_PERIOD_S = 9;
+/** The robot drives in a circle, m/s and rad/s, and sees everything around it. */
+const SPEED = 0.4;
+const TURN = 0.5;
 
 export class SimulatedDrive {
   readonly streamHeader: Uint8Array;
@@ -118,9 +117,7 @@ export class SimulatedDrive {
   /** Drives on to the next frame, and returns what of it arrives. */
   next(): DriveFrame {
     const { framesPerSecond, rateMbps } = this.#options;
-    const time = this.#frame / framesPerSecond;
-    const turn = TURN * Math.sin((2 * Math.PI * time) / TURN_PERIOD_S);
-    this.#base.setCommand({ linear: { x: SPEED, y: 0, z: 0 }, angular: { x: 0, y: 0, z: turn } });
+    this.#base.setCommand({ linear: { x: SPEED, y: 0, z: 0 }, angular: { x: 0, y: 0, z: TURN } });
     this.#base.step(1 / framesPerSecond);
     const frame = this.#camera.render(this.#base.snapshot);
     const budgetBytes = Math.floor(BitRate.bytesIn(BitRate.fromMbps(rateMbps), 1000 / framesPerSecond));
