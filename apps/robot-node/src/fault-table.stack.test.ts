@@ -73,10 +73,11 @@ describe.skipIf(!isAvailable())(
       expect(rig.wheels.fastest).toBeLessThanOrEqual(SPEED);
     }
 
-    /** @returns when it began to go wrong: some causes take long to prepare */
+    /** @returns when it began to go wrong: some causes take long to prepare, and may say when they began */
     async function begin(cause: Fault['cause'], driving: Driving): Promise<number> {
       const causeMs = performance.now();
-      await cause(driving);
+      const beganMs = await cause(driving);
+      if (typeof beganMs === 'number') return beganMs;
       return rig.wheels.brakingAfter(causeMs) === null ? Math.max(causeMs, performance.now() - 1) : causeMs;
     }
 

@@ -23,7 +23,8 @@ export interface Fault {
   behindLink?: boolean;
   /** Whether the robot must know the usual interval of what the driver sees: its last second counts. */
   settled?: boolean;
-  cause(driving: Driving): void | Promise<void>;
+  /** May say when it began, `performance.now()`, if preparing it took long. */
+  cause(driving: Driving): void | Promise<unknown>;
 }
 
 /** Changes parts of each command. */

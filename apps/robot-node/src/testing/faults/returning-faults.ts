@@ -14,7 +14,10 @@ function hung(name: string): Pick<ReturningFault, 'cause' | 'ends'> {
     cause: async ({ rig, hand }) => {
       thread = await HungThread.seize(rig.robot.pid, name);
       await rig.untilSettled(hand);
+      // Finding the thread takes long, and the robot may brake before its standing still is reported.
+      const causeMs = performance.now();
       await thread.stop();
+      return causeMs;
     },
     ends: () => thread?.goOn(),
   };
