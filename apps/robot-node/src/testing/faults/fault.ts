@@ -24,7 +24,7 @@ export interface Fault {
   /** Whether the robot must know the usual interval of what the driver sees: its last second counts. */
   settled?: boolean;
   /** May say when it began, `performance.now()`, if preparing it took long. */
-  cause(driving: Driving): void | Promise<unknown>;
+  cause(driving: Driving): unknown;
 }
 
 /** Changes parts of each command. */
