@@ -77,6 +77,7 @@ export class SimulatedDrive {
   readonly #points64: Points64Encoder;
   readonly #random: Random;
   #frame = 0;
+  #captureTimeUs = 0;
 
   private constructor(
     codec: Codec,
@@ -121,6 +122,7 @@ export class SimulatedDrive {
     this.#base.step(1 / framesPerSecond);
     const frame = this.#camera.render(this.#base.snapshot);
     const budgetBytes = Math.floor(BitRate.bytesIn(BitRate.fromMbps(rateMbps), 1000 / framesPerSecond));
+    this.#captureTimeUs = Math.round(this.#base.snapshot.time * 1e6);
     const number = this.#frame++;
     return {
       organised: this.#arrived(this.#organisedPayloads(frame, number, budgetBytes)),
@@ -156,7 +158,7 @@ export class SimulatedDrive {
       const sequenceLength = bytesOfPoints(encoder.lengths[i * 2 + 1] as number);
       const header = { frameNumber, frameLength: bytesOfPoints(points), sequenceOffset, sequenceLength };
       sequenceOffset += sequenceLength;
-      return payloadOf(header, encoder.packet(i), 'organised', frame.cameraPose);
+      return this.#payload(header, encoder.packet(i), 'organised', frame.cameraPose);
     });
   }
 
@@ -175,26 +177,22 @@ export class SimulatedDrive {
       const at = i * stride + dataOffset;
       const data = encoder.packets.subarray(at, at + sequenceLength);
       const place = { frameNumber, frameLength: bytesOfPoints(kept), sequenceOffset: bytesOfPoints(first) };
-      return payloadOf({ ...place, sequenceLength }, data, 'points64', frame.cameraPose);
+      return this.#payload({ ...place, sequenceLength }, data, 'points64', frame.cameraPose);
     });
   }
 
   #arrived(payloads: ArrayBuffer[]): ArrayBuffer[] {
     return payloads.filter(() => this.#random.next() >= this.#options.loss);
   }
-}
 
-/** An RTP payload of our own profile. */
-function payloadOf(
-  header: PointPacketHeader,
-  data: Uint8Array,
-  format: CloudFormat,
-  pose: Pose,
-): ArrayBuffer {
-  const payload = new Uint8Array(HEADER_BYTES + data.length + PLACEMENT_BYTES);
-  const view = new DataView(payload.buffer);
-  writePointPacketHeader(view, 0, header);
-  payload.set(data, HEADER_BYTES);
-  writePlacement(view, HEADER_BYTES + data.length, { ...emptyPlacement(), pose, format });
-  return payload.buffer;
+  /** An RTP payload of our own profile. */
+  #payload(header: PointPacketHeader, data: Uint8Array, format: CloudFormat, pose: Pose): ArrayBuffer {
+    const payload = new Uint8Array(HEADER_BYTES + data.length + PLACEMENT_BYTES);
+    const view = new DataView(payload.buffer);
+    writePointPacketHeader(view, 0, header);
+    payload.set(data, HEADER_BYTES);
+    const placement = { ...emptyPlacement(), pose, format, captureTimeUs: this.#captureTimeUs };
+    writePlacement(view, HEADER_BYTES + data.length, placement);
+    return payload.buffer;
+  }
 }

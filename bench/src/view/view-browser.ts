@@ -6,7 +6,7 @@ import { extname, join } from 'node:path';
 import { chromiumLaunchOptions, repositoryRoot } from '@farpoint/local-stack';
 import type { Pose } from '@farpoint/protocol';
 import { chromium, type Page } from '@playwright/test';
-import type {} from './page/view-page.ts';
+import type { ViewOptions } from './page/view-page.ts';
 import type { Picture } from './picture-difference.ts';
 
 /** Answered from the bundle; nothing leaves this machine. */
@@ -44,12 +44,10 @@ export class ViewBrowser {
     });
   }
 
-  /** @param header of an organised stream; `null` for `points64` @param size of the picture, pixels */
-  async begin(header: Uint8Array | null, surface: boolean, size: number): Promise<void> {
-    const text = header === null ? null : base64(header);
-    await this.#page.evaluate((given) => window.view.begin(given.text, given.surface, given.size), {
-      ...{ text, surface, size },
-    });
+  /** @param header of an organised stream; `null` for `points64` */
+  async begin(header: Uint8Array | null, options: Omit<ViewOptions, 'header'>): Promise<void> {
+    const all = { ...options, header: header === null ? null : base64(header) };
+    await this.#page.evaluate((given) => window.view.begin(given), all);
   }
 
   /** Gives the page a frame's packets. Returns the time on the page's main thread, without decoding, ms. */
@@ -78,7 +76,7 @@ export class ViewBrowser {
 
 function bundle(into: string): void {
   const vite = join(repositoryRoot, 'apps', 'webxr', 'node_modules', 'vite', 'bin', 'vite.js');
-  const options = ['--outDir', into, '--emptyOutDir', '--logLevel', 'error', '--target', 'es2022'];
+  const options = ['--outDir', into, '--emptyOutDir', '--logLevel', 'error'];
   const { status, stdout, stderr } = spawnSync(
     process.execPath,
     [vite, 'build', join(import.meta.dirname, 'page'), ...options],

@@ -1,5 +1,6 @@
 /** The page of `pnpm bench view`: decodes packets, draws them, and returns what an eye sees. */
-import { CloudView, RobotWorld, worldToThree } from '@farpoint/cloud-view';
+import { CloudView, MemoryView, RobotWorld, worldToThree } from '@farpoint/cloud-view';
+import { WorldMemory } from '@farpoint/operator';
 import { AssembledCloud } from '@farpoint/operator/testing/assembled-cloud';
 import type { Pose } from '@farpoint/protocol';
 import { loadCodec } from '@farpoint/wasm-codec';
@@ -13,10 +14,20 @@ export interface SeenPicture {
   drawMs: number;
 }
 
+export interface ViewOptions {
+  /** Of an organised stream, base64; `null` for `points64`. */
+  header: string | null;
+  /** Whether clouds are drawn as surfaces. */
+  surface: boolean;
+  /** Whether what was seen is remembered. */
+  memory: boolean;
+  /** Side of the picture, pixels. */
+  size: number;
+}
+
 /** What the benchmark calls in the page. */
 export interface ViewApi {
-  /** @param header of an organised stream; `null` for `points64` */
-  begin(header: string | null, surface: boolean, size: number): Promise<void>;
+  begin(options: ViewOptions): Promise<void>;
   /** Takes a frame's packets. Returns the time on the main thread, without decoding, ms. */
   feed(payloads: string[]): number;
   /** @param fieldOfView vertical, degrees @param eye pose of the eye's optical frame in the robot's world */
@@ -41,16 +52,25 @@ const world = new RobotWorld();
 scene.add(world);
 let source: AssembledCloud | null = null;
 let cloud: CloudView | null = null;
+let memory: WorldMemory | null = null;
+let remembered: MemoryView | null = null;
 let drawer: PictureDrawer | null = null;
 
 window.view = {
-  async begin(header, surface, size) {
+  async begin({ header, surface, memory: remembers, size }) {
     cloud?.dispose();
+    remembered?.dispose();
+    memory?.close();
+    memory = remembers ? new WorldMemory() : null;
+    remembered = memory === null ? null : new MemoryView(renderer, memory);
+    if (remembered !== null) world.add(remembered);
     renderer.setPixelRatio(1);
     renderer.setSize(size, size);
     source = new AssembledCloud(await loadCodec());
     source.drawSurface(surface);
     if (header !== null) source.beginStream('organised', Uint8Array.fromBase64(header));
+    // Before the view, which returns what it has drawn.
+    source.on('cloud', (batch) => memory?.take(batch));
     cloud = new CloudView(renderer, source);
     world.add(cloud);
     drawer = new PictureDrawer(renderer, size);
@@ -73,6 +93,7 @@ window.view = {
       .multiply(OPTICAL_TO_CAMERA)
       .decompose(camera.position, camera.quaternion, camera.scale);
     camera.updateMatrixWorld();
+    remembered?.update(camera);
     if (cloud === null || drawer === null) throw new Error('begin first');
     const { colour, depth, drawMs } = drawer.draw(scene, camera);
     return { colour: colour.toBase64(), depth: new Uint8Array(depth.buffer).toBase64(), drawMs };
