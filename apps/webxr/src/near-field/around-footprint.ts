@@ -1,8 +1,8 @@
 /** Where something is whose direction and distance from the robot's edge are known. No three.js here. */
 import type { FloorPoint } from '../view/swept-path.ts';
 
-/** Halvings of the search: to a millimetre. */
-const HALVINGS = 13;
+/** How far beyond its ends a side of the outline still counts, metres: no ray slips through between two sides. */
+const SEAM_M = 1e-9;
 
 /** Distance of a point from a convex outline, metres; 0 inside. @param outline counter-clockwise */
 export function distanceFrom(outline: readonly FloorPoint[], x: number, y: number): number {
@@ -25,23 +25,33 @@ export function reachOf(outline: readonly FloorPoint[]): number {
 }
 
 /**
- * How far from base_link a point is, metres.
+ * How far from base_link a point is, metres: where a ray from base_link leaves the outline widened by a distance,
+ * which is the union of its sides moved outwards and of discs at its corners.
  *
- * @param bearing radians to the left of straight ahead @param metres from the outline, which lies around base_link
- * @param reach of the outline: {@link reachOf}
+ * @param outline counter-clockwise, around base_link
+ * @param bearing radians to the left of straight ahead @param metres from the outline, 0 or more
  */
-export function radiusAt(
-  outline: readonly FloorPoint[],
-  reach: number,
-  bearing: number,
-  metres: number,
-): number {
-  const [c, s] = [Math.cos(bearing), Math.sin(bearing)];
-  let [near, far] = [0, reach + metres + 0.01];
-  for (let i = 0; i < HALVINGS; i++) {
-    const middle = (near + far) / 2;
-    if (distanceFrom(outline, middle * c, middle * s) > metres) far = middle;
-    else near = middle;
+export function radiusAt(outline: readonly FloorPoint[], bearing: number, metres: number): number {
+  const c = Math.cos(bearing);
+  const s = Math.sin(bearing);
+  let farthest = 0;
+  let a = outline[outline.length - 1] as FloorPoint;
+  for (const b of outline) {
+    const length = Math.sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+    const ux = (b.x - a.x) / length;
+    const uy = (b.y - a.y) / length;
+    // The side faces along (uy, -ux).
+    const approach = c * uy - s * ux;
+    if (approach > 0) {
+      const radius = (a.x * uy - a.y * ux + metres) / approach;
+      const along = (radius * c - a.x) * ux + (radius * s - a.y) * uy;
+      if (along >= -SEAM_M && along <= length + SEAM_M && radius > farthest) farthest = radius;
+    }
+    const beside = b.y * c - b.x * s;
+    const corner = b.x * c + b.y * s + Math.sqrt(metres * metres - beside * beside);
+    // Not a number where the ray misses the corner's disc.
+    if (corner > farthest) farthest = corner;
+    a = b;
   }
-  return (near + far) / 2;
+  return farthest;
 }

@@ -23,7 +23,7 @@ export function drawNear(canvas: HTMLCanvasElement, body: RobotBody, view: NearV
   /** Follows the outline at a distance, over some sectors. */
   const trace = (metres: number, from: number, to: number) => {
     for (let i = from; i <= to; i += 0.5) {
-      const radius = radiusAt(footprint, reach, i * SECTOR, metres) * perMetre;
+      const radius = radiusAt(footprint, i * SECTOR, metres) * perMetre;
       context.lineTo(middle - radius * Math.sin(i * SECTOR), middle - radius * Math.cos(i * SECTOR));
     }
   };
@@ -44,7 +44,7 @@ export function drawNear(canvas: HTMLCanvasElement, body: RobotBody, view: NearV
       trace(stretch.fromM, i - 0.5, i + 0.5);
       // Back at the other distance.
       for (const side of [0.5, -0.5]) {
-        const radius = radiusAt(footprint, reach, (i + side) * SECTOR, to) * perMetre;
+        const radius = radiusAt(footprint, (i + side) * SECTOR, to) * perMetre;
         const bearing = (i + side) * SECTOR;
         context.lineTo(middle - radius * Math.sin(bearing), middle - radius * Math.cos(bearing));
       }

@@ -46,7 +46,7 @@ export class BlockedArc {
     this.#mesh = new Mesh(
       new RingGeometry(0.56, 0.72, 24, 1, Math.PI / 2 - HALF, 2 * HALF),
       new MeshBasicMaterial({
-        ...{ color: 0xff3b3b, transparent: true, opacity: 0.6, side: DoubleSide },
+        ...{ color: 0xff3b3b, transparent: true, opacity: 0.6, side: DoubleSide, forceSinglePass: true },
         ...{ depthTest: false, depthWrite: false },
       }),
     );

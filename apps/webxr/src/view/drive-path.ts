@@ -63,6 +63,7 @@ class Ribbon {
       transparent: true,
       opacity,
       side: DoubleSide,
+      forceSinglePass: true,
       depthWrite: false,
     });
     this.mesh = new Mesh(geometry, material);

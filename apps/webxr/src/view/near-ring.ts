@@ -13,7 +13,7 @@ import {
   MeshBasicMaterial,
   ShaderMaterial,
 } from 'three';
-import { radiusAt, reachOf } from '../near-field/around-footprint.ts';
+import { radiusAt } from '../near-field/around-footprint.ts';
 import type { NearView } from '../near-field/near-view.ts';
 import { NEAR_M, VERY_NEAR_M } from '../status/near-words.ts';
 
@@ -97,11 +97,14 @@ export class NearRing {
   readonly #barMaterial: MeshBasicMaterial;
   readonly #colour = new Color();
   #outline: RobotBody['footprint'] | null = null;
-  #reach = 0;
   #view: NearView | null = null;
 
   constructor() {
-    const flat = { vertexColors: true, transparent: true, side: DoubleSide, depthWrite: false } as const;
+    const flat = {
+      ...{ vertexColors: true, transparent: true, depthWrite: false },
+      // Otherwise three draws the two sides one after the other, and looks their program up anew each time.
+      ...{ side: DoubleSide, forceSinglePass: true },
+    } as const;
     this.#barMaterial = new MeshBasicMaterial({ ...flat, opacity: 0.9 });
     const curtain = new MeshBasicMaterial(flat);
     this.#hatching = hatching();
@@ -126,7 +129,6 @@ export class NearRing {
     const outline = body?.footprint ?? null;
     if (outline === this.#outline) return;
     this.#outline = outline;
-    this.#reach = outline === null ? 0 : reachOf(outline);
     this.#draw();
   }
 
@@ -191,7 +193,7 @@ export class NearRing {
   }
 
   #radius(outline: RobotBody['footprint'], sector: number, metres: number): number {
-    return radiusAt(outline, this.#reach, bearingOf(sector), metres);
+    return radiusAt(outline, bearingOf(sector), metres);
   }
 
   #strip(quads: Quads, sector: number, from: number, to: number): void {
