@@ -2,7 +2,7 @@
 import type { Page } from '@playwright/test';
 import { Headset, headsetViewport } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
-import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+import { expect, lightRobot, test } from '../src/stack-test.ts';
 
 declare global {
   interface Window {
@@ -35,9 +35,9 @@ test('driven against a wall: a tone when it slows, two when it is held; three wh
   startStack,
 }) => {
   await listen(page);
-  const stack = await startStack({ robots: [simulatedRobot] });
+  const stack = await startStack({ robots: [lightRobot] });
   const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
-  await operator.expectPoints();
+  await operator.expectPoints(300);
   await operator.holdForward();
   const bounded = page.locator('#motion-state');
   await expect
@@ -60,13 +60,13 @@ test('driven against a wall: a tone when it slows, two when it is held; three wh
 
 test('in the headset, the controllers vibrate when the robot is stopped', async ({ page, startStack }) => {
   await listen(page);
-  const stack = await startStack({ robots: [simulatedRobot] });
+  const stack = await startStack({ robots: [lightRobot] });
   const headset = await Headset.wear(page);
   const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
-  await operator.expectPoints();
+  await operator.expectPoints(300);
   await page.getByRole('button', { name: /VR/ }).click();
   await operator.expectState('vr', true);
-  await operator.expectPoints();
+  await operator.expectPoints(300);
   await page.evaluate(() => {
     const { controllers } = window.emulatedHeadset;
     for (const hand of ['left', 'right'] as const) {
@@ -91,9 +91,9 @@ test('in the headset, the controllers vibrate when the robot is stopped', async 
 
 test('with ?cues=0 nothing is heard', async ({ page, startStack }) => {
   await listen(page);
-  const stack = await startStack({ robots: [simulatedRobot] });
+  const stack = await startStack({ robots: [lightRobot] });
   const operator = await OperatorPage.open(page, stack, { robot: 'sim-1', cues: '0' });
-  await operator.expectPoints();
+  await operator.expectPoints(300);
   await page.keyboard.press('x');
   await operator.expectState('estop', true);
   expect(await sounded(page)).toEqual([]);

@@ -1,7 +1,7 @@
 /** A headset that hangs with the grip held: nothing reads the hand any more, so it counts as open. */
 import { Headset, headsetViewport } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
-import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+import { expect, lightRobot, test } from '../src/stack-test.ts';
 
 /** Since when what holds now has held, ms since the page loaded; `null` while it does not. */
 interface StopTimes {
@@ -16,13 +16,13 @@ test('in the headset: frames that stop with the grip held stop the robot until t
   page,
   startStack,
 }, testInfo) => {
-  const stack = await startStack({ robots: [simulatedRobot] });
+  const stack = await startStack({ robots: [lightRobot] });
   const headset = await Headset.wear(page);
   const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
-  await operator.expectPoints();
+  await operator.expectPoints(300);
   await page.getByRole('button', { name: /VR/ }).click();
   await operator.expectState('vr', true);
-  await operator.expectPoints();
+  await operator.expectPoints(300);
 
   const drive = () =>
     expect

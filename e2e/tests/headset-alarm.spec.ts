@@ -2,7 +2,7 @@ import { writeFileSync } from 'node:fs';
 import { EmulatedLink } from '@farpoint/local-stack';
 import { Headset, headsetViewport } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
-import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+import { expect, lightRobot, test } from '../src/stack-test.ts';
 
 const ALARMS = [
   { of: 'charge', low: { warn: 30, error: 20 }, hysteresis: 2, text: 'The battery is low' },
@@ -24,12 +24,12 @@ test('in the headset: an alarm is on the wrist, and is of the past when the robo
   try {
     const args = ['--bitrate-mbps', '4', '--sim-charge', '15', '--config', config];
     await stack.startRobot({
-      ...simulatedRobot,
-      args: [...simulatedRobot.args, ...args, '--signaling', link.signalingUrl],
+      ...lightRobot,
+      args: [...lightRobot.args, ...args, '--signaling', link.signalingUrl],
     });
     const headset = await Headset.wear(page);
-    const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
-    await operator.expectPoints();
+    const operator = await OperatorPage.open(page, stack, { robot: lightRobot.id });
+    await operator.expectPoints(300);
     expect(await page.evaluate(() => window.farpoint.wrist())).toBeNull();
     await page.getByRole('button', { name: /VR/ }).click();
     await operator.expectState('vr', true);

@@ -1,7 +1,7 @@
 /** The headset is taken off with the grip held: nobody looks, so the robot stops, and others may drive. */
 import { Headset, headsetViewport } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
-import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+import { expect, lightRobot, test } from '../src/stack-test.ts';
 
 test.use({ viewport: headsetViewport });
 
@@ -9,13 +9,13 @@ test('taken off with the grip held: the robot stops, is free for others, and wai
   page,
   startStack,
 }) => {
-  const stack = await startStack({ robots: [simulatedRobot] });
+  const stack = await startStack({ robots: [lightRobot] });
   const headset = await Headset.wear(page);
   const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
-  await operator.expectPoints();
+  await operator.expectPoints(300);
   await page.getByRole('button', { name: /VR/ }).click();
   await operator.expectState('vr', true);
-  await operator.expectPoints();
+  await operator.expectPoints(300);
   await headset.thumbstick('right', 0, -1);
   await operator.hold(headset.grip('right'));
   const from = await operator.body();

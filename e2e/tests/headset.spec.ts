@@ -11,7 +11,7 @@ test('in the headset: both eyes show the room, the thumbstick drives, the world 
 }, testInfo) => {
   // λ = 0 samples near and far points alike, so that the far wall can be used for measurements.
   const stack = await startStack({
-    robots: [{ ...simulatedRobot, args: [...simulatedRobot.args, '--lambda', '0'] }],
+    robots: [{ ...simulatedRobot, args: [...simulatedRobot.args, '--lambda', '0', '--fps', '15'] }],
   });
   const headset = await Headset.wear(page);
   const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
