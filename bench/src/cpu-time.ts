@@ -31,6 +31,11 @@ export function cpuSecondsOfMainThread(pid: number): number | null {
   }
 }
 
+/** Whether a process was started by another, or by one that was; so it is of itself. `false` without /proc. */
+export function isDescendant(pid: number, ancestor: number): boolean {
+  return isWithin(pid, ancestor, readProcesses() ?? new Map());
+}
+
 function isWithin(pid: number, ancestor: number, processes: ReadonlyMap<number, ProcessTimes>): boolean {
   for (let at = pid; at > 1; at = processes.get(at)?.parent ?? 0) if (at === ancestor) return true;
   return false;

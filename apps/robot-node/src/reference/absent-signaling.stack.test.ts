@@ -77,7 +77,7 @@ async function startRobot(signaling: string, reference: string): Promise<() => P
   };
 }
 
-describe('a robot without one of its signaling services', { timeout: 60_000 }, () => {
+describe('a robot without one of its signaling services', { timeout: 90_000 }, () => {
   it('says once that its own is not there, however often it tries, and serves reference operators', async () => {
     const absent = await AbsentService.open();
     const released = await ReleasedSignaling.start();

@@ -62,7 +62,7 @@ function repeat(operator: ReferenceOperator, twist: Twist): () => void {
   return () => clearInterval(timer);
 }
 
-describe('reference profile of the robot process', { timeout: 30_000 }, () => {
+describe('reference profile of the robot process', { timeout: 60_000 }, () => {
   it('offers and sends exactly what the reference system does, from "start" to "stop"', async () => {
     const operator = await referenceOperator();
     expect(checkOffer(operator.offer)).toEqual([]);

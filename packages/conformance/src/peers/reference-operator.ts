@@ -78,8 +78,9 @@ export class ReferenceOperator {
    * channels of a connection are open, the robot's and ours.
    *
    * @param url the clients' port of signaling
+   * @param timeoutMs our robot makes another offer 20 s after an answer that came to nothing
    */
-  static async connect(url: string, name: string, timeoutMs = 15_000): Promise<ReferenceOperator> {
+  static async connect(url: string, name: string, timeoutMs = 30_000): Promise<ReferenceOperator> {
     const line = await SocketPeer.open(url);
     const board = new OfferBoard(name);
     const attempts = new Map<number, ReferenceOperator>();

@@ -42,13 +42,13 @@ describe('signaling', () => {
   });
 });
 
-describe('robot', { timeout: 30_000 }, () => {
+describe('robot', { timeout: 60_000 }, () => {
   it.each(robotSuite.map(({ name, run }) => [name, run] as const))('%s', async (_name, run) => {
     await run({ client: at(stack.ports.referenceClient), name: ROBOT.name }, 'strict');
   });
 });
 
-describe('bridge', { timeout: 30_000 }, () => {
+describe('bridge', { timeout: 60_000 }, () => {
   it.each(bridgeSuite.map(({ name, run }) => [name, run] as const))('%s', async (_name, run) => {
     const { control, telemetry, streaming } = bridge.ports;
     const target = {

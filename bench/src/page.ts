@@ -1,0 +1,187 @@
+/** `pnpm bench page`: what the operator's page costs its own main thread and memory, for as long as one likes. */
+import { parseArgs } from 'node:util';
+import type { Page } from '@playwright/test';
+import { startLiveStack } from './live-stack.ts';
+import { type CpuProfile, mainThreadTime } from './page-profile.ts';
+import { memoryMbOf } from './process-memory.ts';
+import { type Bench, numberOption, printJson, printTable } from './report.ts';
+
+const USAGE = `pnpm bench page [--seconds 60] [--fps 58] [--mbps 41.44] [--draw-every 8] [--surface] [--memory]
+  [--canvas 160x90] [--json]
+
+Real signaling, robot (simulated office, 480 × 480 points, driven in circles) and headless Chromium. mainThreadMs is script
+time on the page's main thread for each cloud frame drawn, by a CPU profile; waiting for the software renderer is counted
+apart. Memory is the proportional set size of the page's process, read every second. firstPictureMs is from choosing a robot
+to its first points drawn. --draw-every draws 1 of so many points, because the renderer is software here; all are received,
+decoded and uploaded. --surface and --memory show surfaces and the remembered world.`;
+
+/** The page must have found its pace. */
+const WARM_UP_MS = 5000;
+const PROFILE_MS = 10_000;
+const SAMPLE_EVERY_US = 500;
+
+interface Memory {
+  atS: number;
+  pageMb: number;
+  heapMb: number;
+}
+
+export const bench: Bench = {
+  name: 'page',
+  summary: 'main thread, memory and first picture of the operator’s page',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        seconds: { type: 'string', default: '60' },
+        fps: { type: 'string', default: '58' },
+        mbps: { type: 'string', default: '41.44' },
+        'draw-every': { type: 'string', default: '8' },
+        surface: { type: 'boolean', default: false },
+        memory: { type: 'boolean', default: false },
+        canvas: { type: 'string', default: '160x90' },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    const seconds = numberOption('seconds', values.seconds, (WARM_UP_MS + PROFILE_MS) / 1000);
+    const fps = numberOption('fps', values.fps, 1);
+    const mbps = numberOption('mbps', values.mbps, 0.1);
+    const every = numberOption('draw-every', values['draw-every'], 1);
+
+    const live = await startLiveStack({
+      robot: {
+        id: 'sim-1',
+        name: 'Simulated robot',
+        args: ['--fps', String(fps), '--rate-control', 'fixed', '--bitrate-mbps', String(mbps)],
+      },
+      canvas: values.canvas,
+      query: `every=${every}&surface=${Number(values.surface)}&memory=${Number(values.memory)}`,
+      log: (line) => console.error(line),
+    });
+    try {
+      const { page, browserPid } = live;
+      const firstPictureMs = await timeFirstPicture(page);
+      const driving = page.evaluate(driveInCircles, seconds * 1000);
+      const memory: Memory[] = [];
+      const beganMs = performance.now();
+      const noteMemory = async () => {
+        const pageMb = memoryMbOf(browserPid, 'renderer');
+        const heapMb = await page.evaluate(
+          () => ((performance as never as { memory: { usedJSHeapSize: number } }).memory.usedJSHeapSize ?? 0) / 1e6,
+        );
+        if (pageMb !== null)
+          memory.push({ atS: (performance.now() - beganMs) / 1000, pageMb, heapMb: Number(heapMb.toFixed(1)) });
+      };
+      await page.waitForTimeout(WARM_UP_MS);
+      const profile = await profileFor(page, PROFILE_MS);
+      console.error(`memory, ${seconds} s`);
+      for (;;) {
+        await noteMemory();
+        const leftMs = seconds * 1000 - (performance.now() - beganMs);
+        if (leftMs < 1000) break;
+        await page.waitForTimeout(1000);
+      }
+      await driving;
+
+      const perFrame = (ms: number) => Number((ms / Math.max(profile.frames, 1)).toFixed(3));
+      const half = memory.slice(memory.length >> 1);
+      const result = {
+        bench: 'page',
+        ...{ seconds, surface: values.surface, memory: values.memory, drawnShare: Number((1 / every).toFixed(4)) },
+        framesPerSecond: Number(((profile.frames * 1000) / PROFILE_MS).toFixed(1)),
+        pointsPerFrame: Math.round(profile.points / Math.max(profile.frames, 1)),
+        mainThreadMs: perFrame(profile.time.scriptMs),
+        browserMs: perFrame(profile.time.browserMs),
+        waitingMs: perFrame(profile.time.waitingMs),
+        idleShare: Number((profile.time.idleMs / PROFILE_MS).toFixed(3)),
+        firstPictureMs: Math.round(firstPictureMs),
+        rssMbFirst: memory[0]?.pageMb ?? null,
+        rssMbMax: memory.length === 0 ? null : Math.max(...memory.map(({ pageMb }) => pageMb)),
+        rssMbLast: memory.at(-1)?.pageMb ?? null,
+        /** Of the second half, by least squares. */
+        growthMbPerMinute: Number((60 * slopeOf(half.map(({ atS, pageMb }) => [atS, pageMb]))).toFixed(2)),
+        heapMbMax: memory.length === 0 ? null : Math.max(...memory.map(({ heapMb }) => heapMb)),
+      };
+      printTable(
+        ['script, ms a frame', 'browser', 'waiting', 'idle', 'frames/s', 'points a frame', 'first picture, ms'],
+        [
+          [
+            ...[result.mainThreadMs, result.browserMs, result.waitingMs, result.idleShare],
+            ...[result.framesPerSecond, result.pointsPerFrame, result.firstPictureMs],
+          ],
+        ],
+      );
+      console.log('');
+      printTable(
+        ['memory of the page, MB: first', 'max', 'last', 'growth a minute, second half', 'heap, max'],
+        [[result.rssMbFirst, result.rssMbMax, result.rssMbLast, result.growthMbPerMinute, result.heapMbMax]],
+      );
+      if (values.json) printJson(result);
+    } finally {
+      await live.close();
+    }
+  },
+};
+
+/** Leaves the robot, and times it from choosing it again to its first points. */
+function timeFirstPicture(page: Page): Promise<number> {
+  return page.evaluate(async () => {
+    const { farpoint } = window;
+    const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+    farpoint.disconnect();
+    while (farpoint.stats().framesDrawn > 0) await frame();
+    const beganMs = performance.now();
+    const connected = farpoint.connect('sim-1', 20_000);
+    while (farpoint.stats().framesDrawn === 0) await frame();
+    const tookMs = performance.now() - beganMs;
+    await connected;
+    return tookMs;
+  });
+}
+
+/** Runs in the page. */
+async function driveInCircles(ms: number): Promise<void> {
+  const { farpoint } = window;
+  const end = performance.now() + ms;
+  while (performance.now() < end) {
+    const { session, holder } = farpoint.state();
+    if (session === 'live' && holder === 'nobody') farpoint.requestLease();
+    // Let go from time to time: after an interruption, the robot wants the grip to be released once.
+    await farpoint.drive({ forward: 0.4, left: 0.5 }, 900);
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+}
+
+async function profileFor(page: Page, ms: number) {
+  const counts = () =>
+    page.evaluate(() => {
+      const { framesDrawn, pointsDrawn } = window.farpoint.stats();
+      return { framesDrawn, pointsDrawn };
+    });
+  const devTools = await page.context().newCDPSession(page);
+  await devTools.send('Profiler.enable');
+  await devTools.send('Profiler.setSamplingInterval', { interval: SAMPLE_EVERY_US });
+  console.error(`CPU profile, ${ms / 1000} s`);
+  await devTools.send('Profiler.start');
+  const before = await counts();
+  await page.waitForTimeout(ms);
+  const after = await counts();
+  const { profile } = await devTools.send('Profiler.stop');
+  await devTools.detach();
+  return {
+    time: mainThreadTime(profile as CpuProfile),
+    frames: after.framesDrawn - before.framesDrawn,
+    points: after.pointsDrawn - before.pointsDrawn,
+  };
+}
+
+/** Slope of the line of least squares; 0 of fewer than two points. */
+function slopeOf(points: readonly (readonly [x: number, y: number])[]): number {
+  if (points.length < 2) return 0;
+  const mean = (at: 0 | 1) => points.reduce((sum, point) => sum + point[at], 0) / points.length;
+  const [x, y] = [mean(0), mean(1)];
+  const across = points.reduce((sum, point) => sum + (point[0] - x) * (point[1] - y), 0);
+  return across / points.reduce((sum, point) => sum + (point[0] - x) ** 2, 0);
+}
