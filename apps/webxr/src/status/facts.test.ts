@@ -67,6 +67,8 @@ describe('the table of figures', () => {
     expect(values(sessionFacts({ ...session, figures: slow })).Drawn).toBe(
       '26,300 of 210,000: this computer is slow',
     );
+    const few = { ...figures, pointsPerFrame: 600, drawnOneOf: 8 };
+    expect(values(sessionFacts({ ...session, figures: few })).Drawn).toBe('80 of 600: this computer is slow');
   });
 
   test('shows an emergency stop before telemetry does, and who pressed it', () => {

@@ -112,7 +112,7 @@ function streamFacts(figures: PageStats): Fact[] {
 /** What is left out because this computer is too slow. */
 function thinningFacts({ pointsPerFrame, drawnOneOf }: PageStats): Fact[] {
   if (drawnOneOf === 1) return [];
-  const [drawn, came] = [pointsPerFrame / drawnOneOf, pointsPerFrame].map(hundreds);
+  const [drawn, came] = [pointsPerFrame / drawnOneOf, pointsPerFrame].map(roughly);
   return [{ name: 'Drawn', value: `${drawn} of ${came}: this computer is slow`, tone: 'warning' }];
 }
 
@@ -129,8 +129,10 @@ export function rememberedAge(oldestS: number): string {
   return oldestS < 24 * 3600 ? `up to ${Math.ceil(oldestS / 3600)} h old` : 'a day old or more';
 }
 
-function hundreds(points: number): string {
-  return (Math.round(points / 100) * 100).toLocaleString('en');
+/** To hundreds; fewer than a thousand to tens, so that a few never read as none. */
+function roughly(points: number): string {
+  const unit = points < 1000 ? 10 : 100;
+  return (Math.round(points / unit) * unit).toLocaleString('en');
 }
 
 export function lossTone({ lossRate }: PageStats): Tone {
