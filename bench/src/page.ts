@@ -69,10 +69,16 @@ export const bench: Bench = {
       const noteMemory = async () => {
         const pageMb = memoryMbOf(browserPid, 'renderer');
         const heapMb = await page.evaluate(
-          () => ((performance as never as { memory: { usedJSHeapSize: number } }).memory.usedJSHeapSize ?? 0) / 1e6,
+          () =>
+            ((performance as never as { memory: { usedJSHeapSize: number } }).memory.usedJSHeapSize ?? 0) /
+            1e6,
         );
         if (pageMb !== null)
-          memory.push({ atS: (performance.now() - beganMs) / 1000, pageMb, heapMb: Number(heapMb.toFixed(1)) });
+          memory.push({
+            atS: (performance.now() - beganMs) / 1000,
+            pageMb,
+            heapMb: Number(heapMb.toFixed(1)),
+          });
       };
       await page.waitForTimeout(WARM_UP_MS);
       const profile = await profileFor(page, PROFILE_MS);
@@ -89,7 +95,12 @@ export const bench: Bench = {
       const half = memory.slice(memory.length >> 1);
       const result = {
         bench: 'page',
-        ...{ seconds, surface: values.surface, memory: values.memory, drawnShare: Number((1 / every).toFixed(4)) },
+        ...{
+          seconds,
+          surface: values.surface,
+          memory: values.memory,
+          drawnShare: Number((1 / every).toFixed(4)),
+        },
         framesPerSecond: Number(((profile.frames * 1000) / PROFILE_MS).toFixed(1)),
         pointsPerFrame: Math.round(profile.points / Math.max(profile.frames, 1)),
         mainThreadMs: perFrame(profile.time.scriptMs),
@@ -105,7 +116,15 @@ export const bench: Bench = {
         heapMbMax: memory.length === 0 ? null : Math.max(...memory.map(({ heapMb }) => heapMb)),
       };
       printTable(
-        ['script, ms a frame', 'browser', 'waiting', 'idle', 'frames/s', 'points a frame', 'first picture, ms'],
+        [
+          'script, ms a frame',
+          'browser',
+          'waiting',
+          'idle',
+          'frames/s',
+          'points a frame',
+          'first picture, ms',
+        ],
         [
           [
             ...[result.mainThreadMs, result.browserMs, result.waitingMs, result.idleShare],
