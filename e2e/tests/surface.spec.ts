@@ -37,7 +37,9 @@ test('a depth camera’s cloud is drawn as a surface, and a button changes to po
   await operator.expectPoints(100_000);
   expect(await operator.probe()).toMatchObject({ surface: true });
   await operator.expectFrames(5);
-  expect(await holes(page, operator, testInfo, 'surface')).toBeLessThan(0.05);
+  await expect
+    .poll(() => holes(page, operator, testInfo, 'surface'), { message: 'holes in the surface' })
+    .toBeLessThan(0.05);
   await page.getByRole('button', { name: 'Colours', exact: true }).click();
   const button = page.getByRole('button', { name: 'Surfaces', exact: true });
   await expect(button).toHaveAttribute('aria-pressed', 'true');
@@ -45,7 +47,10 @@ test('a depth camera’s cloud is drawn as a surface, and a button changes to po
   await expect(button).toHaveAttribute('aria-pressed', 'false');
   await expect.poll(async () => (await operator.probe()).surface, { message: 'surface' }).toBe(false);
   await operator.expectPoints(100_000);
-  expect(await holes(page, operator, testInfo, 'points')).toBeLessThan(0.05);
+  // A busy machine draws some frames before all of their points have come.
+  await expect
+    .poll(() => holes(page, operator, testInfo, 'points'), { message: 'holes between points' })
+    .toBeLessThan(0.05);
   await button.click();
   await expect.poll(async () => (await operator.probe()).surface, { message: 'surface' }).toBe(true);
 });
