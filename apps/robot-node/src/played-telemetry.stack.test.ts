@@ -41,7 +41,7 @@ describe('telemetry of a recording', { timeout: 60_000 }, () => {
       path,
     ];
     await withRobot('recorded-1', args, async ({ client }) => {
-      await client.until(() => client.diagnostics !== null && client.samples.length >= 100);
+      await client.until(() => client.newest.diagnostics !== undefined && client.samples.length >= 100);
       await client.until(() => client.completeFrames.length >= 20);
     });
     const recording = await openRecording(path);
@@ -67,13 +67,13 @@ describe('telemetry of a recording', { timeout: 60_000 }, () => {
         unit: '%',
         recorded: true,
       });
-      await client.until(() => client.diagnostics !== null && client.samples.length >= 30);
+      await client.until(() => client.newest.diagnostics !== undefined && client.samples.length >= 30);
       const quantities = client.session.filter((message) => message.type === 'quantity');
       expect(quantities.map(({ topic, field, recorded }) => `${topic} ${field} ${recorded}`)).toEqual([
         ...['/motors left true', '/motors right true'],
         ...['/fix latitude true', '/fix longitude true', '/fix altitude true'],
       ]);
-      expect(client.diagnostics).toMatchObject({
+      expect(client.newest.diagnostics).toMatchObject({
         ...{ topic: '/diagnostics', counts: { warn: 1, ok: 3 }, recorded: true },
       });
       const values = client.samples.filter(([number]) => number === 0).map(([, , value]) => value);
@@ -87,7 +87,7 @@ describe('telemetry of a recording', { timeout: 60_000 }, () => {
     await withRobot('played-2', args, async ({ client }) => {
       await client.until(() => client.completeFrames.length >= 20);
       const told = client.session.filter(({ type }) => type === 'quantity' || type === 'alarm');
-      expect([told, client.samples, client.diagnostics]).toEqual([[], [], null]);
+      expect([told, client.samples, client.newest.diagnostics]).toEqual([[], [], undefined]);
     });
   });
 });

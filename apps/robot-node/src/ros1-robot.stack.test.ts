@@ -3,6 +3,7 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { LocalStack } from '@farpoint/local-stack';
+import { writeTile } from '@farpoint/protocol';
 import { type Ros1Node, Ros1Peers } from '@farpoint/ros/testing/ros1';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { SignaledOperator } from './testing/signaled-operator.ts';
@@ -20,6 +21,8 @@ robot:
     - { topic: /odom, as: pose }
     - { topic: /battery, as: battery }
     - { topic: /temperature, type: std_msgs/Float32, as: text, label: Temperature }
+    - { topic: /plan, as: path }
+    - { topic: /map, as: map }
     - { topic: /cmd_vel, as: velocity }
 `;
 
@@ -49,7 +52,7 @@ describe.skipIf(python === null)(
     beforeAll(async () => {
       peers = await Ros1Peers.open(python ?? '');
       await peers.startCore();
-      camera = await peers.startNode('cloud,state', 'camera');
+      camera = await peers.startNode('cloud,state,navigator', 'camera');
       base = await peers.startNode('velocity', 'base');
       const config = join(folder, 'farpoint.yaml');
       writeFileSync(config, configuration(peers.masterUrl));
@@ -91,7 +94,7 @@ describe.skipIf(python === null)(
         twist: { linear: { x: 0.125 } },
         battery: { percentage: 0.75 },
       });
-      await client.until(() => client.readings.size === 3);
+      await client.until(() => client.readings.size === 5);
       expect(client.readings.get('/battery')).toMatchObject({
         label: 'Battery',
         values: [
@@ -103,6 +106,24 @@ describe.skipIf(python === null)(
         label: 'Temperature',
         values: [['', '21.5']],
       });
+    });
+
+    it('tells the navigator’s path, and its map, which was published once before the robot came', async () => {
+      const { client } = operator;
+      await client.until(() => client.newest.path !== undefined && client.newest.map !== undefined);
+      const corners = [
+        [3, 0],
+        [5, 0],
+        [5, 2],
+      ];
+      expect(client.newest.path).toMatchObject({ topic: '/plan', points: corners });
+      expect(client.readings.get('/plan')).toMatchObject({ label: 'Path', values: [['', '4.0 m']] });
+      const { map } = client.newest;
+      if (map === undefined) throw new Error('no map');
+      expect(map).toMatchObject({ width: 40, height: 2, cellM: 0.5, origin: { x: -1, y: 0, yaw: 0 } });
+      const cells = new Uint8Array(80);
+      for (const [index, runs] of map.tiles) writeTile(map, index, runs, cells);
+      expect([...cells]).toEqual([...Array(40).fill(1), ...Array(39).fill(3), 0]);
     });
 
     it('streams depth and colour images of one camera', async () => {

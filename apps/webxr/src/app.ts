@@ -50,6 +50,7 @@ import { PredictedView } from './view/predicted-view.ts';
 import { RememberedWorld } from './view/remembered-world.ts';
 import { SensorClouds } from './view/sensor-clouds.ts';
 import { showDrivePath } from './view/show-drive-path.ts';
+import { showNavigation } from './view/show-navigation.ts';
 import { NearFieldDisplay } from './view/show-near-field.ts';
 import { Stage } from './view/stage.ts';
 import { showPicturesInVr } from './view/vr-pictures.ts';
@@ -201,6 +202,7 @@ export class App {
         driver.letGo(nowMs);
       this.client.tick(performance.now());
       showDrivePath(this.client, this.stage);
+      showNavigation(this.client, this.stage, this.appearance, nowMs);
       this.near.tick(nowMs);
     }, DRIVE_TICK_MS);
     setInterval(() => {

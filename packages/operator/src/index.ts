@@ -23,11 +23,13 @@ export type {
   EstopState,
   LatencyFrame,
   LeaseState,
+  MapTiles,
   MicrophoneState,
   NearField,
   NearKind,
   NearSector,
   Operators,
+  PlannedPath,
   Pose,
   PresentOperator,
   Quantity,
@@ -108,6 +110,8 @@ export { MemoryFileError, type MemoryListener, WorldMemory } from './memory/worl
 export { type TransformSupport, transformSupport } from './peer/encoded-transform.ts';
 export type { Picture } from './pictures/picture-feed.ts';
 export { ComponentReports, type ReportedComponents } from './session/component-reports.ts';
+export type { MapPlace, NavigatorMap } from './session/navigator-map.ts';
+export type { NavigatorPath } from './session/navigator-path.ts';
 export type { NearSurroundings } from './session/near-surroundings.ts';
 export { type AgedReading, Readings } from './session/readings.ts';
 export type { RobotSession } from './session/robot-session.ts';

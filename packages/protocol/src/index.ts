@@ -20,6 +20,18 @@ export * from './json.ts';
 export * from './latency-barcode.ts';
 export * from './latency-barcode-reader.ts';
 export * from './loopback.ts';
+export {
+  MAP_TILE,
+  MAX_MAP_SIDE,
+  type MapSize,
+  type MapTiles,
+  mapCells,
+  type TileExtent,
+  tileCount,
+  tileExtent,
+  tileRuns,
+  writeTile,
+} from './map-tiles.ts';
 export * from './motion-state.ts';
 export {
   NEAR_REACH_M,
@@ -37,6 +49,7 @@ export * from './picture-assembler.ts';
 export * from './picture-chunk.ts';
 export * from './picture-file.ts';
 export * from './placement.ts';
+export { MAX_PATH_POINTS, MAX_PLACE_M, type PlannedPath } from './planned-path.ts';
 export * from './point-packet.ts';
 export * from './points64.ts';
 export * from './pose-algebra.ts';

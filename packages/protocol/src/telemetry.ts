@@ -1,14 +1,16 @@
 /**
  * The `telemetry` channel, opened by the robot, unordered, with a short lifetime: the robot's state, 20 times per
- * second, what is near it, samples of quantities, readings and diagnostics.
+ * second, what is near it, samples of quantities, readings, diagnostics, its navigator's path and its map.
  */
 import * as z from 'zod/mini';
 import { type Diagnostics, diagnosticsSchema } from './diagnostics.ts';
 import { type Pose, poseSchema, type Twist, twistSchema } from './geometry.ts';
 import { uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
+import { type MapTiles, mapTilesSchema } from './map-tiles.ts';
 import { type MotionState, motionStateSchema } from './motion-state.ts';
 import { type NearField, nearFieldSchema } from './near-field.ts';
+import { type PlannedPath, plannedPathSchema } from './planned-path.ts';
 import { type Samples, samplesSchema } from './quantity.ts';
 import { type Reading, readingSchema } from './reading.ts';
 
@@ -98,7 +100,14 @@ export interface Telemetry {
 const nonNegative = z.number().check(z.minimum(0));
 const count = z.int().check(z.minimum(0));
 
-export type TelemetryMessage = Telemetry | NearField | Reading | Samples | Diagnostics;
+export type TelemetryMessage =
+  | Telemetry
+  | NearField
+  | Reading
+  | Samples
+  | Diagnostics
+  | PlannedPath
+  | MapTiles;
 
 const telemetrySchema = z.strictObject({
   type: z.literal('telemetry'),
@@ -139,6 +148,8 @@ export const telemetryCodec: JsonCodec<TelemetryMessage> = {
     readingSchema,
     samplesSchema,
     diagnosticsSchema,
+    plannedPathSchema,
+    mapTilesSchema,
   ]),
   maxBytes: 4096,
 };

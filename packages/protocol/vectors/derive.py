@@ -738,6 +738,31 @@ telemetry.spoil(near, ("timeMs", -1), ("timeMs", ABSENT), ("sectors", ABSENT), (
                 ("sectors", near_field([OPEN] * 71)), ("sectors", near_field([OPEN] * 73)), ("sectors", near_field([(255, 127, 127)] + [OPEN] * 71)),
                 ("sectors", near_field([OPEN] * 71 + [(0, 1, 128)])), ("sectors", near_field([OPEN] * 71 + [(0, 9, 9)])),
                 ("sectors", near_field([OPEN] * 71 + [(0, 127, 80)])), ("sectors", near_field([OPEN] * 71 + [(0, 128, 127)])), ("reach", 3, ""))
+path = telemetry.good({"type": "path", "topic": "/plan", "timeMs": 88131.25, "ageMs": 240, "points": [[1.5, -2], [1.75, -1.98], [4.2, 0]]})
+telemetry.good(changed(path, "points", []), "path: there is none any more")
+telemetry.good(changed(path, "points", [[i / 100, -1e6] for i in range(128)]), "path: the longest")
+telemetry.spoil(path, ("topic", ""), ("topic", ABSENT), ("timeMs", -1), ("ageMs", -1), ("ageMs", ABSENT), ("points", ABSENT), ("points", [[0, 0]] * 129),
+                ("points", [[0]], "points.0"), ("points", [[0, 0, 0]], "points.0"), ("points", [[0, "1"]], "points.0.1"), ("points", [[0, None]], "points.0.1"),
+                ("points", [[1000000.5, 0]], "points.0.0"), ("goal", [0, 0], ""))
+
+
+# Runs of equal cells, a byte each: the state in the upper two bits, the number of cells less one in the lower six.
+def runs(*pairs):
+    return base64.b64encode(bytes(state << 6 | cells - 1 for state, cells in pairs)).decode()
+
+
+# 40 cells across and 33 up: tiles of 32 × 32, 8 × 32, 32 × 1 and 8 × 1 cells.
+room = telemetry.good({"type": "map", "topic": "/map", "number": 3, "timeMs": 88131.25, "ageMs": 52000, "width": 40, "height": 33, "cellM": 0.05,
+                       "origin": {"x": -1, "y": -2.5, "yaw": 0.5},
+                       "tiles": [[0, runs(*[(1, 64)] * 15, (1, 32), (3, 32))], [3, runs((0, 1), (2, 3), (3, 4))]]})
+telemetry.good(changed(room, "tiles", []), "map: no tile")
+telemetry.good({**room, "width": 512, "height": 512, "tiles": [[255, runs(*[(i % 4, 1) for i in range(1024)])]]}, "map: the longest tile")
+telemetry.spoil(room, ("topic", ""), ("number", -1), ("number", 2 ** 32), ("timeMs", -1), ("ageMs", ABSENT), ("width", 0), ("width", 513), ("height", 1.5),
+                ("cellM", 0), ("cellM", 1001), ("origin.yaw", 3.2), ("origin.x", -1000001), ("origin.z", 0, "origin"), ("origin", ABSENT), ("tiles", ABSENT),
+                ("tiles", [[4, runs((0, 8))]], "tiles"), ("tiles", [[-1, runs((0, 8))]], "tiles.0.0"), ("tiles", [[3, runs((0, 7))]], "tiles"),
+                ("tiles", [[3, runs((0, 9))]], "tiles"), ("tiles", [[3, ""]], "tiles"), ("tiles", [[3, "BQ="]], "tiles"), ("tiles", [[3, "**=="]], "tiles"),
+                ("tiles", [[3, 7]], "tiles.0.1"), ("tiles", [[3]], "tiles.0"), ("tiles", [[3, runs((0, 8))]] * 65), ("tiles", [[0, "A" * 1372]], "tiles.0.1"),
+                ("cells", 1320, ""))
 reading = telemetry.good({"type": "reading", "topic": "/battery", "label": "Battery", "level": "ok",
                           "values": [["", "87 %"], ["", "25.1 V"], ["cells", "[4.1, 4.2]"]], "ageMs": 120})
 telemetry.good(changed(reading, "values", []), "reading without values")

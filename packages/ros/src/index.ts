@@ -46,6 +46,13 @@ export {
   stampNs,
   TF_TYPES,
 } from './messages.ts';
+export {
+  type NavigationNews,
+  type NavigationRefusal,
+  navigationRefusals,
+  type OccupancyMap,
+} from './navigation-news.ts';
+export { type FramePose, NavigationTopic } from './navigation-topic.ts';
 export { type ImageRows, MOST_PICTURE_PIXELS, pictureRows } from './picture-rows.ts';
 export { axesOf, checkedCount, PointCloud2Decoder } from './point-cloud2.ts';
 export type { CloudAxes } from './point-words.ts';

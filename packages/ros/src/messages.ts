@@ -170,6 +170,29 @@ export const diagnosticArraySchema = z.object({
     .max(4096),
 });
 
+/** The poses' own headers say nothing that the path's does not. */
+export const pathSchema = z.object({ header, poses: z.array(z.object({ pose })).max(65_536) });
+
+/** More cells than any navigator's map. */
+const MOST_CELLS = 4096 * 4096;
+
+/** Probabilities in percent, -1 for unknown, row by row from `origin`. */
+export const occupancyGridSchema = z
+  .object({
+    header,
+    info: z.object({
+      resolution: finite.min(0.001).max(100),
+      width: z.int().min(0),
+      height: z.int().min(0),
+      origin: pose,
+    }),
+    data: z.union([z.instanceof(Int8Array), z.array(z.int())]),
+  })
+  .refine(({ info, data }) => info.width * info.height === data.length && data.length <= MOST_CELLS, {
+    path: ['data'],
+    message: `must have width × height cells, at most ${MOST_CELLS}`,
+  });
+
 /** Types by their role. `foxglove.` names are those of JSON and Protobuf. */
 export const POINT_CLOUD_TYPES: readonly string[] = ['sensor_msgs/msg/PointCloud2'];
 export const TF_TYPES: readonly string[] = ['tf2_msgs/msg/TFMessage', 'tf/msg/tfMessage'];

@@ -2,6 +2,7 @@
 import { type DiagnosticReport, READING_LIMITS, type Reading, type ReadingLevel } from '@farpoint/protocol';
 import { levelOf } from './diagnostic-board.ts';
 import { batteryDetailsSchema, diagnosticArraySchema, navSatFixSchema } from './messages.ts';
+import type { NavigationNews } from './navigation-news.ts';
 import type { TopicEntry, TopicRole } from './topic-table.ts';
 
 /** As it is sent, without its age, and what else the message says. */
@@ -10,6 +11,8 @@ export interface TopicReading extends Pick<Reading, 'topic' | 'label' | 'level' 
   numbers?: readonly (number | null)[];
   /** What components have reported, if it is a topic of diagnostics. */
   components?: readonly DiagnosticReport[];
+  /** The path or the map, if it is a topic of one. */
+  navigation?: NavigationNews;
 }
 
 const { values: MOST_VALUES, label: MOST_LABEL, name: MOST_NAME, text: MOST_TEXT } = READING_LIMITS;

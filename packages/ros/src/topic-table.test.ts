@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { ros1TypeOf, topicTableSchema } from './topic-table.ts';
+import { qosOf, ros1TypeOf, topicTableSchema } from './topic-table.ts';
 
 /** `path: message` of each issue. */
 function faults(table: unknown): string[] {
@@ -35,6 +35,16 @@ describe('topic table', () => {
     ]);
     const many = Array.from({ length: 9 }, (_, i) => ({ topic: `/camera_${i}`, as: 'picture' }));
     expect(faults(many)).toEqual(['8.as: there can be at most 8 of picture']);
+  });
+
+  it('hears a map that was published once, and paths as sensors', () => {
+    const [path, map] = topicTableSchema.parse([
+      { topic: '/plan', as: 'path' },
+      { topic: '/map', as: 'map' },
+    ]);
+    expect(path).toEqual({ topic: '/plan', type: 'nav_msgs/msg/Path', as: 'path', most: 5 });
+    expect(qosOf(path!).reliability).toBe('best-effort');
+    expect(qosOf(map!)).toEqual({ reliability: 'reliable', durability: 'transient-local', depth: 1 });
   });
 
   it.each([
@@ -76,6 +86,14 @@ describe('topic table', () => {
         { topic: '/a', as: 'fix' },
       ],
       '1.topic: /a is listed twice',
+    ],
+    [
+      'two maps',
+      [
+        { topic: '/map', as: 'map' },
+        { topic: '/costmap', as: 'map' },
+      ],
+      '1.as: there can be only one map',
     ],
     ['depth without a camera', [{ topic: '/d', as: 'depth' }], '0.as: depth needs an entry cameraInfo'],
     ['colour alone', [{ topic: '/c', as: 'colour' }], '0.as: colour needs an entry depth'],

@@ -28,6 +28,10 @@ export const TOPIC_ROLES = {
   battery: ['sensor_msgs/msg/BatteryState'],
   fix: ['sensor_msgs/msg/NavSatFix'],
   diagnostics: ['diagnostic_msgs/msg/DiagnosticArray'],
+  /** What a navigator has planned. */
+  path: ['nav_msgs/msg/Path'],
+  /** What is free and what is occupied. */
+  map: ['nav_msgs/msg/OccupancyGrid'],
   /** Any type: its values as text. */
   text: [],
   /** Published: the velocity for the wheels. */
@@ -37,9 +41,11 @@ export const TOPIC_ROLES = {
 export type TopicRole = keyof typeof TOPIC_ROLES;
 const roles = Object.keys(TOPIC_ROLES) as [TopicRole, ...TopicRole[]];
 
-/** Messages per second that are shown to people, unless the table says otherwise; the other roles have no limit. */
-const MOST_TOLD = 1;
-const TOLD: readonly TopicRole[] = ['battery', 'fix', 'diagnostics', 'text'];
+/** Messages per second that are read of what is shown to people, unless the table says otherwise; others have no limit. */
+const MOST_TOLD: Partial<Record<TopicRole, number>> = {
+  ...{ battery: 1, fix: 1, diagnostics: 1, text: 1 },
+  ...{ path: 5, map: 1 },
+};
 const MOST_TOPICS = 64;
 /** Suffix of image_transport's topics, and their type. */
 const COMPRESSED_SUFFIX = '/compressed';
@@ -149,7 +155,7 @@ const entry = z
       });
       return z.NEVER;
     }
-    return { ...given, type, most: given.most ?? (TOLD.includes(given.as) ? MOST_TOLD : null) };
+    return { ...given, type, most: given.most ?? MOST_TOLD[given.as] ?? null };
   });
 
 /** Roles that at most one topic can have. */
@@ -160,6 +166,8 @@ const SINGLE: readonly TopicRole[] = [
   'cameraInfo',
   'pose',
   'battery',
+  'path',
+  'map',
   'velocity',
 ];
 
@@ -210,6 +218,8 @@ export function topicAs(table: readonly TopicEntry[], role: TopicRole): TopicEnt
 export function qosOf({ topic, as, qos }: TopicEntry): Qos {
   if (qos !== undefined) return qos;
   if (as === 'velocity') return VELOCITY_QOS;
+  // Published once, for those who come later, too.
+  if (as === 'map') return { ...LATCHED_QOS, depth: 1 };
   if (as !== 'tf') return SENSOR_QOS;
   return topic.endsWith(STATIC_SUFFIX) ? LATCHED_QOS : { ...RELIABLE_QOS, depth: 100 };
 }

@@ -75,10 +75,31 @@ export class WorldState {
     return base === null ? UNKNOWN_MOUNT : compose(base.pose, UNKNOWN_MOUNT);
   }
 
+  /**
+   * A frame's pose in the world, at the time of a stamp; without a stamp (0), the latest. The world is the frame in which
+   * the robot is known.
+   *
+   * @returns `null` if it is not known where the frame is, or where the robot is
+   */
+  framePose(frameId: string, stampOrNone: bigint): Pose | null {
+    const frame = frameName(frameId);
+    const stamp = stampOrNone === 0n ? this.#newestNs : stampOrNone;
+    const base = this.#baseFrame;
+    const world = base === null ? null : (this.#tree.poseInRoot(base, stamp)?.root ?? null);
+    if (world === null) return null;
+    if (frame === world) return ORIGIN;
+    const placed = this.#tree.poseInRoot(frame, stamp);
+    return placed?.root === world ? placed.pose : null;
+  }
+
   /** Latest pose of base_link in the world. */
   get basePose(): Pose {
-    const frame = BASE_FRAMES.find((name) => this.#tree.has(name)) ?? this.#base;
-    return (frame == null ? null : this.#tree.poseInRoot(frame, this.#newestNs)?.pose) ?? ORIGIN;
+    const frame = this.#baseFrame;
+    return (frame === null ? null : this.#tree.poseInRoot(frame, this.#newestNs)?.pose) ?? ORIGIN;
+  }
+
+  get #baseFrame(): string | null {
+    return BASE_FRAMES.find((name) => this.#tree.has(name)) ?? this.#base;
   }
 
   /** Call after a jump in time. */

@@ -9,6 +9,7 @@ export {
 export { type ComponentState, componentStates } from './component-states.ts';
 export { DEFAULT_LIMITS, type RobotLimits } from './drive.ts';
 export { SimulationError, type SimulationErrorCode } from './errors.ts';
+export { type FloorPlan, floorPlan, WaysTo } from './floor-plan.ts';
 export { type EarthOrigin, earthPlace } from './gnss.ts';
 export { type BaseState, SimulatedBase, TIME_STEP } from './simulated-base.ts';
 export { type CloudFrame, type RenderOptions, SimulatedCamera } from './simulated-camera.ts';

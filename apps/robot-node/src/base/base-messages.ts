@@ -3,6 +3,7 @@ import type { Twist } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 import type { EarthOrigin, Thing } from '@farpoint/sim';
 import type { TimedBaseState } from './base.ts';
+import type { SimNavigationOptions } from './sim-navigation.ts';
 
 export interface BaseOptions {
   /** The base stops after this long without a velocity, ms. */
@@ -13,6 +14,8 @@ export interface BaseOptions {
   origin: EarthOrigin | null;
   /** Put into the world. */
   things?: readonly Thing[] | undefined;
+  /** What its navigator publishes; if undefined, it has none. */
+  navigation?: SimNavigationOptions | undefined;
 }
 
 export interface BaseWorkerData extends BaseOptions {

@@ -7,6 +7,7 @@ import { monotonicMs } from '../clock.ts';
 import type { BaseReport, BaseRequest, BaseWorkerData } from './base-messages.ts';
 import { RealTimeBase } from './real-time-base.ts';
 import { SnapshotWriter } from './shared-snapshot.ts';
+import { SimNavigation } from './sim-navigation.ts';
 import { SIM_DIAGNOSTICS, SIM_FIX, SIM_MOTORS } from './sim-topics.ts';
 import { Wheels } from './wheels.ts';
 
@@ -24,8 +25,10 @@ const GNSS = {
 
 const port = parentPort;
 if (port === null) throw new Error('base-worker.ts runs as a worker only');
-const { watchdogMs, charge, origin, things = [], snapshot } = workerData as BaseWorkerData;
-const base = new RealTimeBase(new SimulatedBase(withThings(officeWorld(), things), {}, charge));
+const { watchdogMs, charge, origin, things = [], navigation, snapshot } = workerData as BaseWorkerData;
+const world = withThings(officeWorld(), things);
+const base = new RealTimeBase(new SimulatedBase(world, {}, charge));
+const navigator = navigation === undefined ? null : new SimNavigation(world, navigation);
 const wheels = new Wheels(base, watchdogMs);
 const writer = new SnapshotWriter(snapshot);
 const diagnostics = new ReadingTopic(SIM_DIAGNOSTICS);
@@ -48,6 +51,7 @@ function tick(): void {
     report.readings = [
       diagnostics.take({ header, status: componentStates(state) }, now),
       origin === null ? null : (fix?.take({ ...GNSS, header, ...earthPlace(origin, x, y) }, now) ?? null),
+      ...(navigator?.readings(state.pose, now) ?? []),
     ].filter((reading) => reading !== null);
     report.motors = numbersOf(SIM_MOTORS, state.motorCelsius);
   }

@@ -15,7 +15,15 @@ const entries = topicTableSchema.parse([
     ],
   },
   { topic: FIX_TOPIC, as: 'fix' },
+  { topic: '/map', as: 'map' },
+  { topic: '/plan', as: 'path' },
 ]);
 type Entry = (typeof entries)[number];
-/** The last only where the world has a place on the earth. */
-export const [SIM_DIAGNOSTICS, SIM_MOTORS, SIM_FIX] = entries as [Entry, Entry, Entry];
+/** The fix only where the world has a place on the earth; map and plan only where they are asked for. */
+export const [SIM_DIAGNOSTICS, SIM_MOTORS, SIM_FIX, SIM_MAP, SIM_PLAN] = entries as [
+  Entry,
+  Entry,
+  Entry,
+  Entry,
+  Entry,
+];

@@ -49,8 +49,6 @@ export class Capture {
   onFault: ((detail: string) => void) | null = null;
   /** Number of those faults. */
   faults = 0;
-  /** Called with readings of the robot's topics, for people. */
-  onReading: ((reading: TopicReading) => void) | null = null;
   /** Called with what a played recording tells about the robot. */
   onTelemetry: ((message: PlayedMessage) => void) | null = null;
   /** Called with the coded pictures of the played videos that are watched. */
@@ -64,6 +62,9 @@ export class Capture {
   readonly #sensor: number;
   readonly #worker: Worker;
   #closing = false;
+  #onReading: ((reading: TopicReading) => void) | null = null;
+  /** The newest reading of each topic, until somebody takes them: a map may come once only. */
+  readonly #early = new Map<string, TopicReading>();
 
   private constructor(sensor: number, worker: Worker, { description, cameras }: Introduction) {
     this.#sensor = sensor;
@@ -86,7 +87,8 @@ export class Capture {
         this.rings = report.elevations;
         this.onRings?.();
       } else if (report.type === 'reading') {
-        this.onReading?.(report.reading);
+        if (this.#onReading === null) this.#early.set(report.reading.topic, report.reading);
+        else this.#onReading(report.reading);
       } else if (report.type === 'telemetry') {
         this.onTelemetry?.(report.message);
       } else if (report.type === 'video') {
@@ -119,6 +121,14 @@ export class Capture {
       });
     });
     return new Capture(sensor, worker, introduction);
+  }
+
+  /** Called with readings of the robot's topics, for people; at once with those that have come before. */
+  set onReading(take: ((reading: TopicReading) => void) | null) {
+    this.#onReading = take;
+    if (take === null) return;
+    for (const reading of this.#early.values()) take(reading);
+    this.#early.clear();
   }
 
   setBudget(budget: CaptureBudget): void {

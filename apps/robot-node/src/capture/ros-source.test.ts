@@ -261,6 +261,94 @@ describe('RosSource', () => {
     });
   });
 
+  describe.each([1, 2] as const)('a navigator of ROS %i', (version) => {
+    const table = [
+      { topic: '/points', as: 'cloud' },
+      { topic: '/odom', as: 'pose' },
+      { topic: '/tf', as: 'tf' },
+      { topic: '/plan', as: 'path' },
+      { topic: '/map', as: 'map' },
+    ];
+    const at = (x: number, y: number) => ({
+      ...{ position: { x, y, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } },
+    });
+    const grid = (ms: number) => ({
+      header: headerAt(ms, 'map'),
+      info: { map_load_time: headerAt(0).stamp, resolution: 0.5, width: 2, height: 1, origin: at(-1, -2) },
+      data: [0, 100],
+    });
+    const plan = (ms: number, frame: string) => ({
+      header: headerAt(ms, frame),
+      poses: [at(0, 0), at(2, 0)].map((pose) => ({ header: headerAt(0, ''), pose })),
+    });
+    /** Where odometry began on the map. */
+    const tf = (ms: number, x: number) => ({
+      transforms: [
+        {
+          ...{ header: headerAt(ms, 'map'), child_frame_id: 'odom' },
+          transform: { translation: { x, y: 0, z: 0 }, rotation: { x: 0, y: 0, z: 0, w: 1 } },
+        },
+      ],
+    });
+    const TF = 'tf2_msgs/msg/TFMessage';
+    const PATH = 'nav_msgs/msg/Path';
+    const GRID = 'nav_msgs/msg/OccupancyGrid';
+
+    it('is told in the robot’s world: also a map that came once, before anybody listened and before its frame', async () => {
+      const { graph, source, readings, faults, pass } = await setUp(
+        table,
+        (g) => {
+          g.say('/map', GRID, grid(0));
+          g.say('/points', CLOUD, cloudOf(0, 3, 1));
+        },
+        { version },
+      );
+      source.start();
+      expect(readings).toMatchObject([
+        { topic: '/map', navigation: { kind: 'refused', reason: 'unknown-frame' } },
+      ]);
+      graph.say('/odom', ODOMETRY, odometry(0, 1));
+      graph.say('/plan', PATH, plan(0, 'odom'));
+      expect(readings.at(-1)).toMatchObject({
+        navigation: {
+          kind: 'path',
+          points: [
+            [0, 0],
+            [2, 0],
+          ],
+        },
+      });
+      pass(1000);
+      graph.say('/tf', TF, tf(1000, 3));
+      expect(readings.at(-1)).toMatchObject({
+        ...{ topic: '/map', level: 'ok', values: [['', '1.0 × 0.5 m, cells of 0.5 m']] },
+        navigation: {
+          kind: 'map',
+          map: { width: 2, height: 1, cellM: 0.5, origin: { x: -1, y: -2, yaw: 0 } },
+        },
+      });
+      // From now on, the map's frame is the world's.
+      graph.say('/plan', PATH, plan(1000, 'odom'));
+      expect(readings.at(-1)).toMatchObject({
+        navigation: {
+          kind: 'path',
+          points: [
+            [3, 0],
+            [5, 0],
+          ],
+        },
+      });
+      expect(source.state.pose.position.x).toBe(4);
+      pass(1000);
+      graph.say('/plan', PATH, plan(2000, 'elsewhere'));
+      expect(readings.at(-1)).toMatchObject({ level: 'warn', navigation: { kind: 'refused', of: 'path' } });
+      expect(faults).toEqual([]);
+      pass(1000);
+      graph.say('/map', GRID, { ...grid(3000), data: [0] });
+      expect(faults[0]).toMatch(/^\/map: /);
+    });
+  });
+
   it('uses the arrival time if a stamp is from another clock', async () => {
     const table = [{ topic: '/points', as: 'cloud' }];
     const { graph, capture, pass } = await setUp(table, (g) => g.say('/points', CLOUD, cloudOf(0, 3, 1)));

@@ -2,6 +2,8 @@
 
 import {
   type CloudAxes,
+  NavigationTopic,
+  RateLimit,
   RosFault,
   type RosGraph,
   type TopicEntry,
@@ -39,6 +41,8 @@ export interface RosSourceOptions {
 /** Number of state messages that may wait in the graph. */
 const STATE_QUEUE = 100;
 const STATE_ROLES = ['pose', 'tf', 'battery'];
+/** How often a path or a map whose frame was unknown is tried again, times a second. */
+const RETRIES = 2;
 
 export class RosSource implements FrameSource {
   readonly description: SourceDescription;
@@ -115,6 +119,10 @@ export class RosSource implements FrameSource {
     }
   }
 
+  start(): void {
+    this.#state.start();
+  }
+
   get state(): BaseState {
     const { basePose: pose, twist, battery } = this.#world;
     const { measuredMs } = this.#state;
@@ -176,12 +184,23 @@ class StateTopics {
   onFault: ((fault: RosFault) => void) | null = null;
   onReading: ((reading: TopicReading) => void) | null = null;
   readonly #listeners: Listener[];
+  readonly #navigation: NavigationTopic[] = [];
+  readonly #retries = new RateLimit(RETRIES);
+  /** What navigators' topics said before {@link start}: a map may come once only. */
+  #early: Map<string, TopicReading> | null = new Map();
 
   constructor(graph: RosGraph, topics: TopicTable, clock: RosClock) {
     const poseRole = topicAs(topics, 'pose') === undefined ? 'tf' : 'pose';
     this.#listeners = topics
-      .filter((entry) => STATE_ROLES.includes(entry.as) || ReadingTopic.is(entry))
+      .filter((entry) => isHeard(entry))
       .map((entry) => this.#listen(graph, entry, clock, poseRole));
+  }
+
+  /** The callbacks are set. */
+  start(): void {
+    const early = this.#early ?? new Map<string, TopicReading>();
+    this.#early = null;
+    for (const reading of early.values()) this.onReading?.(reading);
   }
 
   close(): void {
@@ -193,14 +212,37 @@ class StateTopics {
     const { topic: name, type, as } = entry;
     const onFault = (fault: RosFault) => this.onFault?.(fault);
     const reading = ReadingTopic.is(entry) ? new ReadingTopic(entry) : null;
+    const navigation = NavigationTopic.is(entry) ? new NavigationTopic(entry) : null;
+    if (navigation !== null) this.#navigation.push(navigation);
     const limited = reading?.readsAll !== true;
     return listen(graph, entry, { queue: STATE_QUEUE, limited, onFault }, (message) => {
       if (STATE_ROLES.includes(as)) this.world.take({ name, type }, message);
       if (as === poseRole) this.measuredMs = clock.now();
       const told = reading?.take(message, clock.now()) ?? null;
       if (told !== null) this.onReading?.(told);
+      if (navigation !== null) this.#tellNavigation(navigation.take(message, this.#framePose));
+      else if (as === 'tf' || as === 'pose') this.#retryNavigation(clock.now());
     });
   }
+
+  readonly #framePose = (frameId: string, stampNs: bigint) => this.world.framePose(frameId, stampNs);
+
+  #retryNavigation(nowMs: number): void {
+    if (!this.#navigation.some(({ waits }) => waits) || !this.#retries.admits(nowMs)) return;
+    for (const topic of this.#navigation) {
+      const told = topic.retry(this.#framePose);
+      if (told !== null) this.#tellNavigation(told);
+    }
+  }
+
+  #tellNavigation(reading: TopicReading): void {
+    if (this.#early === null) this.onReading?.(reading);
+    else this.#early.set(reading.topic, reading);
+  }
+}
+
+function isHeard(entry: TopicEntry): boolean {
+  return STATE_ROLES.includes(entry.as) || ReadingTopic.is(entry) || NavigationTopic.is(entry);
 }
 
 /** @throws {RosFault} if the table has no clouds */

@@ -76,6 +76,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
         ? {
             ...{ watchdogMs: values.watchdogMs, charge: values.simCharge / 100 },
             ...{ origin: values.simOrigin, things: values.simThings ?? [] },
+            navigation: { map: values.simMap, planTo: values.simPlanTo },
           }
         : null,
     sink: toSink(values),

@@ -44,6 +44,13 @@ const things = z.string('must be "ahead,left,height …" in metres').transform((
   return read.map(([ahead = 0, left = 0, height = 0]) => ({ ahead, left, height }));
 });
 
+const place = z.string('must be "x,y" in metres').transform((text, context): { x: number; y: number } => {
+  const [, x, y] = /^(-?\d{1,4}(?:\.\d+)?), ?(-?\d{1,4}(?:\.\d+)?)$/.exec(text.trim()) ?? [];
+  if (x !== undefined && y !== undefined) return { x: Number(x), y: Number(y) };
+  context.addIssue({ code: 'custom', message: 'must be "x,y" in metres' });
+  return z.NEVER;
+});
+
 export const simOptions = optionGroup('source', {
   simSeed: defineOption({
     schema: schema.integer({ min: 0, max: 0xffffffff }),
@@ -74,6 +81,17 @@ export const simOptions = optionGroup('source', {
     default: null,
     argument: 'PLACES',
     help: 'boxes of 0.3 × 0.3 m in the simulated building, by where the robot starts: "ahead,left,height …", metres',
+  }),
+  simMap: defineOption({
+    schema: schema.boolean(),
+    default: false,
+    help: 'the simulated robot has a map of its building, as a navigator would publish it',
+  }),
+  simPlanTo: defineOption({
+    schema: schema.optional(place),
+    default: null,
+    argument: 'X,Y',
+    help: 'the simulated robot has a plan to this place in its building, as a navigator would publish it; metres',
   }),
   simSize: defineOption({
     schema: schema.integer({ min: 16, max: 1024 }),

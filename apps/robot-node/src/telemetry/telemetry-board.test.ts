@@ -57,6 +57,23 @@ describe('TelemetryBoard', () => {
     ]);
   });
 
+  it('passes on what navigators say, and tells it to people', () => {
+    const navigation = {
+      kind: 'path' as const,
+      points: [
+        [0, 0],
+        [1, 0],
+      ] as [number, number][],
+    };
+    board.take({ topic: '/plan', label: 'Path', level: 'ok', values: [['', '1.0 m']], navigation }, 130);
+    expect(board.navigation.next({}, 'wide', 150)).toMatchObject([
+      { type: 'path', topic: '/plan', ageMs: 20 },
+    ]);
+    const reading = board.readings.next(150);
+    expect(reading).toMatchObject({ topic: '/plan', values: [['', '1.0 m']] });
+    expect(reading).not.toHaveProperty('navigation');
+  });
+
   it('records raised alarms again every five seconds, so that a player can begin anywhere', () => {
     board.sample('/motors', [85], 100);
     for (let nowMs = 150; nowMs <= 12_000; nowMs += 50) board.alarmChanges(nowMs);

@@ -1,9 +1,10 @@
-/** Everything that the robot tells about itself besides its state: readings, samples, components' reports, alarms. */
+/** Everything that the robot tells about itself besides its state: readings, samples, components' reports, alarms, path, map. */
 import type { Alarm, Quantity } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 import type { TimedBaseState } from '../base/base.ts';
 import { AlarmBoard, type AlarmRule } from './alarms/alarm-board.ts';
 import { ComponentBoard } from './component-board.ts';
+import { NavigationBoard } from './navigation-board.ts';
 import { NO_PLAYED_TELEMETRY, type PlayedMessage, type PlayedTelemetry } from './played-telemetry.ts';
 import { ReadingBoard } from './reading-board.ts';
 import { SampleBoard } from './sample-board.ts';
@@ -29,6 +30,7 @@ export function watchName(topic: string, field: string): string {
 export class TelemetryBoard {
   readonly readings = new ReadingBoard();
   readonly components = new ComponentBoard();
+  readonly navigation = new NavigationBoard();
   readonly samples: SampleBoard;
   readonly alarms: AlarmBoard;
   /** The robot's own, then those of the recording that it plays. */
@@ -64,7 +66,8 @@ export class TelemetryBoard {
   take(reading: TopicReading, nowMs: number): void {
     this.readings.add(reading, nowMs);
     if (reading.numbers !== undefined) this.sample(reading.topic, reading.numbers, nowMs);
-    const { topic, components } = reading;
+    const { topic, components, navigation } = reading;
+    if (navigation !== undefined) this.navigation.take(topic, navigation, nowMs);
     if (components === undefined) return;
     this.components.take(topic, components, nowMs);
     this.taker?.diagnostics(topic, nowMs, components);

@@ -27,6 +27,7 @@ function secondAt(
   samples: number;
   components: number;
   near: number;
+  paths: number;
   alarms: unknown[];
 } {
   const heard: string[] = [];
@@ -60,6 +61,17 @@ function secondAt(
   );
   const orientation = { x: 0, y: 0, z: 0, w: 1 };
   const state = { timeMs: 0, pose: { position: zeroTwist().linear, orientation }, twist: zeroTwist() };
+  board.navigation.take(
+    '/plan',
+    {
+      kind: 'path',
+      points: [
+        [0, 0],
+        [1, 0],
+      ],
+    },
+    0,
+  );
   for (let i = 0; i < 20; i++) {
     board.sample('/a', [i / 5], i * TICK_MS);
     sender.send({ ...state, battery: null, contact: false }, i * TICK_MS);
@@ -71,6 +83,7 @@ function secondAt(
     samples: messages.flatMap((message) => (message.type === 'samples' ? message.samples : [])).length,
     components: messages.filter(({ type }) => type === 'diagnostics').length,
     near: messages.filter(({ type }) => type === 'nearField').length,
+    paths: messages.filter(({ type }) => type === 'path').length,
     alarms,
   };
 }
@@ -107,6 +120,10 @@ describe('TelemetrySender', () => {
     const standing = () => 0.3;
     expect([secondAt(10e6, standing).near, secondAt(0.3e6, standing).near]).toEqual([2, 2]);
     expect(secondAt(10e6).near).toBe(0);
+  });
+
+  it('sends the navigator’s path to every operator, once a second at most', () => {
+    expect([secondAt(10e6).paths, secondAt(0.3e6).paths]).toEqual([1, 1]);
   });
 
   it('sends an alarm once, when it is raised', () => {

@@ -30,7 +30,7 @@ export interface Surroundings {
 
 /**
  * Sends each operator the robot's state, what is near it, statistics of its stream, samples of quantities, alarms,
- * components' reports, and up to five readings a second. Call `send` 20 times a second.
+ * components' reports, up to five readings a second, and the navigator's path and map. Call `send` 20 times a second.
  */
 export class TelemetrySender {
   readonly #operators: ReadonlyMap<string, OperatorSession>;
@@ -65,7 +65,7 @@ export class TelemetrySender {
     // Readings go with the telemetry that narrow paths get, too, so that every reading reaches all operators.
     const motion = this.#status.state(nowMs);
     const forNarrow = this.#sequence % NARROW_EVERY === 0;
-    const { readings, samples, components } = this.#board;
+    const { readings, samples, components, navigation } = this.#board;
     const reading = forNarrow ? readings.next(nowMs) : null;
     const all = samples.all();
     const newest = forNarrow ? samples.newest() : null;
@@ -99,6 +99,7 @@ export class TelemetrySender {
       send(isNarrow ? newest : all);
       send(reading);
       if (!isNarrow || this.#sequence % (COMPONENTS_EVERY * NARROW_EVERY) === 0) send(reports);
+      for (const each of navigation.next(operator, isNarrow ? 'narrow' : 'wide', nowMs)) send(each);
     }
   }
 }

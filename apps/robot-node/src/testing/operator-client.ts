@@ -1,7 +1,6 @@
 /** An operator for tests: a werift peer that answers the robot's offer as a browser would. */
 import {
   channels,
-  type Diagnostics,
   decodeJson,
   emptyPlacement,
   emptyPointPacketHeader,
@@ -81,7 +80,8 @@ export class OperatorClient {
   readonly #video: VideoReception;
   readonly sound: SoundReception;
   telemetry: Telemetry | null = null;
-  diagnostics: Diagnostics | null = null;
+  /** Of each type, the newest. */
+  readonly newest: { [T in TelemetryMessage['type']]?: Extract<TelemetryMessage, { type: T }> } = {};
   readonly samples: Sample[] = [];
   /** The newest reading of each topic. */
   readonly readings = new Map<string, Reading>();
@@ -258,10 +258,10 @@ export class OperatorClient {
   }
 
   #onTelemetry(message: TelemetryMessage): void {
+    Object.assign(this.newest, { [message.type]: message });
     if (message.type === 'reading') this.readings.set(message.topic, message);
     else if (message.type === 'telemetry') this.telemetry = message;
     else if (message.type === 'samples') this.samples.push(...message.samples);
-    else if (message.type === 'diagnostics') this.diagnostics = message;
   }
 
   #onPayload(payload: Buffer): void {

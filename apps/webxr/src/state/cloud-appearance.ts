@@ -56,6 +56,8 @@ export class CloudAppearance {
   readonly fromAbove = signal(false);
   /** Whether the sensors' frusta are drawn. Each visit begins without them. */
   readonly frusta = signal(false);
+  /** Whether the path and the map of the robot's navigator are drawn. Each visit begins with them. */
+  readonly navigation = signal(true);
 
   /**
    * @param store keeps every change

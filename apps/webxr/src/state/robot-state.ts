@@ -3,7 +3,7 @@ import type { RobotClient } from '@farpoint/operator';
 import { nearView } from '../near-field/near-view.ts';
 import { alarmWords, raisedFirst } from '../status/alarm-words.ts';
 import { motionWords, obstacleGuardWords, speedWords } from '../status/motion-words.ts';
-import { shownReading } from '../status/shown-readings.ts';
+import { readingsWithNavigation } from '../status/navigation-words.ts';
 import type { Sampler } from './sampler.ts';
 
 export type RobotState = ReturnType<typeof robotState>;
@@ -13,7 +13,7 @@ export function robotState({ link, stops, driver }: RobotClient, samples: Sample
     /** `null` before the robot's welcome. */
     name: samples.of(() => link.session.welcome?.name ?? null),
     telemetry: samples.of(() => link.session.telemetry),
-    readings: samples.of((atMs) => link.session.readings.list(atMs).map(shownReading)),
+    readings: samples.of((atMs) => readingsWithNavigation(link.session, atMs)),
     /** The alarms that are raised, the worst first. */
     alarms: samples.of((atMs) =>
       [...link.session.alarms.values()]

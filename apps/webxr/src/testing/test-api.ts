@@ -49,6 +49,8 @@ export interface PageState {
   path: DrivePath['shown'];
   /** What is near the robot: the nearest, the words that the page shows, and what is drawn around the robot. */
   near: NearProbe;
+  /** What is drawn of the navigator's path and map: number of points, and of cells that are not unknown. */
+  navigation: { pathPoints: number; mapCells: number };
   vr: boolean;
   /** Where the view stands, REP-103 (m, rad), and whether that is a prediction. */
   view: { x: number; y: number; z: number; yaw: number } & ViewFigures;

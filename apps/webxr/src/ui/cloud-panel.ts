@@ -3,7 +3,7 @@
  * no field to type in and no control keeps the focus after a click, because both would take keys from driving.
  */
 import type { CloudView } from '@farpoint/cloud-view';
-import { effect, type ReadonlySignal, signal, untracked } from '@preact/signals-core';
+import { effect, type ReadonlySignal, type Signal, signal, untracked } from '@preact/signals-core';
 import { type CloudAppearance, UNNAMED } from '../state/cloud-appearance.ts';
 import type { Switches } from '../state/switches.ts';
 import { colourControls } from './colour-controls.ts';
@@ -56,7 +56,8 @@ export class CloudPanel {
     });
     const ofSensors = element('');
     const drawing = [surfaceControls(appearance), memoryControls(appearance, parts.memory)];
-    controls.append(ofSensors, ...drawing, cutControls(appearance), frustaSwitch(appearance));
+    const drawn = [frustaSwitch(appearance), navigationSwitch(appearance)];
+    controls.append(ofSensors, ...drawing, cutControls(appearance), ...drawn);
     effect(() => {
       const parts = this.#names().map((name, i) =>
         untracked(() =>
@@ -96,15 +97,26 @@ export class CloudPanel {
 }
 
 function frustaSwitch({ frusta }: CloudAppearance): HTMLElement {
-  const button = quietButton('', 'Where the sensors are, and how far they see to the sides', () => {
-    frusta.value = !frusta.peek();
-  });
+  const button = drawnButton(frusta, 'Where the sensors are, and how far they see to the sides');
   button.id = 'frusta';
-  effect(() => {
-    button.textContent = frusta.value ? 'Drawn' : 'Not drawn';
-    button.ariaPressed = String(frusta.value);
-  });
   return rowOf('Frusta', button);
+}
+
+function navigationSwitch({ navigation }: CloudAppearance): HTMLElement {
+  const button = drawnButton(navigation, 'The path that the robot’s own navigator has planned, and its map');
+  button.id = 'navigation';
+  return rowOf('Path, map', button);
+}
+
+function drawnButton(drawn: Signal<boolean>, title: string): HTMLButtonElement {
+  const button = quietButton('', title, () => {
+    drawn.value = !drawn.peek();
+  });
+  effect(() => {
+    button.textContent = drawn.value ? 'Drawn' : 'Not drawn';
+    button.ariaPressed = String(drawn.value);
+  });
+  return button;
 }
 
 function element(className: string): HTMLElement {

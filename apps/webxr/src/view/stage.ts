@@ -9,9 +9,11 @@ import { DEFAULT_HEADSET, type HeadsetSettings } from '../headset/headset-settin
 import { Vignette } from '../headset/vignette.ts';
 import { bearingOnScreen } from './blocked-edge.ts';
 import { DrivePath } from './drive-path.ts';
+import { FloorMap } from './floor-map.ts';
 import { GroundGrid } from './ground-grid.ts';
 import { Look } from './look.ts';
 import { NearRing } from './near-ring.ts';
+import { PlannedPathLine } from './planned-path-line.ts';
 import { PoseFollower, shortestTurn } from './pose-follower.ts';
 import type { PredictedView } from './predicted-view.ts';
 import { RobotGhost } from './robot-ghost.ts';
@@ -46,6 +48,9 @@ export class Stage {
   readonly path = new DrivePath();
   /** What is near the robot, around it. */
   readonly near = new NearRing();
+  /** What the robot's own navigator has planned, and its map. */
+  readonly plan = new PlannedPathLine();
+  readonly floorMap = new FloorMap();
   /** Where the robot is when the picture is shown; `null`: the view follows the clouds. */
   predicted: PredictedView | null = null;
   /** From above, the robot's heading is up; otherwise north. */
@@ -77,7 +82,7 @@ export class Stage {
     this.renderer.xr.setReferenceSpaceType('local');
     this.scene.background = new Color(BACKGROUND);
     this.#marker.object.add(this.near.object, this.path.object);
-    this.world.add(this.#marker.object, this.#ghost.object);
+    this.world.add(this.#marker.object, this.#ghost.object, this.plan.object, this.floorMap.object);
     this.rig.add(this.camera, this.headset.front);
     this.camera.add(this.#vignette.object, this.#front.object);
     this.scene.add(this.world, this.rig, this.#grid.object);
@@ -183,6 +188,7 @@ export class Stage {
     this.#marker.onTop = isSeenFromAbove;
     this.path.onTop = isSeenFromAbove;
     this.near.onTop = isSeenFromAbove;
+    this.plan.onTop = isSeenFromAbove;
     this.#ghost.onTop = isSeenFromAbove;
     if (this.#isFromAbove) this.#placeTopDown();
     else if (!inVr) this.#placeFlatCamera();

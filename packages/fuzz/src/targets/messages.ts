@@ -22,6 +22,7 @@ import {
   serviceToOperatorCodec,
   serviceToRobotCodec,
   telemetryCodec,
+  writeTile,
 } from '@farpoint/protocol';
 import { answerMisfit, sdpSections } from '@farpoint/reference-profile';
 import type { FuzzTarget } from '../fuzz-target.ts';
@@ -55,6 +56,9 @@ export const messageTargets: readonly FuzzTarget[] = [
     run: (input) => {
       const message = decodeJson(telemetryCodec, input);
       if (message.type === 'nearField') nearSectors(message);
+      if (message.type !== 'map') return;
+      const cells = new Uint8Array(message.width * message.height);
+      for (const [index, runs] of message.tiles) writeTile(message, index, runs, cells);
     },
   },
   codec('robot-control', 'robot-control', robotControlCodec),

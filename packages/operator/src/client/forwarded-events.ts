@@ -19,6 +19,8 @@ export function forwardedEvents(emitter: Emitter<RobotEvents>) {
     onQuantity: (quantity) => emitter.emit('quantity', quantity),
     onSamples: (samples) => emitter.emit('samples', samples),
     onNearField: (field) => emitter.emit('nearField', field),
+    onPlannedPath: (path) => emitter.emit('plannedPath', path),
+    onMap: (tiles) => emitter.emit('map', tiles),
     onDiagnostics: (diagnostics) => emitter.emit('diagnostics', diagnostics),
     onAlarm: (alarm) => emitter.emit('alarm', alarm),
     onRobotFault: (message) => emitter.emit('robotFault', message),

@@ -5,8 +5,10 @@ import type {
   Diagnostics,
   EstopState,
   LeaseState,
+  MapTiles,
   NearField,
   Operators,
+  PlannedPath,
   Quantity,
   Reading,
   RobotListing,
@@ -76,6 +78,10 @@ export interface RobotEvents {
   samples: Samples;
   /** What stands around the robot. `link.session.near` has the newest, and its age. */
   nearField: NearField;
+  /** The robot's own navigator has planned another path. `link.session.plannedPath` has the newest, and its age. */
+  plannedPath: PlannedPath;
+  /** Tiles of the robot's map of which something is new. `link.session.map` has the whole. */
+  map: MapTiles;
   /** What some of the robot's components report about themselves. `link.session.components` has all of them. */
   diagnostics: Diagnostics;
   /** An alarm was raised, changed its level or was cleared. `link.session.alarms` has those that are raised. */

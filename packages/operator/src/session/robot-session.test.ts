@@ -23,6 +23,8 @@ function bench(): { session: RobotSession; told: string[] } {
     onQuantity: tell('quantity'),
     onSamples: tell('samples'),
     onNearField: tell('nearField'),
+    onPlannedPath: tell('plannedPath'),
+    onMap: tell('map'),
     onDiagnostics: tell('diagnostics'),
     onAlarm: tell('alarm'),
     onCameras: tell('cameras'),
@@ -126,6 +128,40 @@ describe('RobotSession', () => {
     expect(session.near.ageMs(150, 2200)).toBe(350);
     // A clock that is estimated a little wrong makes nothing younger than its arrival.
     expect(session.near.ageMs(150, 1890)).toBe(50);
+  });
+
+  test('keeps the navigator’s path and map, and how old they are', () => {
+    const { session, told } = bench();
+    const path = (timeMs: number, ageMs: number) =>
+      JSON.stringify({
+        type: 'path',
+        topic: '/plan',
+        timeMs,
+        ageMs,
+        points: [
+          [0, 0],
+          [timeMs, 1],
+        ],
+      });
+    session.onMessage('telemetry', path(2000, 40), 100);
+    session.onMessage('telemetry', path(1000, 1140), 110);
+    // The same, sent again, and this time faster.
+    session.onMessage('telemetry', path(2000, 1060), 1110);
+    expect(session.plannedPath.points).toEqual([
+      [0, 0],
+      [2000, 1],
+    ]);
+    expect(session.plannedPath.ageMs(1110)).toBe(1060);
+    const map = {
+      ...{ type: 'map', topic: '/map', number: 1, timeMs: 5, ageMs: 0, width: 2, height: 1, cellM: 1 },
+      ...{ origin: { x: 0, y: 0, yaw: 0 }, tiles: [[0, btoa('\u0040\u00c0')]] },
+    };
+    session.onMessage('telemetry', JSON.stringify(map), 2000);
+    expect([...session.map.cells]).toEqual([1, 3]);
+    session.onMessage('telemetry', JSON.stringify({ ...map, ageMs: 1000 }), 3000);
+    expect(told).toEqual(['plannedPath', 'map']);
+    session.onMessage('telemetry', JSON.stringify({ ...map, width: 3 }), 3000);
+    expect(session.malformed).toBe(1);
   });
 
   test('ignores telemetry that was overtaken, also across the wrap', () => {

@@ -11,11 +11,13 @@ import {
   type EstopState,
   type LatencyFrame,
   type LeaseState,
+  type MapTiles,
   type MessageData,
   type NearField,
   nextSequence32,
   type Operators,
   PictureAssembler,
+  type PlannedPath,
   ProtocolError,
   type Quantity,
   type Reading,
@@ -33,6 +35,8 @@ import {
   type WholePicture,
 } from '@farpoint/protocol';
 import { ComponentReports } from './component-reports.ts';
+import { NavigatorMap } from './navigator-map.ts';
+import { NavigatorPath } from './navigator-path.ts';
 import { NearSurroundings } from './near-surroundings.ts';
 import { Readings } from './readings.ts';
 
@@ -60,6 +64,10 @@ export interface RobotSessionEvents {
   onSamples(samples: Samples): void;
   /** What is near the robot. */
   onNearField(field: NearField): void;
+  /** The robot's navigator has planned another path. */
+  onPlannedPath(path: PlannedPath): void;
+  /** Something of the robot's map is new. */
+  onMap(tiles: MapTiles): void;
   /** Reports of the robot's components. */
   onDiagnostics(diagnostics: Diagnostics): void;
   /** An alarm was raised, changed its level or was cleared. */
@@ -97,6 +105,10 @@ export class RobotSession {
   telemetry: Telemetry | null = null;
   /** What is near the robot, in each direction. */
   readonly near = new NearSurroundings();
+  /** What the robot's navigator has planned. */
+  readonly plannedPath = new NavigatorPath();
+  /** What the robot's map says. */
+  readonly map = new NavigatorMap();
   /** Readings of the robot's sensors and topics. */
   readonly readings = new Readings();
   /** The numbers that the robot measures over time, by the number in their samples. */
@@ -247,6 +259,12 @@ export class RobotSession {
         return;
       case 'nearField':
         if (this.near.take(telemetry, nowMs)) this.#events.onNearField(telemetry);
+        return;
+      case 'path':
+        if (this.plannedPath.take(telemetry, nowMs)) this.#events.onPlannedPath(telemetry);
+        return;
+      case 'map':
+        if (this.map.take(telemetry, nowMs)) this.#events.onMap(telemetry);
         return;
       case 'diagnostics':
         this.components.take(telemetry);

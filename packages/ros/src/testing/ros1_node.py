@@ -8,8 +8,8 @@ import time
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from geometry_msgs.msg import Twist, TwistStamped
-from nav_msgs.msg import Odometry
+from geometry_msgs.msg import PoseStamped, Twist, TwistStamped
+from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from sensor_msgs.msg import BatteryState, CameraInfo, CompressedImage, Image, PointCloud2, PointField
 from std_msgs.msg import Float32
 
@@ -74,6 +74,25 @@ def odometry(count):
     return message
 
 
+def plan():
+    message = Path()
+    message.header.frame_id = "odom"
+    for x, y in ((3.0, 0.0), (4.0, 0.0), (5.0, 0.0), (5.0, 2.0)):
+        pose = PoseStamped()
+        pose.pose.position.x, pose.pose.position.y, pose.pose.orientation.w = x, y, 1.0
+        message.poses.append(pose)
+    return message
+
+
+def grid():
+    """40 x 2 cells: the lower row is free, the upper one occupied, and its last cell unknown."""
+    message = OccupancyGrid(data=[0] * 40 + [100] * 39 + [-1])
+    message.header.frame_id = "odom"
+    message.info.width, message.info.height, message.info.resolution = 40, 2, 0.5
+    message.info.origin.position.x, message.info.origin.orientation.w = -1.0, 1.0
+    return message
+
+
 def heard(topic):
     def on_velocity(message):
         twist = message.twist if hasattr(message, "twist") else message
@@ -118,6 +137,11 @@ def main():
         motor = DiagnosticStatus(level=1, name="left motor", message="71 degrees, which is too warm to go on for long")
         array = DiagnosticArray(status=[motor, DiagnosticStatus(level=0, name="imu", message="fine")])
         publishers.append((rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=1), array))
+    if "navigator" in parts:
+        publishers.append((rospy.Publisher("/plan", Path, queue_size=1), plan()))
+        # Once, for everybody who comes later.
+        latched = rospy.Publisher("/map", OccupancyGrid, queue_size=1, latch=True)
+        latched.publish(grid())
     if "own" in parts:
         from genpy.dynamic import generate_dynamic
 
