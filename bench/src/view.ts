@@ -7,12 +7,15 @@ import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { encode } from 'fast-png';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
 import { type Distribution, distribution, rounded } from './stats.ts';
+import { compareColours, meanOf } from './view/colour-comparison.ts';
 import { differenceOf, type Picture, type PictureDifference } from './view/picture-difference.ts';
 import { type DriveOptions, EYES, SimulatedDrive } from './view/simulated-drive.ts';
 import { ViewBrowser } from './view/view-browser.ts';
 
 const USAGE = `pnpm bench view [--rate-mbps 8] [--loss 0.01] [--fps 10] [--seconds 20] [--size 320] [--seed 1]
                [--pictures DIR] [--json]
+       pnpm bench view --video [--video-mbps 1.5] [--colour-quality 31] [--rate-mbps 8] [--loss 0.01] [--fps 10]
+               [--seconds 20] [--json]
 
 Kernel benchmark: a simulated robot drives among furniture and walking people, and its packets, as a link of this rate
 and loss delivers them, are decoded and drawn in a headless Chromium without a GPU. From the tenth second on, once a
@@ -20,7 +23,12 @@ second, what an eye in the camera's place sees, and one above and behind the rob
 there: holes is the share of pixels that should show something and show nothing, ssim the similarity of brightness,
 depthErrorM the median error. Drawn as surfaces with the remembered world behind them, as surfaces alone, as discs (the
 same packets), and as the reference system's points (points64, sampled, at the same rate). --pictures writes the last
-second's pictures, one PNG file for each eye: truth, memory, surface, discs, reference.`;
+second's pictures, one PNG file for each eye: truth, memory, surface, discs, reference.
+
+--video compares what paints the surface at the same total rate: the packets' own colours, or the depth camera's
+picture as a video, encoded by GStreamer, while packets have coarse colours and depth gets the rest. whole is the
+share of frames in which every point was sent. Lost packets of the video are taken to be sent again. Needs GStreamer and
+\`pnpm build:native video\`.`;
 
 /** What is compared: how the robot codes its clouds, and how they are drawn. */
 const MODES = [
@@ -55,6 +63,9 @@ export const bench: Bench = {
         size: { type: 'string', default: '320' },
         seed: { type: 'string', default: '1' },
         pictures: { type: 'string' },
+        video: { type: 'boolean' },
+        'video-mbps': { type: 'string', default: '1.5' },
+        'colour-quality': { type: 'string', default: '31' },
         json: { type: 'boolean' },
         help: { type: 'boolean' },
       },
@@ -68,6 +79,11 @@ export const bench: Bench = {
       size: numberOption('size', values.size, 32),
     };
     const seconds = numberOption('seconds', values.seconds, FROM_S + 1);
+    if (values.video) {
+      const videoMbps = numberOption('video-mbps', values['video-mbps'], 0.1);
+      const quality = numberOption('colour-quality', values['colour-quality']);
+      return compareColours({ ...options, videoMbps, quality, seconds, json: values.json === true });
+    }
     const browser = await ViewBrowser.open();
     const results: Record<string, ModeResult> = {};
     const last: Picture[][] = EYES.map(() => []);
@@ -138,16 +154,6 @@ async function drawn(
   const eyes = Object.fromEntries(EYES.map((eye, i) => [eye.name, meanOf(differences[i] ?? [])]));
   const times = { drawMs: distribution(drawMs), mainThreadMs: distribution(mainMs) };
   return { eyes, drawMs: rounded(times.drawMs), mainThreadMs: rounded(times.mainThreadMs) };
-}
-
-function meanOf(all: readonly PictureDifference[]): PictureDifference {
-  const mean = (of: (each: PictureDifference) => number) =>
-    Number((all.reduce((sum, each) => sum + of(each), 0) / all.length).toFixed(4));
-  return {
-    holes: mean(({ holes }) => holes),
-    ssim: mean(({ ssim }) => ssim),
-    depthErrorM: mean(({ depthErrorM }) => depthErrorM),
-  };
 }
 
 /** Side by side, a file for each eye. */

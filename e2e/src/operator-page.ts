@@ -17,6 +17,8 @@ export interface OpenOptions {
   every?: string;
   /** `1`: draw clouds of depth cameras as surfaces, which a software renderer does not by default. */
   surface?: '0' | '1';
+  /** `0`: surfaces have the packets' colours, not those of their camera's video. */
+  paint?: '0';
   /** `1`: remember what was seen, which a page with a software renderer does not by default. */
   memory?: '0' | '1';
   /** Take the stream from this bridge. */
@@ -87,6 +89,7 @@ export class OperatorPage {
       'every',
       'surface',
       'memory',
+      'paint',
       'barcode',
       'sync',
       'cues',

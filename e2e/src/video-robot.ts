@@ -13,6 +13,7 @@ export interface TestCamera {
   height?: number;
   framesPerS?: number;
   kbitPerS?: number;
+  ofCloud?: boolean;
 }
 
 /** Whether GStreamer and the program that encodes are there; without them, tests of videos are skipped. */

@@ -42,6 +42,7 @@ import { SoundUi } from './ui/sound-ui.ts';
 import { showStatus } from './ui/status-ui.ts';
 import { CloudHold, driverHold, noHold } from './video/cloud-hold.ts';
 import { HeldClouds } from './video/held-clouds.ts';
+import { VideoColour } from './video/video-colour.ts';
 import { VideoFeed } from './video/video-feed.ts';
 import { videoReceiver } from './video/video-receiver.ts';
 import { applyAppearance } from './view/apply-appearance.ts';
@@ -79,6 +80,8 @@ export class App {
   readonly presented = new PresentedInstant();
   /** Clouds wait here for the videos that were captured with them. */
   readonly hold: CloudHold;
+  /** Paints clouds with the video of their camera. */
+  readonly videoColour: VideoColour;
   /** The robot's telemetry over time. */
   readonly recorder: TelemetryRecorder;
   readonly vr: VrSession;
@@ -132,16 +135,13 @@ export class App {
     this.state = new PageState({
       ...{ client: this.client, settings, notices, figures: () => this.figures() },
       placements: new PanelPlacements(loadPlacements(), storePlacements),
-      now: () => performance.now(),
-      newCanvas: () => document.createElement('canvas'),
+      ...{ now: () => performance.now(), newCanvas: () => document.createElement('canvas') },
     });
     const { sensors, pointScale } = this.state;
     this.videos = new VideoFeed({
       ...{ client: this.client, views: this.state.videos, synchronised: settings.synchronised },
-      receiver,
-      presented: this.presented,
+      ...{ receiver, presented: this.presented, now: () => performance.now() },
       onShown: (captureMs) => this.client.seen.onShown(captureMs),
-      now: () => performance.now(),
     });
     this.recorder = new TelemetryRecorder(this.client, () => performance.now());
     this.hold = new CloudHold(settings.synchronised ? driverHold : noHold);
@@ -149,8 +149,10 @@ export class App {
     this.cloud = new CloudView(renderer, held);
     world.add(this.cloud);
     this.remembered = new RememberedWorld({ renderer, world, client: this.client, held });
-    this.clouds = new SensorClouds({
-      ...{ renderer, world, client: held, first: this.cloud, sensors, pointScale },
+    this.clouds = new SensorClouds({ renderer, world, client: held, first: this.cloud, sensors, pointScale });
+    this.videoColour = new VideoColour({
+      ...{ client: this.client, feed: this.videos, hold: this.hold, views: this.state.videos },
+      ...{ clouds: this.clouds.all, wanted: this.appearance.paint, synchronised: settings.synchronised },
     });
     this.vr = new VrSession(renderer, settings.headset);
     this.#access = new AccessUi({
@@ -209,6 +211,7 @@ export class App {
       const nowMs = performance.now();
       this.stats.tick(this.cloud, nowMs);
       this.stats.remembered = this.remembered.figures;
+      this.videoColour.tick(nowMs);
       this.videos.measure(nowMs);
       this.state.looking.value = this.vr.active.value || !document.hidden;
       this.state.sample();
@@ -230,7 +233,7 @@ export class App {
     const videos = this.videos.stats(performance.now());
     const { renderer } = this.stage;
     const stats = this.stats.snapshot(this.client.stats(), this.cloud, renderer.domElement, videos);
-    return { ...stats, view: this.predicted.figures };
+    return { ...stats, view: this.predicted.figures, videoColour: this.videoColour.figures };
   }
 
   #show(): void {

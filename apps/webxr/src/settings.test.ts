@@ -61,6 +61,11 @@ describe('readSettings', () => {
     expect(read('predict=perhaps').predict).toBe(true);
   });
 
+  test('paints surfaces with videos as was chosen before, unless the page address says otherwise', () => {
+    expect([read('').paint, read('paint=1').paint, read('paint=0').paint]).toEqual([null, true, false]);
+    expect(read('paint=red').paint).toBeNull();
+  });
+
   test('presents videos in step unless the page address or the stored settings say otherwise', () => {
     expect(read('').synchronised).toBe(true);
     expect(read('sync=0').synchronised).toBe(false);

@@ -54,6 +54,8 @@ export interface Settings {
   surface: boolean | null;
   /** Whether what was seen is remembered; `null`: as was chosen before, or as suits the renderer. */
   memory: boolean | null;
+  /** Whether surfaces are painted with the video of their camera; `null`: as was chosen before, or yes. */
+  paint: boolean | null;
   pointScale: number;
   /** Whether videos are presented in step: frames wait for what was captured at the same time. */
   synchronised: boolean;
@@ -119,6 +121,7 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
     drawEvery: parseEvery(query.get('every')),
     surface: parseSwitch(query.get('surface')) ?? null,
     memory: parseSwitch(query.get('memory')) ?? null,
+    paint: parseSwitch(query.get('paint')) ?? null,
     pointScale: clampScale(stored.pointScale),
     synchronised: parseSwitch(query.get('sync')) ?? stored.synchronised ?? true,
     cues: parseSwitch(query.get('cues')) ?? stored.cues ?? true,

@@ -12,12 +12,12 @@ const KEY = 'farpoint.clouds';
 
 /** @param asked what the page's address says; it comes before what is stored */
 export function openAppearance(
-  asked: Pick<Settings, 'surface' | 'memory'>,
+  asked: Pick<Settings, 'surface' | 'memory' | 'paint'>,
   gl: WebGLRenderingContext | WebGL2RenderingContext,
 ): CloudAppearance {
   const stored = load();
   const [surface, memory] = [asked.surface ?? stored.surface, asked.memory ?? stored.memory];
-  const wanted = { ...stored, surface, memory };
+  const wanted = { ...stored, surface, memory, paint: asked.paint ?? stored.paint };
   return new CloudAppearance(wanted, store, !isSoftwareRenderer(gl));
 }
 

@@ -25,6 +25,7 @@ import {
   BYTES_PER_POINT,
   type Codec,
   OrganisedEncoder,
+  type OrganisedReport,
   POINTS_PER_PACKET,
   Points64Encoder,
 } from '@farpoint/wasm-codec';
@@ -38,6 +39,8 @@ export interface DriveOptions {
   seed: number;
   /** Side of the true pictures, pixels. */
   size: number;
+  /** Quality of organised packets' colours, 0 to 31 (coarsest): the rest of the rate is the depth's. Default: as robots code. */
+  colourQuality?: number | undefined;
 }
 
 /** Where an eye looks from, on the robot. */
@@ -58,9 +61,19 @@ export interface DriveFrame {
   /** RTP payloads that arrived. */
   organised: ArrayBuffer[];
   points64: ArrayBuffer[];
+  /** The depth camera's own picture: R, G, B, 255 of each pixel. */
+  picture: { rgba: Uint8Array; width: number; height: number; captureTimeUs: number };
+  /** Whether every point was sent in `organised`. */
+  whole: boolean;
+  /** Depth errors of `organised` are at most 0.0625 · 2^level mm · z². */
+  depthLevel: number;
 }
 
+/** Of the organised codec. */
+const COARSEST_DEPTH = 7;
 const HEADER_BYTES = 16;
+/** By how much a coded frame may exceed its budget. */
+const BUDGET_SLACK = 1.06;
 /** For whose headers room is left in a frame's budget. */
 const PACKETS = 60;
 /** The robot drives in a circle, m/s and rad/s, and sees everything around it. */
@@ -78,6 +91,8 @@ export class SimulatedDrive {
   readonly #random: Random;
   #frame = 0;
   #captureTimeUs = 0;
+  #whole = true;
+  #depthLevel = 0;
 
   private constructor(
     codec: Codec,
@@ -124,9 +139,14 @@ export class SimulatedDrive {
     const budgetBytes = Math.floor(BitRate.bytesIn(BitRate.fromMbps(rateMbps), 1000 / framesPerSecond));
     this.#captureTimeUs = Math.round(this.#base.snapshot.time * 1e6);
     const number = this.#frame++;
+    const { width, height } = frame;
+    const rgba = frame.colour.slice();
     return {
       organised: this.#arrived(this.#organisedPayloads(frame, number, budgetBytes)),
       points64: this.#arrived(this.#points64Payloads(frame, number, budgetBytes)),
+      picture: { rgba, width, height, captureTimeUs: this.#captureTimeUs },
+      whole: this.#whole,
+      depthLevel: this.#depthLevel,
     };
   }
 
@@ -152,7 +172,14 @@ export class SimulatedDrive {
     encoder.depth.set(frame.depth);
     encoder.colour.set(new Uint32Array(frame.colour.buffer, frame.colour.byteOffset, frame.depth.length));
     const trailers = (PLACEMENT_BYTES + HEADER_BYTES) * PACKETS;
-    const { packets, points } = encoder.encode({ fromImages: true, budgetBytes: budgetBytes - trailers });
+    const budget = budgetBytes - trailers;
+    const { colourQuality: quality } = this.#options;
+    const { packets, points, reasons, bytes, depthLevel } =
+      quality === undefined
+        ? encoder.encode({ fromImages: true, budgetBytes: budget })
+        : this.#finestDepth(budget, quality);
+    this.#whole = reasons.thinned + reasons.dropped === 0 && bytes <= budget * BUDGET_SLACK;
+    this.#depthLevel = depthLevel;
     let sequenceOffset = 0;
     return Array.from({ length: packets }, (_, i) => {
       const sequenceLength = bytesOfPoints(encoder.lengths[i * 2 + 1] as number);
@@ -160,6 +187,16 @@ export class SimulatedDrive {
       sequenceOffset += sequenceLength;
       return this.#payload(header, encoder.packet(i), 'organised', frame.cameraPose);
     });
+  }
+
+  /** That fits beside colours of this quality. */
+  #finestDepth(budget: number, quality: number): OrganisedReport {
+    const encode = (depthLevel: number) =>
+      this.#organised.encode({ fromImages: true, depthLevel, colour: { quality } });
+    let level = 0;
+    let report = encode(level);
+    while (report.bytes > budget && level < COARSEST_DEPTH) report = encode(++level);
+    return report;
   }
 
   #points64Payloads(frame: CloudFrame, frameNumber: number, budgetBytes: number): ArrayBuffer[] {

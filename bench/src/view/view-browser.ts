@@ -8,9 +8,10 @@ import type { Pose } from '@farpoint/protocol';
 import { chromium, type Page } from '@playwright/test';
 import type { ViewOptions } from './page/view-page.ts';
 import type { Picture } from './picture-difference.ts';
+import type { CodedPicture } from './picture-video.ts';
 
-/** Answered from the bundle; nothing leaves this machine. */
-const ORIGIN = 'http://view.test';
+/** Answered from the bundle; nothing leaves this machine. Browsers decode videos only for such names, and by TLS. */
+const ORIGIN = 'http://view.localhost';
 const TYPES: Readonly<Record<string, string>> = {
   '.html': 'text/html',
   '.js': 'text/javascript',
@@ -54,6 +55,12 @@ export class ViewBrowser {
   feed(payloads: readonly ArrayBuffer[]): Promise<number> {
     const texts = payloads.map((payload) => base64(new Uint8Array(payload)));
     return this.#page.evaluate((each) => window.view.feed(each), texts);
+  }
+
+  /** Decodes a picture of the depth camera's video, which paints the cloud of its capture instant. */
+  paint(picture: CodedPicture): Promise<void> {
+    const { bytes, ...others } = picture;
+    return this.#page.evaluate((given) => window.view.paint(given), { ...others, bytes: base64(bytes) });
   }
 
   /** What an eye sees. @param fieldOfView vertical, degrees */

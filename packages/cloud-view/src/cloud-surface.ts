@@ -14,6 +14,7 @@ import {
 import { writePose } from './batch-pose.ts';
 import type { PointUniforms } from './point-material.ts';
 import { createSurfaceMaterial } from './surface-material.ts';
+import { SurfacePaint } from './surface-paint.ts';
 import { STRIDES, strideFor, TILE, tileIndices } from './tile-geometry.ts';
 import { FRAME_SLOTS, TileMap } from './tile-map.ts';
 import { TILE_SAMPLES, TileTextures } from './tile-textures.ts';
@@ -24,6 +25,8 @@ const TILE_ROOM = TILE_SAMPLES / 2;
 export class CloudSurface extends Mesh<InstancedBufferGeometry, RawShaderMaterial> {
   /** Which frame each tile shows. */
   map = new TileMap(0);
+  /** Paints it with its camera's own pictures. */
+  readonly paint: SurfacePaint;
   readonly #renderer: WebGLRenderer;
   readonly #uniforms: ReturnType<typeof createSurfaceMaterial>['uniforms'];
   readonly #indices = STRIDES.map((stride) => new BufferAttribute(tileIndices(stride), 1));
@@ -39,6 +42,7 @@ export class CloudSurface extends Mesh<InstancedBufferGeometry, RawShaderMateria
     super(new InstancedBufferGeometry(), material);
     this.#renderer = renderer;
     this.#uniforms = uniforms;
+    this.paint = new SurfacePaint(renderer, uniforms);
     this.geometry.boundingSphere = new Sphere(new Vector3(), Number.POSITIVE_INFINITY);
     this.frustumCulled = false;
     this.visible = false;
@@ -73,6 +77,7 @@ export class CloudSurface extends Mesh<InstancedBufferGeometry, RawShaderMateria
     if (map.newestFrame !== before) {
       const { tilePosition, tileOrientation } = this.#uniforms;
       writePose(batch, packet, tilePosition.value[slot]!, 0, tileOrientation.value[slot]!);
+      this.paint.begin(slot, batch.captureTimeUs(packet));
     }
     const { samples } = batch;
     let run = first;
@@ -95,6 +100,7 @@ export class CloudSurface extends Mesh<InstancedBufferGeometry, RawShaderMateria
     if (!this.visible) return;
     if (this.#changed) this.#textures?.writeSlots(map.slots);
     this.#changed = false;
+    this.paint.update(nowMs);
     const { value } = this.#uniforms.tilePosition;
     for (let slot = 0; slot < FRAME_SLOTS; slot++) value[slot]!.w = (nowMs - map.beganMs(slot)) / 1000;
   }
@@ -102,18 +108,21 @@ export class CloudSurface extends Mesh<InstancedBufferGeometry, RawShaderMateria
   /** Discards what is drawn. */
   forget(): void {
     this.map.reset();
+    this.paint.forget();
     this.visible = false;
   }
 
   /** A lost GPU context was restored. */
   recreate(): void {
     this.#textures?.recreate();
+    this.paint.recreate();
     this.forget();
   }
 
   /** Frees the GPU's memory. */
   override dispose(): void {
     this.#textures?.dispose();
+    this.paint.dispose();
     this.geometry.dispose();
     this.material.dispose();
   }
@@ -144,6 +153,7 @@ export class CloudSurface extends Mesh<InstancedBufferGeometry, RawShaderMateria
     tileSamples.value = textures.samples;
     tileSlots.value = textures.slots;
     this.geometry.instanceCount = columns * rows;
+    this.paint.follow(grid.width, grid.height);
   }
 }
 

@@ -13,6 +13,7 @@ import type {
 import { BufferGeometry, Points, type RawShaderMaterial, Sphere, Vector3, type WebGLRenderer } from 'three';
 import { writePose } from './batch-pose.ts';
 import type { CloudColouring } from './cloud-colouring.ts';
+import type { CloudPaint } from './cloud-paint.ts';
 import type { CloudSource, CloudViewOptions } from './cloud-source.ts';
 import { CloudSurface } from './cloud-surface.ts';
 import { type DrawnPoints, type FramePose, readDrawnPoints } from './drawn-points.ts';
@@ -30,8 +31,6 @@ import { WaitingBatches } from './waiting-batches.ts';
 const FIRST_CAPACITY = 1 << 19;
 /** 128 MiB on the GPU. */
 const MAX_CAPACITY = 1 << 24;
-/** A field of view of 90°, until a frame has given an estimate. */
-const DEFAULT_EXTENT = 2;
 
 /**
  * The clouds of one of a robot's sensors, as an object of a three.js scene. Its axes are those of the robot's world
@@ -49,10 +48,12 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
   packets = 0;
   /** Points received in the packets drawn, since the session began. */
   points = 0;
-  /** The camera's field of view, as the side of its picture at a distance of 1 m, metres. */
-  imageExtent = DEFAULT_EXTENT;
+  /** The camera's field of view, as the side of its picture at a distance of 1 m, metres; 90° before the first frame. */
+  imageExtent = 2;
   /** What the points' colours mean, and between which heights points are drawn. */
   readonly colouring: CloudColouring;
+  /** Paints the surface with pictures of the camera that the clouds come from. */
+  readonly paint: CloudPaint;
   readonly #colouring: PointColouring;
   #nowMs = 0;
   readonly #renderer: WebGLRenderer;
@@ -102,6 +103,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
       },
     );
     this.#surface = new CloudSurface(renderer, uniforms);
+    this.paint = this.#surface.paint;
     this.add(this.#surface);
     this.geometry.boundingSphere = new Sphere(new Vector3(), Number.POSITIVE_INFINITY);
     this.frustumCulled = false;
@@ -236,9 +238,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.#colouring.forget();
     this.visible = false;
     for (const reason of Object.keys(this.drops)) delete this.drops[reason as DropReason];
-    this.frames = 0;
-    this.packets = 0;
-    this.points = 0;
+    [this.frames, this.packets, this.points] = [0, 0, 0];
   }
 
   /** Copies the drawn points out, for tests: x, y, z, colour int16 each. A surface has none. */

@@ -29,6 +29,15 @@ uniform float groundHeight;
 uniform vec2 heightCut;
 `;
 
+/** Needs the uniform `freshness`. */
+export const FADED = /* glsl */ `
+// A picture that is no longer fed turns grey: nobody may take it for the present.
+vec3 faded(vec3 rgb) {
+  float grey = dot(rgb, vec3(0.3, 0.59, 0.11)) * 0.6;
+  return mix(vec3(grey), rgb, freshness);
+}
+`;
+
 export const COLOUR_FUNCTIONS = /* glsl */ `
 // The intensity from its colour (point-values.ts).
 float intensityOf(vec3 rgb) {
@@ -55,10 +64,4 @@ vec3 coloured(vec3 rgb, vec3 fromSensor, float height, float age) {
   int low = min(int(place), ${COLOUR_STOPS - 2});
   return mix(colourMap[low], colourMap[low + 1], place - float(low));
 }
-
-// A picture that is no longer fed turns grey: nobody may take it for the present.
-vec3 faded(vec3 rgb) {
-  float grey = dot(rgb, vec3(0.3, 0.59, 0.11)) * 0.6;
-  return mix(vec3(grey), rgb, freshness);
-}
-`;
+${FADED}`;

@@ -12,6 +12,7 @@ export {
   type Rings,
   type ValueRange,
 } from './cloud-colouring.ts';
+export type { CameraPicture, CloudPaint, PictureUse } from './cloud-paint.ts';
 export type { CloudSource, CloudViewOptions } from './cloud-source.ts';
 export { CloudView } from './cloud-view.ts';
 export { COLOUR_STOPS, colourAt, colourStops, type Rgb } from './colour-map.ts';

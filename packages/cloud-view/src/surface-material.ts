@@ -8,9 +8,11 @@
  * A surface is *torn* where inverse depth changes faster than on a plane that passes the camera at a distance of
  * {@link NEAREST_PLANE_M}, plus the sensor's noise. Seen from where the camera was, what is torn is no wider than a pixel,
  * and drawn. From elsewhere it would be a skin between near and far things: it is left out where it would be stretched.
+ *
+ * Where the camera's own picture is there (surface-paint.ts), it takes the place of the samples' colours.
  */
-import { type ExternalTexture, GLSL3, RawShaderMaterial, Vector4 } from 'three';
-import { COLOUR_FUNCTIONS, COLOUR_UNIFORMS } from './colour-shader.ts';
+import { type ExternalTexture, GLSL3, RawShaderMaterial, Vector2, Vector4 } from 'three';
+import { COLOUR_FUNCTIONS, COLOUR_UNIFORMS, FADED } from './colour-shader.ts';
 import type { PointUniforms } from './point-material.ts';
 import { ROTATE } from './pose-shader.ts';
 import { TILE_VERTICES } from './tile-geometry.ts';
@@ -38,6 +40,8 @@ uniform vec4 lens;
 // Position of each slot's camera in the world, metres; w: seconds since its frame began to arrive.
 uniform vec4 tilePosition[${FRAME_SLOTS}];
 uniform vec4 tileOrientation[${FRAME_SLOTS}];
+// Of each slot the layer of its frame's picture, and half of the weight that the picture has.
+uniform vec4 tilePaint[${FRAME_SLOTS / 4}];
 uniform float viewportHeight;
 ${COLOUR_UNIFORMS}
 // Place in the camera's picture, pixels, of this vertex and of the upper left one of its cell.
@@ -47,6 +51,8 @@ flat out vec2 corner;
 flat out int cell;
 // Least pixels of the camera's picture in one of this picture, as areas, where the cell is torn.
 flat out float leastPixels;
+// Layer of the picture, and its weight.
+flat out vec2 paint;
 out vec3 surfaceColour;
 // Height in the world, times the inverse depth, and the inverse depth.
 out vec2 height;
@@ -132,14 +138,20 @@ void main() {
   float nominal = gl_Position.w / (s0 * length(modelViewMatrix[0].xyz));
   leastPixels = lens.x * lens.y * nominal * nominal / ${MOST_STRETCH.toFixed(1)};
 
+  float painted = tilePaint[slot >> 2][slot & 3];
+  paint = vec2(floor(painted), 2.0 * fract(painted));
   uint colour = texel >> 16;
   vec3 rgb = vec3(float(colour >> 11) / 31.0, float((colour >> 5) & 63u) / 63.0, float(colour & 31u) / 31.0);
   if (colourMode != 0) {
+    paint.y = 0.0;
     float depth = 1.0 / max(inverse, 1e-4);
     rgb = coloured(rgb, ray * depth, world.z * depth - groundHeight, pose.w);
   }
   // The latency test's green has no grey in it.
-  if (colour == 0x07e0u) rgb = vec3(0.0, 1.0, 0.0);
+  if (colour == 0x07e0u) {
+    rgb = vec3(0.0, 1.0, 0.0);
+    paint.y = 0.0;
+  }
   surfaceColour = faded(rgb);
 }
 `;
@@ -147,15 +159,20 @@ void main() {
 const fragmentShader = /* glsl */ `
 precision highp float;
 precision highp int;
+uniform highp sampler2DArray pictures;
+// Of the image that the samples lie on, pixels.
+uniform vec2 gridSize;
+uniform float freshness;
 uniform vec2 heightCut;
 in vec2 pixel;
 flat in vec2 corner;
 flat in int cell;
 flat in float leastPixels;
+flat in vec2 paint;
 in vec3 surfaceColour;
 in vec2 height;
 out vec4 fragColour;
-
+${FADED}
 void main() {
   vec2 across = dFdx(pixel);
   vec2 down = dFdy(pixel);
@@ -166,11 +183,22 @@ void main() {
   if ((state & 4) != 0 && pixels < leastPixels) discard;
   float metres = height.x / height.y;
   if (metres < heightCut.x || metres > heightCut.y) discard;
-  fragColour = vec4(surfaceColour, 1.0);
+  vec3 picture = texture(pictures, vec3((pixel + 0.5) / gridSize, paint.x)).rgb;
+  fragColour = vec4(mix(surfaceColour, faded(picture), paint.y), 1.0);
 }
 `;
 
-export interface SurfaceUniforms {
+/** How a surface is painted with its camera's pictures. */
+export interface PaintUniforms {
+  /** The pictures, a layer each. */
+  pictures: { value: ExternalTexture | null };
+  /** Of the image that the samples lie on, pixels. */
+  gridSize: { value: Vector2 };
+  /** Of each slot, four in a vector, the layer of its frame's picture, and half of the weight that the picture has. */
+  tilePaint: { value: Vector4[] };
+}
+
+export interface SurfaceUniforms extends PaintUniforms {
   tileSamples: { value: ExternalTexture | null };
   tileSlots: { value: ExternalTexture | null };
   /** Columns and rows of tiles, tiles in a row of the samples' texture, stride. */
@@ -196,6 +224,9 @@ export function createSurfaceMaterial(points: PointUniforms): {
     lens: { value: new Vector4(1, 1, 0, 0) },
     tilePosition: { value: vectors() },
     tileOrientation: { value: vectors() },
+    pictures: { value: null },
+    gridSize: { value: new Vector2(1, 1) },
+    tilePaint: { value: Array.from({ length: FRAME_SLOTS / 4 }, () => new Vector4()) },
   };
   const { viewportHeight, freshness, colourMode, colourRange, colourMap, ringMap, ringScale } = points;
   const { groundHeight, heightCut } = points;

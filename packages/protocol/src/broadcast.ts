@@ -6,8 +6,8 @@ import type { JsonCodec } from './json.ts';
 import { MAX_SENSORS } from './placement.ts';
 import { sensorSchema } from './sensor-rings.ts';
 import { midSchema, streamHeaderSchema, videoDescriptionSchema } from './session-codecs.ts';
-import type { CloudStream, VideoDescription } from './session-messages.ts';
-import { MAX_VIDEOS } from './video-media.ts';
+import type { CloudStream } from './session-messages.ts';
+import { MAX_VIDEOS, type VideoDescription } from './video-media.ts';
 
 /** The metadata of a robot's mountpoint. */
 export interface Broadcast {

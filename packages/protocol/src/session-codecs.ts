@@ -32,6 +32,7 @@ export const videoDescriptionSchema = z.strictObject({
   mid: midSchema,
   codec: z.enum(VIDEO_CODECS),
   fault: z.optional(z.string().check(z.maxLength(256))),
+  ofSensor: z.optional(sensorSchema),
 });
 /** A test that takes longer has failed. */
 const MAX_LATENCY_MS = 60_000;

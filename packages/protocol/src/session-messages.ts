@@ -9,7 +9,7 @@ import type { Quantity } from './quantity.ts';
 import type { Role } from './role.ts';
 import type { SensorRings } from './sensor-rings.ts';
 import type { MicrophoneState, VoiceState } from './sound-media.ts';
-import type { VideoCodec } from './video-media.ts';
+import type { Videos } from './video-media.ts';
 
 /** The robot's drive limits. No message can raise any of them. */
 export interface DriveLimits {
@@ -198,29 +198,6 @@ export interface Sensors {
     /** For people. */
     name: string;
   }[];
-}
-
-/** One of the robot's cameras that is streamed as video on an m-line of its own. */
-export interface VideoDescription {
-  /** For people. */
-  name: string;
-  /** `a=mid` of its m-line in the robot's offer. */
-  mid: string;
-  /** What it is encoded with now, for every operator; it may change while the video runs. */
-  codec: VideoCodec;
-  /** Why there are no pictures at present, for people; absent while there are. */
-  fault?: string | undefined;
-}
-
-/**
- * The videos of the robot's cameras; a video's position in the list is its number. Sent after the welcome by robots
- * with such cameras, and again whenever a video's state or codec changes.
- */
-export interface Videos {
-  /** Tells the message from others. */
-  type: 'videos';
-  /** In the order of their numbers. */
-  videos: VideoDescription[];
 }
 
 /**

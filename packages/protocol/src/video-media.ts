@@ -1,4 +1,4 @@
-/** The m-lines of cameras' videos: ordinary ones, which any WebRTC client can show. */
+/** The m-lines of cameras' videos: ordinary ones, which any WebRTC client can show; and what operators are told of them. */
 
 /** In how many videos a robot can offer its cameras, at most. */
 export const MAX_VIDEOS = 8;
@@ -19,4 +19,32 @@ export const VIDEO_CLOCK_RATE = 90_000;
  */
 export function videoStreamId(video: number): string {
   return `farpoint-video-${video}`;
+}
+
+/** One of the robot's cameras that is streamed as video on an m-line of its own. */
+export interface VideoDescription {
+  /** For people. */
+  name: string;
+  /** `a=mid` of its m-line in the robot's offer. */
+  mid: string;
+  /** What it is encoded with now, for every operator; it may change while the video runs. */
+  codec: VideoCodec;
+  /** Why there are no pictures at present, for people; absent while there are. */
+  fault?: string | undefined;
+  /**
+   * Number of the sensor whose own colour picture this is: seen by the same lens from the same place, and captured with
+   * its clouds. Absent for any other camera.
+   */
+  ofSensor?: number | undefined;
+}
+
+/**
+ * The videos of the robot's cameras; a video's position in the list is its number. Sent after the welcome by robots
+ * with such cameras, and again whenever a video's state or codec changes.
+ */
+export interface Videos {
+  /** Tells the message from others. */
+  type: 'videos';
+  /** In the order of their numbers. */
+  videos: VideoDescription[];
 }

@@ -588,6 +588,7 @@ robot_session.good({"type": "rings", "sensor": 0, "elevations": [round(-0.4 + i 
 robot_session.good({"type": "cameras", "cameras": []}, "cameras: none")
 videos = robot_session.good({"type": "videos", "videos": [{"name": "Front", "mid": "1", "codec": "H264"}, {"name": "Rear", "mid": "2", "codec": "VP8", "fault": "the camera is unplugged"}]})
 robot_session.good({"type": "videos", "videos": []}, "videos: none")
+of_sensor = robot_session.good({"type": "videos", "videos": [{"name": "Depth camera", "mid": "1", "codec": "H264", "ofSensor": 0}]}, "videos: a sensor's own picture")
 sound = robot_session.good({"type": "sound", "mid": "3", "microphone": {"state": "failed", "detail": "the microphone is unplugged"}, "voice": {"state": "closed"}})
 robot_session.good({"type": "sound", "mid": "3"}, "sound: neither")
 for microphone in ["off", "starting", "live", "muted", "slow-link"]:
@@ -635,6 +636,7 @@ robot_session.spoil(sound, ("mid", ABSENT), ("mid", ""), ("microphone.state", "o
 robot_session.spoil(videos, ("videos", ABSENT), ("videos", [{"name": "x", "mid": "1", "codec": "VP8"}] * 9), ("videos.0.name", ""), ("videos.0.mid", ""),
                     ("videos.0.mid", "a b"), ("videos.0.mid", "x" * 17), ("videos.0.mid", 1), ("videos.1.codec", "AV1"), ("videos.1.codec", ABSENT),
                     ("videos.1.fault", "x" * 257), ("videos.1.extra", 1, "videos.1"))
+robot_session.spoil(of_sensor, ("videos.0.ofSensor", 8), ("videos.0.ofSensor", -1), ("videos.0.ofSensor", 0.5), ("videos.0.ofSensor", "0"))
 robot_session.spoil(fault, ("message", "x" * 513), ("message", 1), ("reason", "because"))
 write("robot-session.json", robot_session.lists())
 

@@ -10,6 +10,7 @@ import { openRgbdSource, type RgbdSourceOptions } from './rgbd-source.ts';
 import { RosSource, type RosSourceOptions } from './ros-source.ts';
 import { SimLidarSource, type SimLidarSourceOptions } from './sim-lidar-source.ts';
 import { SimSource, type SimSourceOptions } from './sim-source.ts';
+import { TriggeredSource } from './triggered-source.ts';
 
 /** Which source to open. Plain data, so that it can be passed to the worker. */
 export type SourceOptions =
@@ -25,8 +26,11 @@ export type SourceOptions =
 /** @throws {Error} naming what could not be opened and why */
 export async function openSource(options: SourceOptions): Promise<FrameSource> {
   switch (options.kind) {
-    case 'sim':
-      return SimSource.create(options);
+    case 'sim': {
+      const source = await SimSource.create(options);
+      const { triggerPerS } = options;
+      return triggerPerS === undefined ? source : new TriggeredSource(source, triggerPerS);
+    }
     case 'sim-lidar':
       return SimLidarSource.create(options);
     case 'pcd':

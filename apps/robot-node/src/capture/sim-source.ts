@@ -11,6 +11,8 @@ export interface SimSourceOptions {
   snapshot?: SharedArrayBuffer | undefined;
   /** Put into the world. */
   things?: readonly Thing[] | undefined;
+  /** It captures at the multiples of this rate's interval, with cameras of this rate; if undefined, when it is asked. */
+  triggerPerS?: number | undefined;
 }
 
 /** The simulated robot's depth camera. Renders the world from the base's state. */

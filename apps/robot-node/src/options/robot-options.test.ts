@@ -189,6 +189,31 @@ describe('robot options', () => {
       expect(new Set(seeds).size).toBe(2);
     });
 
+    it('of the cloud’s own camera trigger the simulated clouds', () => {
+      const ofCloud = '{ name: Depth, ofCloud: true, source: { kind: sim, width: 480, height: 480 } }';
+      const { videos, sensors } = file(`robot:\n  videos: [${ofCloud}]\n`);
+      expect(videos).toMatchObject([{ ofCloud: true }]);
+      expect(sensors[0]?.capture.source).toMatchObject({ kind: 'sim', triggerPerS: 30 });
+      expect(file('robot:\n  videos: []\n').sensors[0]?.capture.source).toMatchObject({
+        triggerPerS: undefined,
+      });
+    });
+
+    it.each([
+      ['source: { kind: sim }', /only at the simulated depth camera’s place/],
+      ['source: { kind: sim, width: 480, height: 480, yaw: 0.1 }', /only at the simulated depth camera’s/],
+      [
+        'framesPerS: 15, source: { kind: sim, width: 64, height: 64 }',
+        /needs equal `framesPerS` of camera 1/,
+      ],
+      ['ofCloud: 1, source: { kind: test }', /ofCloud.*must be true or false/],
+      ['source: { kind: test } }, { name: B, ofCloud: true, source: { kind: test }', /at most one camera/],
+    ])('of the cloud’s own camera are refused with a clear sentence: %s', (camera, words) => {
+      const ofCloud = camera.startsWith('ofCloud') ? '' : 'ofCloud: true, ';
+      const read = () => file(`robot:\n  videos: [{ name: A, ${ofCloud}${camera} }]\n`);
+      expect(read).toThrow(words);
+    });
+
     it.each([
       [
         '{ kind: ros, topic: /x }',

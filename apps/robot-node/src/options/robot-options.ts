@@ -17,6 +17,7 @@ import { toAlarmRules } from './alarms.ts';
 import { toAudit } from './audit-configuration.ts';
 import { toBroadcast } from './broadcast.ts';
 import { checkAccess } from './check-access.ts';
+import { checkVideos, cloudTrigger } from './check-videos.ts';
 import { toObstacleGuard } from './guard.ts';
 import { toGuardTopics } from './guard-topics.ts';
 import { toMotion } from './motion.ts';
@@ -183,12 +184,7 @@ function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, de
   if ((sink === 'ros1' || sink === 'ros2') && topicAs(topics, 'velocity') === undefined) {
     refuse('topics', `needs an entry with \`as: velocity\` for the sink ${sink}`);
   }
-  for (const [i, { source: camera }] of values.videos.entries()) {
-    if (camera.kind === 'sim' && source !== 'sim')
-      refuse('videos', `can have a camera of the kind sim (camera ${i + 1}) only with the source sim`);
-    if (camera.kind === 'ros' && camera.version === undefined && rosKindOf(values) === null)
-      refuse('videos', `needs \`ros: 1\` or \`ros: 2\` for camera ${i + 1}: neither source nor sink is ROS`);
-  }
+  checkVideos(values, refuse);
   if (values.stopTopic !== null && rosKindOf(values) === null)
     refuse('stopTopic', 'needs a ROS graph: neither source nor sink is ROS');
   if (source === 'sim' && values.simSize % 4 !== 0) refuse('simSize', 'must be a multiple of 4');
@@ -198,7 +194,12 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
   const path = values.path ?? '';
   switch (values.source) {
     case 'sim':
-      return { kind: 'sim', seed: values.simSeed, size: values.simSize };
+      return {
+        kind: 'sim',
+        seed: values.simSeed,
+        size: values.simSize,
+        triggerPerS: cloudTrigger(values.videos),
+      };
     case 'shm':
       return {
         kind: 'shm',

@@ -78,6 +78,8 @@ const cameraSchema = z.strictObject({
     .min(64, 'must be at least 64')
     .max(50_000, 'must be at most 50000')
     .default(1500),
+  /** It is the depth camera's own colour picture: the clouds' lens, place and capture instants. */
+  ofCloud: z.boolean('must be true or false').default(false),
 });
 
 const videosSchema = z
@@ -86,6 +88,10 @@ const videosSchema = z
   .refine(
     (cameras) => new Set(cameras.map(({ name }) => name)).size === cameras.length,
     'must have a different name for each camera',
+  )
+  .refine(
+    (cameras) => cameras.filter(({ ofCloud }) => ofCloud).length <= 1,
+    'must have at most one camera with `ofCloud: true`',
   );
 export type ConfiguredVideo = z.output<typeof cameraSchema>;
 
@@ -95,6 +101,6 @@ export const videosOptions = {
     default: [],
     flag: false,
     env: false,
-    help: 'cameras that are streamed as video, each with a name, a source (test, v4l2, rtsp, ros, sim or gst), an encoder (auto, or one that `pnpm robot doctor` lists), width, height, framesPerS and kbitPerS; a slow link gets less (docs/video.md)',
+    help: 'cameras that are streamed as video, each with a name, a source (test, v4l2, rtsp, ros, sim or gst), an encoder (auto, or one that `pnpm robot doctor` lists), width, height, framesPerS, kbitPerS and ofCloud (the picture of the depth camera that the clouds come from); a slow link gets less (docs/video.md)',
   }),
 };

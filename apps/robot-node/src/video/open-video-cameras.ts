@@ -44,19 +44,20 @@ function videoCamera(
   thread: FeedThread,
   log: Logger,
 ): VideoCamera {
-  const { name, source, width, height, framesPerS, kbitPerS } = camera;
+  const { name, source, width, height, framesPerS, kbitPerS, ofCloud } = camera;
   const most = { width, height, framesPerSecond: framesPerS, bitsPerSecond: kbitPerS * 1000 };
   const { codecs } = encoders;
+  const ofSensor = ofCloud ? { ofSensor: 0 } : {};
   if (isFeedSource(source)) {
     return {
-      ...{ name, codecs, most },
+      ...{ name, codecs, most, ...ofSensor },
       open: (codec, format, events) =>
         thread.open({ name, source, encoder: encoders.of(codec) }, format, events),
     };
   }
   const child = log.child({ camera: name });
   return {
-    ...{ name, codecs, most },
+    ...{ name, codecs, most, ...ofSensor },
     open: (codec, format, events) =>
       new ProcessEncoder({ source, encoder: encoders.of(codec) }, format, events, child),
   };

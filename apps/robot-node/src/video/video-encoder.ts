@@ -34,6 +34,8 @@ export interface VideoCamera {
   codecs: readonly VideoCodec[];
   /** What it is configured for; a slow link gets less. */
   most: VideoFormat;
+  /** Number of the sensor whose own colour picture it is. */
+  ofSensor?: number | undefined;
   /**
    * Starts the camera and its encoder. Never throws: faults are events.
    *

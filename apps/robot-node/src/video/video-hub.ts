@@ -68,8 +68,9 @@ export class VideoHub {
 
   /** Of each video what an operator is told, besides its m-line. */
   get descriptions(): Omit<VideoDescription, 'mid'>[] {
-    return this.streams.map(({ camera: { name }, codec, fault }) => ({
+    return this.streams.map(({ camera: { name, ofSensor }, codec, fault }) => ({
       ...{ name, codec },
+      ...(ofSensor === undefined ? {} : { ofSensor }),
       ...(fault === null ? {} : { fault: fault.slice(0, 256) }),
     }));
   }

@@ -30,6 +30,7 @@ describe('the appearance of clouds', () => {
     appearance.headingUp.value = false;
     appearance.surface.value = true;
     appearance.memory.value = false;
+    appearance.paint.value = false;
     const again: StoredAppearance = parseAppearance(text);
     expect([...again.looks]).toEqual([['LiDAR', { mode: 'distance', fixed: { min: 1, max: 8 } }]]);
     expect(again).toMatchObject({
@@ -38,7 +39,9 @@ describe('the appearance of clouds', () => {
       headingUp: false,
       surface: true,
       memory: false,
+      paint: false,
     });
+    expect(nothing.paint).toBe(true);
   });
 
   test('clouds are drawn as surfaces as suits the renderer, until somebody chooses', () => {

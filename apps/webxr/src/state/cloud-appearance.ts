@@ -22,6 +22,8 @@ export interface StoredAppearance {
   readonly surface: boolean | null;
   /** Whether what was seen is remembered; `null`: as suits the renderer. */
   readonly memory: boolean | null;
+  /** Whether surfaces are painted with the video of their camera, where there is one. */
+  readonly paint: boolean;
 }
 
 /** The cloud of a robot with one sensor, which has no name. */
@@ -50,6 +52,7 @@ export class CloudAppearance {
   /** Whether clouds of depth cameras are drawn as surfaces, chosen or not. */
   readonly drawsSurface: ReadonlySignal<boolean>;
   readonly memory: Signal<boolean | null>;
+  readonly paint: Signal<boolean>;
   /** Whether what was seen is remembered, chosen or not. */
   readonly remembers: ReadonlySignal<boolean>;
   /** Whether the flat screen shows the surroundings from above. Each visit begins with the robot's own view. */
@@ -71,14 +74,15 @@ export class CloudAppearance {
     this.surface = signal(stored.surface);
     this.drawsSurface = computed(() => this.surface.value ?? drawsFast);
     this.memory = signal(stored.memory);
+    this.paint = signal(stored.paint);
     this.remembers = computed(() => this.memory.value ?? drawsFast);
     let first = true;
     effect(() => {
-      const { looks, cut, cutFromAbove, headingUp, surface, memory } = this;
+      const { looks, cut, cutFromAbove, headingUp, surface, memory, paint } = this;
       const now = {
         ...{ looks: looks.value, cut: cut.value },
         ...{ cutFromAbove: cutFromAbove.value, headingUp: headingUp.value },
-        ...{ surface: surface.value, memory: memory.value },
+        ...{ surface: surface.value, memory: memory.value, paint: paint.value },
       };
       if (!first) store(now);
       first = false;
@@ -117,6 +121,7 @@ export function parseAppearance(text: string | null): StoredAppearance {
     headingUp: record.headingUp !== false,
     surface: typeof record.surface === 'boolean' ? record.surface : null,
     memory: typeof record.memory === 'boolean' ? record.memory : null,
+    paint: record.paint !== false,
   };
 }
 

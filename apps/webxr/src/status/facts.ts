@@ -4,6 +4,7 @@ import { BitRate } from '@farpoint/timing';
 import { motionWords, speedLimitWords } from './motion-words.ts';
 import type { PageStats } from './page-stats.ts';
 import type { ShownReading } from './shown-readings.ts';
+import { videoColourWords } from './video-colour-words.ts';
 import { viewWords } from './view-words.ts';
 import { driveStateWords, type Tone } from './words.ts';
 
@@ -97,6 +98,7 @@ function streamFacts(figures: PageStats): Fact[] {
     },
     ...thinningFacts(figures),
     ...memoryFacts(figures),
+    ...paintFacts(figures),
     { name: 'Rate', value: `${mbps(figures)} Mbit/s` },
     { name: 'Loss', value: `${(figures.lossRate * 100).toFixed(1)} %`, tone: lossTone(figures) },
     { name: 'Round trip', value: ms(figures.minRttMs) },
@@ -120,6 +122,12 @@ function thinningFacts({ pointsPerFrame, drawnOneOf }: PageStats): Fact[] {
 function memoryFacts({ remembered }: PageStats): Fact[] {
   if (remembered === null) return [];
   return [{ name: 'Remembered', value: rememberedAge(remembered.oldestS) }];
+}
+
+/** Where the surface's colours come from, from a robot that sends the video of its depth camera. */
+function paintFacts({ videoColour }: PageStats): Fact[] {
+  const words = videoColour === undefined ? null : videoColourWords(videoColour);
+  return words === null ? [] : [{ name: 'Colours', value: words }];
 }
 
 /** @param oldestS age of the oldest, seconds */

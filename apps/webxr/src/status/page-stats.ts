@@ -2,6 +2,7 @@
 
 import { type Distribution, type DropCounts, SampleWindow, type StreamStats } from '@farpoint/operator';
 import { RateMeter } from '@farpoint/timing';
+import type { VideoColourFigures } from '../video/video-colour.ts';
 import type { VideoStats } from '../video/video-figures.ts';
 import type { ViewFigures } from '../view/predicted-view.ts';
 
@@ -24,6 +25,8 @@ export interface PageStats extends StreamStats {
   videos: VideoStats;
   /** Whether the view is predicted. */
   view?: ViewFigures | undefined;
+  /** Whether the surface has the colours of its camera's video. */
+  videoColour?: VideoColourFigures | undefined;
 }
 
 /** What of the remembered world is in view. */

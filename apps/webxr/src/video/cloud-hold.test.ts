@@ -49,6 +49,24 @@ describe('clouds', () => {
     expect(passed).toEqual([9090]);
   });
 
+  test('that pictures paint wait for the picture of their very instant, no longer than ever', () => {
+    const { hold, passed, add } = bench(driverHold);
+    hold.exact = true;
+    for (let ms = 0; ms <= 990; ms += 33) hold.tick(ms, ms);
+    add(1035, 1030);
+    // A picture near it would do otherwise.
+    hold.tick(1023, 1040);
+    expect(passed).toEqual([]);
+    hold.tick(1056, 1070);
+    expect(passed).toEqual([1035]);
+    add(1068, 1071);
+    hold.tick(1056, 1110);
+    expect(passed).toEqual([1035]);
+    // One that does not come is waited for as long as any other.
+    hold.tick(1056, 1115);
+    expect(passed).toEqual([1035, 1068]);
+  });
+
   test('belong to the nearest picture of slow cameras, and a picture that is left out changes little', () => {
     const { hold, passed, add } = bench();
     for (let ms = 0; ms <= 6600; ms += 66) hold.tick(ms, ms);

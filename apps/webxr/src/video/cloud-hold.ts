@@ -22,6 +22,8 @@ const GROWTH = 1 / 8;
 const MEAN_SHARE = 1 / 32;
 /** Holding ends only when it is so much too short, as a factor: a change shifts the delay of what is seen. */
 const END_FACTOR = 1.3;
+/** What was captured together has stamps that differ by less, ms. */
+const SAME_INSTANT_MS = 1;
 const MOST_AWAITED = 64;
 const SAMPLES_KEPT = 512;
 
@@ -60,6 +62,8 @@ export class CloudHold {
   /** The mean of how long clouds would have to wait, ms. */
   #neededMs = 0;
   #isWorthIt = true;
+  /** Whether clouds wait for the picture of their very instant, e.g. because it paints them, and not for one near it. */
+  exact = false;
   /** When the newest cloud that was passed was captured, ms on the robot's clock; `null` before the first. */
   passedMs: number | null = null;
 
@@ -123,8 +127,9 @@ export class CloudHold {
     return this.#limit(this.#videoIntervalMs);
   }
 
-  /** What was captured so long after a picture at most belongs to it: half an interval of the slower source. */
+  /** What was captured so long after a picture at most belongs to it: usually half an interval of the slower source. */
   get #togetherMs(): number {
+    if (this.exact) return SAME_INSTANT_MS;
     return Math.max(this.#videoIntervalMs, this.#cloudIntervalMs) / 2;
   }
 

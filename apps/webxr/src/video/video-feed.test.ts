@@ -125,6 +125,15 @@ describe('the videos’ feed', () => {
     expect(stats.videos.map(({ frames }) => frames)).toEqual([2, 2]);
   });
 
+  test('tells of each frame when it comes, even of one that is never drawn', () => {
+    const bench = new Bench().begin();
+    const told: [number, number, number][] = [];
+    bench.feed.onFrame = (video, { width }, captureMs) => told.push([video, width, captureMs]);
+    bench.frame('t1');
+    bench.frame('t1', bench.nowMs + 30);
+    expect(told).toEqual([0, 30].map((later) => [1, 64, bench.nowMs + later + OFFSET_MS]));
+  });
+
   test('unsynchronised, draws each frame at once', () => {
     const bench = new Bench({ synchronised: false }).begin();
     for (const instantMs of [0, 30]) {

@@ -60,6 +60,8 @@ export class VideoFeed {
   readonly #readers = new Map<number, Reader>();
   /** Called after each presentation has been drawn. */
   onPresented: (() => void) | null = null;
+  /** Called with each frame as it comes, before it waits to be presented; the image is closed later. Capture: robot's clock, ms. */
+  onFrame: ((video: number, image: VideoImage, captureMs: number, nowMs: number) => void) | null = null;
   /** The newest capture instant of what is shown of the videos, ms on the robot's clock; `null` before the first. */
   shownMs: number | null = null;
   /** When the shown frame of each video was captured, ms on the robot's clock. */
@@ -209,7 +211,10 @@ export class VideoFeed {
     if (captureMs === null) {
       this.#figures.undated++;
       frame.image.close();
-    } else this.#compositor.offer(VIDEO + video, captureMs, frame.image, nowMs);
+      return;
+    }
+    this.onFrame?.(video, frame.image, captureMs, nowMs);
+    this.#compositor.offer(VIDEO + video, captureMs, frame.image, nowMs);
   }
 
   /** A video's frame waits for the first points of the cloud that was captured with it. */

@@ -1,6 +1,6 @@
 /** One picture of a video, taken out of its element, to be drawn later. */
 export interface VideoImage {
-  readonly image: CanvasImageSource;
+  readonly image: VideoFrame | ImageBitmap;
   /** Pixels. */
   readonly width: number;
   readonly height: number;

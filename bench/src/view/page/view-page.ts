@@ -5,6 +5,7 @@ import { AssembledCloud } from '@farpoint/operator/testing/assembled-cloud';
 import type { Pose } from '@farpoint/protocol';
 import { loadCodec } from '@farpoint/wasm-codec';
 import { Matrix4, PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer } from 'three';
+import { PictureDecoder } from './picture-decoder.ts';
 import { PictureDrawer } from './picture-drawer.ts';
 
 /** What a picture is compared by, in base64. */
@@ -30,6 +31,8 @@ export interface ViewApi {
   begin(options: ViewOptions): Promise<void>;
   /** Takes a frame's packets. Returns the time on the main thread, without decoding, ms. */
   feed(payloads: string[]): number;
+  /** Paints with a coded picture. @param codec as WebCodecs names it @param bytes base64 */
+  paint(picture: { codec: string; key: boolean; captureTimeUs: number; bytes: string }): Promise<void>;
   /** @param fieldOfView vertical, degrees @param eye pose of the eye's optical frame in the robot's world */
   look(eye: Pose, fieldOfView: number): SeenPicture;
 }
@@ -55,12 +58,15 @@ let cloud: CloudView | null = null;
 let memory: WorldMemory | null = null;
 let remembered: MemoryView | null = null;
 let drawer: PictureDrawer | null = null;
+let decoder: PictureDecoder | null = null;
 
 window.view = {
   async begin({ header, surface, memory: remembers, size }) {
     cloud?.dispose();
     remembered?.dispose();
     memory?.close();
+    decoder?.close();
+    decoder = null;
     memory = remembers ? new WorldMemory() : null;
     remembered = memory === null ? null : new MemoryView(renderer, memory);
     if (remembered !== null) world.add(remembered);
@@ -80,6 +86,14 @@ window.view = {
     const beganMs = performance.now();
     cloud?.update(beganMs);
     return performance.now() - beganMs;
+  },
+  async paint({ codec, key, captureTimeUs, bytes }) {
+    decoder ??= new PictureDecoder(codec);
+    const frame = await decoder.decode(Uint8Array.fromBase64(bytes), key, captureTimeUs);
+    const { displayWidth: width, displayHeight: height } = frame;
+    const use = cloud?.paint.take({ image: frame, width, height }, captureTimeUs);
+    frame.close();
+    if (use !== 'early' && use !== 'no-surface') throw new Error(`the picture is not used: ${use}`);
   },
   look({ position, orientation }, fieldOfView) {
     const camera = new PerspectiveCamera(fieldOfView, 1, RANGE.near, RANGE.far);
