@@ -9,7 +9,8 @@ import { browserAccess } from './access/stored-access.ts';
 import { giveCues } from './cues/cues.ts';
 import { AwayRelease } from './drive/away-release.ts';
 import { ReleaseHold } from './drive/release-hold.ts';
-import { HeadsetControls } from './headset/headset-controls.ts';
+import type { HeadsetControls } from './headset/headset-controls.ts';
+import { openHeadset } from './headset/open-headset.ts';
 import { PanelPlacements } from './panels/panel-placements.ts';
 import { loadPlacements, storePlacements } from './panels/stored-panels.ts';
 import type { Settings } from './settings.ts';
@@ -54,10 +55,8 @@ import { showDrivePath } from './view/show-drive-path.ts';
 import { showNavigation } from './view/show-navigation.ts';
 import { NearFieldDisplay } from './view/show-near-field.ts';
 import { Stage } from './view/stage.ts';
-import { showPicturesInVr } from './view/vr-pictures.ts';
 import { VrSession } from './view/vr-session.ts';
-import { WristPanel } from './view/wrist-panel.ts';
-import { showOnWrist } from './view/wrist-status.ts';
+import type { WristPanel } from './view/wrist-panel.ts';
 
 const DRIVE_TICK_MS = 25;
 const STATUS_TICK_MS = 250;
@@ -250,23 +249,18 @@ export class App {
     showPicturePanels(state, { inVr: vr.active, isGripped: () => this.client.driver.stream.held });
     const { appearance, clouds } = this;
     const inVr = vr.active;
-    const { renderer, rig, headset } = stage;
+    const { headset } = stage;
     applyAppearance({
       ...{ appearance, sensors: state.sensors, rings: state.rings, clouds, stage, inVr },
       inTabletop: computed(() => headset.view.value === 'tabletop'),
       ...{ client: this.client, remembered: this.remembered },
     });
-    const { driveHand } = this.settings.headset;
-    const panel = new WristPanel(renderer, rig, headset.front, driveHand === 'right' ? 'left' : 'right');
+    const { panel, controls } = openHeadset({
+      ...{ settings: this.settings.headset, stage, vr, inputs: this.#inputs, state },
+      releaseProgress: this.#release.progress,
+    });
     this.wrist = panel;
-    showOnWrist({
-      ...{ state, panel, headset, driveHand, active: inVr, releaseProgress: this.#release.progress },
-    });
-    const pointer = showPicturesInVr({ state, panel, stage, active: inVr });
-    const inputs = this.#inputs;
-    this.#headset = new HeadsetControls({
-      ...{ settings: this.settings.headset, stage, vr, inputs, state, pointer },
-    });
+    this.#headset = controls;
     effect(() => {
       this.cloud.sizeScale = pointScale.value;
     });
