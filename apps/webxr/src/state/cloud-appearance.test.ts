@@ -25,13 +25,17 @@ describe('the appearance of clouds', () => {
     });
     expect(text).toBe('');
     appearance.setLook('LiDAR', { mode: 'distance', fixed: { min: 1, max: 8 } });
+    appearance.setLook('Camera', { mode: 'lit', fixed: null });
     appearance.cut.value = { below: -0.2, above: null };
     appearance.cutFromAbove.value = { below: null, above: null };
     appearance.headingUp.value = false;
     appearance.surface.value = true;
     appearance.memory.value = false;
     const again: StoredAppearance = parseAppearance(text);
-    expect([...again.looks]).toEqual([['LiDAR', { mode: 'distance', fixed: { min: 1, max: 8 } }]]);
+    expect([...again.looks]).toEqual([
+      ['LiDAR', { mode: 'distance', fixed: { min: 1, max: 8 } }],
+      ['Camera', { mode: 'lit', fixed: null }],
+    ]);
     expect(again).toMatchObject({
       cut: { below: -0.2, above: null },
       cutFromAbove: { below: null, above: null },
