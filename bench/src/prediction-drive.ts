@@ -24,6 +24,13 @@ const PARTS: readonly Part[] = [
 ];
 export const ROUND_S = 26.007;
 
+/** A session that begins with a turn, as fast as the robot turns: the worst that can be asked of an unknown base. */
+export function firstTurnAt(seconds: number): readonly [linear: number, angular: number] {
+  return [0, seconds >= 0.807 && seconds < 2.809 ? 1.5 : 0];
+}
+/** From the turn until the robot has come to rest, and until that is seen, s. */
+export const FIRST_TURN_S = { from: 0.807, to: 3.81 };
+
 /** The hand's wish, m/s and rad/s. @param seconds since the drive began */
 export function handAt(seconds: number): readonly [linear: number, angular: number] {
   const s = seconds % ROUND_S;

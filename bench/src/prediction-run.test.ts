@@ -11,6 +11,13 @@ test('over a loop of 150 ms at 1 m/s the view is where the robot is, from a mode
   expect(meetsTargets(result), JSON.stringify(result)).toBe(true);
 });
 
+test('a session that begins with a turn is predicted from what the robot says of itself', () => {
+  for (const other of [{}, { jitterMs: 15, loss: 0.02 }, { seed: 2, noiseM: 0.005 }]) {
+    const { firstTurn } = driveOnce({ ...spec, rounds: 1, ...other });
+    expect(firstTurn.errorDeg.p95, JSON.stringify(other)).toBeLessThanOrEqual(2);
+  }
+});
+
 test('the same drive gives the same figures', () => {
   const short = { ...spec, loopMs: 60 };
   expect(driveOnce(short)).toEqual(driveOnce(short));

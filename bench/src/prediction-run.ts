@@ -1,9 +1,10 @@
 /** One drive of `pnpm bench prediction`, in virtual time: hand, link, robot, and what the screen shows. */
 import { idealProfile, LinkModel, Random } from '@farpoint/network-sim';
 import { MotionPredictor, ReconciledPose } from '@farpoint/operator/prediction';
-import { ClockOffset } from '@farpoint/protocol';
+import { ClockOffset, zeroTwist } from '@farpoint/protocol';
+import { VelocityRamp } from '@farpoint/safety';
 import { type BaseKind, newBase } from './prediction-bases.ts';
-import { handAt, ROUND_S } from './prediction-drive.ts';
+import { FIRST_TURN_S, firstTurnAt, handAt, ROUND_S } from './prediction-drive.ts';
 import { type Distribution, distribution, rounded } from './stats.ts';
 
 export interface DriveSpec {
@@ -31,8 +32,10 @@ export interface DriveResult {
   spec: DriveSpec;
   /** Against the true pose when the picture is shown, from the second round on. */
   predicted: ViewErrors;
-  /** In the first round, when nothing was known of the robot. */
+  /** In the first round, when nothing was known of the robot but what it says of itself. */
   cold: ViewErrors;
+  /** In a session that begins with a turn, until the robot rests. */
+  firstTurn: ViewErrors;
   /** The newest pose, followed as the page does without prediction; and as it comes. */
   without: ViewErrors;
   newest: ViewErrors;
@@ -54,7 +57,9 @@ const CLOUD_MS = 1000 / 30;
 const PROBE_MS = 500;
 const WHEELS_MS = 10;
 const WATCHDOG_MS = 150;
-const LIMITS = { maxLinear: 1, maxAngular: 1.5, watchdogMs: WATCHDOG_MS };
+/** The robot's ramps; its base may be slower. */
+const RAMPS = { accelerationMps2: 1, decelerationMps2: 2, turnRadps2: 3 };
+const LIMITS = { maxLinear: 1, maxAngular: 1.5, watchdogMs: WATCHDOG_MS, ...RAMPS };
 /** The robot's clock is another one. */
 const ROBOT_CLOCK_MS = 7_654_321.5;
 /** Time constant with which the page follows poses without prediction, ms. */
@@ -126,8 +131,35 @@ class Errors {
   }
 }
 
+interface Drive {
+  readonly hand: (seconds: number) => readonly [linear: number, angular: number];
+  /** Errors before this instant are none. */
+  readonly fromMs: number;
+  /** Errors from here on are of a robot that is known. */
+  readonly knownMs: number;
+  readonly endMs: number;
+}
+
 export function driveOnce(spec: DriveSpec): DriveResult {
+  const roundMs = ROUND_S * 1000;
+  const rounds = { hand: handAt, fromMs: 0, knownMs: roundMs, endMs: spec.rounds * roundMs };
+  const { from, to } = FIRST_TURN_S;
+  const turn = {
+    hand: firstTurnAt,
+    fromMs: from * 1000,
+    knownMs: Number.POSITIVE_INFINITY,
+    endMs: to * 1000,
+  };
+  return { ...drive(spec, rounds), firstTurn: drive(spec, turn).cold };
+}
+
+function drive(spec: DriveSpec, { hand, fromMs, knownMs, endMs }: Drive): Omit<DriveResult, 'firstTurn'> {
   const base = newBase(spec.base);
+  const ramp = new VelocityRamp(
+    { ...RAMPS, emergencyMps2: 4, emergencyTurnRadps2: 2 * RAMPS.turnRadps2 },
+    WATCHDOG_MS,
+  );
+  const wanted = zeroTwist();
   const random = new Random(spec.seed, 11);
   const clock = new ClockOffset();
   const predictor = new MotionPredictor();
@@ -200,11 +232,10 @@ export function driveOnce(spec: DriveSpec): DriveResult {
     waiting.push({ shownMs, shown: { x: view.x, y: view.y, yaw: view.yaw }, plain: { ...plain }, newest });
   };
 
-  const endMs = spec.rounds * ROUND_S * 1000;
   for (let nowMs = 0; nowMs < endMs; nowMs++) {
     up.advance(nowMs);
     down.advance(nowMs);
-    const wish = handAt(nowMs / 1000);
+    const wish = hand(nowMs / 1000);
     const stood = lastWish[0] === 0 && lastWish[1] === 0;
     if (stood && (wish[0] !== 0 || wish[1] !== 0)) pressedMs = nowMs;
     lastWish = wish;
@@ -219,7 +250,10 @@ export function driveOnce(spec: DriveSpec): DriveResult {
     }
     if (nowMs % WHEELS_MS === 0) {
       const [linear, angular] = nowMs - robotHeardMs < WATCHDOG_MS ? robotCommand : [0, 0];
-      base.command(linear, angular);
+      wanted.linear.x = linear;
+      wanted.angular.z = angular;
+      const ramped = ramp.step(wanted, false, nowMs);
+      base.command(ramped.linear.x, ramped.angular.z);
     }
     base.step(0.001);
     const pose = { ...base.pose };
@@ -240,7 +274,8 @@ export function driveOnce(spec: DriveSpec): DriveResult {
     }
     for (let next = waiting[0]; next !== undefined && next.shownMs <= nowMs; next = waiting[0]) {
       waiting.shift();
-      const isCold = nowMs < ROUND_S * 1000;
+      if (nowMs < fromMs) continue;
+      const isCold = nowMs < knownMs;
       (isCold ? errors.cold : errors.predicted).add(next.shown, pose);
       if (isCold) continue;
       errors.without.add(next.plain, pose);

@@ -109,6 +109,38 @@ async function compareParts(input: { base64: string; a: Part; b: Part }): Promis
   return differing / (a.length / 4);
 }
 
+/** Mean lightness of parts of a PNG, 0–255. */
+export async function lightness(page: Page, png: Buffer, parts: Part[]): Promise<number[]> {
+  const reader = await page.context().newPage();
+  try {
+    return await reader.evaluate(readLightness, { base64: png.toString('base64'), parts });
+  } finally {
+    await reader.close();
+  }
+}
+
+async function readLightness(input: { base64: string; parts: Part[] }): Promise<number[]> {
+  const blob = await (await fetch(`data:image/png;base64,${input.base64}`)).blob();
+  const bitmap = await createImageBitmap(blob);
+  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+  const context = canvas.getContext('2d') as OffscreenCanvasRenderingContext2D;
+  context.drawImage(bitmap, 0, 0);
+  return input.parts.map((part) => {
+    const { data } = context.getImageData(
+      Math.round(part.left * bitmap.width),
+      Math.round(part.top * bitmap.height),
+      Math.round(part.width * bitmap.width),
+      Math.round(part.height * bitmap.height),
+    );
+    let sum = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const [r, g, b] = [data[i] as number, data[i + 1] as number, data[i + 2] as number];
+      sum += 0.3 * r + 0.59 * g + 0.11 * b;
+    }
+    return sum / (data.length / 4);
+  });
+}
+
 /** Red, green and blue, 0–255. */
 export type Rgb = readonly [red: number, green: number, blue: number];
 

@@ -83,6 +83,8 @@ test('a LiDAR in the colours of a quantity, without what is above a height, and 
     await expect(page.locator('.numbers span').first()).toBeVisible();
     await operator.screenshot(testInfo, chosen);
   }
+  await mode.selectOption('lit');
+  await expect(page.locator('.legend')).toContainText('points, not lit');
   await mode.selectOption('ring');
   // As many as the simulated LiDAR has, as the robot says.
   await expect(page.locator('.legend figcaption')).toHaveText('LiDAR: 16 rings');

@@ -1,6 +1,7 @@
 import { readFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
-import { OperatorPage } from '../src/operator-page.ts';
+import { expectOnScreenAndApart } from '../src/layout.ts';
+import { OperatorPage, screenSizes } from '../src/operator-page.ts';
 import { type Part, type Rgb, sharesNear } from '../src/picture.ts';
 import { expect, test } from '../src/stack-test.ts';
 
@@ -44,6 +45,61 @@ async function lookBack(page: Page): Promise<void> {
   }
 }
 
+/** Share of a half of the small map where something is remembered, 0–1. */
+async function mapped(page: Page, half: 'ahead' | 'behind'): Promise<number> {
+  return await page.locator('#minimap-picture').evaluate((canvas, half) => {
+    if (!(canvas instanceof HTMLCanvasElement)) return Number.NaN;
+    const { width, height } = canvas;
+    const context = canvas.getContext('2d');
+    const data = context?.getImageData(0, half === 'ahead' ? 0 : height / 2, width, height / 2).data ?? [];
+    let seen = 0;
+    for (let i = 3; i < data.length; i += 4) seen += Number(data[i] === 255);
+    return seen / (data.length / 4);
+  }, half);
+}
+
+test('a small map shows what is remembered around the robot and the way driven, and covers nothing', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  await page.setViewportSize({ width: 1280, height: 720 });
+  const stack = await startStack({ robots: [robot] });
+  const open = { robot: robot.id, canvas: '640x360', every: '4', memory: '1' } as const;
+  const operator = await OperatorPage.open(page, stack, open);
+  await operator.expectPoints(10_000);
+  const map = page.locator('#minimap');
+  await expect.poll(() => mapped(page, 'ahead'), { message: 'share of the map ahead' }).toBeGreaterThan(0.15);
+  await expect(page.locator('#minimap-age')).toHaveText(/^up to \d+ s old$/);
+  expect(await mapped(page, 'behind')).toBeLessThan(0.1);
+  const start = await operator.body();
+  await expect
+    .poll(async () => {
+      await page.evaluate(() => window.farpoint.drive({ forward: 0.5, left: 0 }, 300));
+      const { x, y } = await operator.body();
+      return Math.hypot(x - start.x, y - start.y);
+    })
+    .toBeGreaterThan(0.4);
+  await turnRound(operator, page);
+  await expect.poll(() => mapped(page, 'behind'), { message: 'share behind' }).toBeGreaterThan(0.15);
+  await map.screenshot({ path: testInfo.outputPath('map.png') });
+
+  const pieces = page.locator(
+    '#bar button:visible, #drive button:visible, #facts, #clouds .heads button, #near:visible, #minimap:visible',
+  );
+  for (const size of screenSizes) {
+    await page.setViewportSize(size);
+    await expect(map).toBeVisible({ visible: size.width > 1100 });
+    await operator.expectFrames(3);
+    await operator.screenshot(testInfo, `map-${size.width}`);
+    await expectOnScreenAndApart(pieces, size);
+  }
+  await page.setViewportSize({ width: 1280, height: 720 });
+  await expect(map).toBeVisible();
+  await page.getByRole('button', { name: 'Colours', exact: true }).click();
+  await page.getByRole('button', { name: 'Memory', exact: true }).click();
+  await expect(map).toBeHidden();
+});
+
 test('what was seen stays behind the robot, can be saved and loaded, and is forgotten on reload', async ({
   page,
   startStack,
@@ -77,6 +133,15 @@ test('what was seen stays behind the robot, can be saved and loaded, and is forg
   expect(readFileSync(file).subarray(0, 200).toString('latin1')).toMatch(
     /^ply\nformat binary_little_endian 1\.0\n/,
   );
+  const text = testInfo.outputPath('remembered.pcd');
+  await page.getByLabel('Format of the file').selectOption('pcd-text');
+  const downloadingText = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save', exact: true }).click();
+  expect((await downloadingText).suggestedFilename()).toMatch(/\.pcd$/);
+  await (await downloadingText).saveAs(text);
+  expect(readFileSync(text).subarray(0, 400).toString('latin1')).toMatch(
+    /^# \.PCD v0\.7[\s\S]*\nDATA ascii\n/,
+  );
   await memory.click();
   await expect
     .poll(() => drawnShare(page, BEHIND), { message: 'drawn without memory' })
@@ -95,6 +160,15 @@ test('what was seen stays behind the robot, can be saved and loaded, and is forg
     .poll(() => drawnShare(page, BEHIND), { message: 'drawn from the file' })
     .toBeGreaterThan(above / 2);
   await operator.screenshot(testInfo, 'loaded');
+  await page.getByRole('button', { name: 'Colours', exact: true }).click();
+  await page.getByRole('button', { name: 'Forget', exact: true }).click();
+  await expect
+    .poll(() => drawnShare(page, BEHIND), { message: 'drawn when forgotten' })
+    .toBeLessThan(above / 4);
+  await page.getByLabel('Point cloud to remember').setInputFiles(text);
+  await expect
+    .poll(() => drawnShare(page, BEHIND), { message: 'drawn from text' })
+    .toBeGreaterThan(above / 2);
   await page.getByLabel('Point cloud to remember').setInputFiles({
     ...{ name: 'not.ply', mimeType: 'application/octet-stream', buffer: Buffer.from('pcd') },
   });

@@ -2,13 +2,18 @@ import { EmulatedLink } from '@farpoint/local-stack';
 import type { Page, TestInfo } from '@playwright/test';
 import { Headset, headsetViewport } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
-import { leftEye, readPicture, rightEye, sharesNear } from '../src/picture.ts';
+import { leftEye, lightness, type Part, readPicture, rightEye, sharesNear } from '../src/picture.ts';
 import { expect, test } from '../src/stack-test.ts';
 
 const CANVAS = '320x240';
 const BACKGROUND = [11, 15, 20] as const;
 /** Of the page, where no panel lies. */
 const MIDDLE = { left: 0.35, top: 0.25, width: 0.3, height: 0.5 };
+
+/** Of the page: a pillar and the floor before it, as the robot's eye sees them; and the floor ahead from above. */
+const PILLAR = { left: 0.52, top: 0.25, width: 0.045, height: 0.35 };
+const FLOOR = { left: 0.4, top: 0.66, width: 0.2, height: 0.06 };
+const AHEAD = { left: 0.45, top: 0.25, width: 0.1, height: 0.12 };
 
 const LOOKS = 5;
 
@@ -53,6 +58,47 @@ test('a depth camera’s cloud is drawn as a surface, and a button changes to po
     .toBeLessThan(0.05);
   await button.click();
   await expect.poll(async () => (await operator.probe()).surface, { message: 'surface' }).toBe(true);
+});
+
+test('lit colours: the floor, seen at a slant, is darker than what faces the eye', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const stack = await startStack({ robots: [robot] });
+  const operator = await OperatorPage.open(page, stack, {
+    ...{ robot: robot.id, canvas: CANVAS, surface: '1', every: '4', memory: '0' },
+  });
+  await operator.expectPoints(30_000);
+  await page.getByRole('button', { name: 'Colours', exact: true }).click();
+  const mode = page.getByLabel('Colours of Cloud');
+  /** How much of the lightness of parts of the page is left when they are lit. People may walk through them. */
+  const leftOf = async (name: string, parts: Part[]): Promise<number[]> => {
+    const taken: number[][] = [];
+    for (const chosen of ['captured', 'lit']) {
+      await mode.selectOption(chosen);
+      await operator.expectFrames(2);
+      await expect(page.locator('#link')).toHaveText('Live');
+      taken.push(await lightness(page, await operator.screenshot(testInfo, `${name}-${chosen}`), parts));
+    }
+    const [captured, lit] = taken as [number[], number[]];
+    return parts.map((_, i) => (lit[i] as number) / (captured[i] as number));
+  };
+  const differs = async () => {
+    const [pillar, floor] = (await leftOf('eye', [PILLAR, FLOOR])) as [number, number];
+    return pillar > 0.7 && pillar < 1.05 && floor < pillar - 0.15;
+  };
+  await expect.poll(differs, { message: 'the floor is darker than the pillar', timeout: 60_000 }).toBe(true);
+  await expect(page.locator('.legend')).toContainText('lit from the eye');
+  expect(await holes(page, operator, testInfo, 'lit-holes')).toBeLessThan(0.05);
+  // From above, the floor faces the eye.
+  await page.keyboard.press('t');
+  const faces = async () => (await leftOf('above', [AHEAD]))[0];
+  await expect
+    .poll(faces, { message: 'share of the floor’s lightness', timeout: 60_000 })
+    .toBeGreaterThan(0.75);
+  // Points have no normals, and the legend says so.
+  await page.getByRole('button', { name: 'Surfaces', exact: true }).click();
+  await expect(page.locator('.legend')).toContainText('points, not lit');
 });
 
 test('lost packets leave no holes: what was seen there before stays', async ({

@@ -209,7 +209,7 @@ export class App {
     setInterval(() => {
       const nowMs = performance.now();
       this.stats.tick(this.cloud, nowMs);
-      this.stats.remembered = this.remembered.figures;
+      this.stats.remembered = this.remembered.tick(nowMs);
       this.videoColour.tick(nowMs);
       this.videos.measure(nowMs);
       this.state.looking.value = this.vr.active.value || !document.hidden;

@@ -2,6 +2,7 @@ import './ui/style.css';
 import './ui/cloud-panel.css';
 import './ui/picture-panels.css';
 import './ui/sound.css';
+import './ui/minimap.css';
 import './ui/near.css';
 import { transformSupport } from '@farpoint/operator';
 import { App } from './app.ts';

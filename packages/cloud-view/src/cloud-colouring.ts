@@ -2,9 +2,10 @@
  * The ways to colour a cloud. `captured`: the points' own colours. `height`: metres above the robot's ground.
  * `distance`: metres from the sensor. `intensity`: of the LiDAR's echo, 0–1, or the brightness of a point with a colour
  * of its own. `age`: points of older frames are dim, seconds. `ring`: which of a spinning LiDAR's lasers measured the
- * point, by its elevation ({@link Rings}). The order is that of the shader's numbers.
+ * point, by its elevation ({@link Rings}). `lit`: a surface's own colours, darker where it is turned away from the eye;
+ * points, which have no surface, keep their colours. The order is that of the shader's numbers.
  */
-export const COLOUR_MODES = ['captured', 'height', 'distance', 'intensity', 'age', 'ring'] as const;
+export const COLOUR_MODES = ['captured', 'height', 'distance', 'intensity', 'age', 'ring', 'lit'] as const;
 
 /** One of {@link COLOUR_MODES}. */
 export type ColourMode = (typeof COLOUR_MODES)[number];
@@ -42,7 +43,7 @@ export interface CloudColouring {
   mode: ColourMode;
   /** The range of values; `null`, the default, follows the points in view slowly. */
   fixedRange: ValueRange | null;
-  /** The range in use, for a legend. Of no meaning for `captured` and `ring`. */
+  /** The range in use, for a legend. Of no meaning for `captured`, `ring` and `lit`. */
   readonly range: Readonly<ValueRange>;
   /**
    * What the robot says about the rings: their elevations, radians, ascending, 2 to 256 of them. `null`, the default:

@@ -15,7 +15,7 @@ const intensityTerms = INTENSITY_LUMAS.slice(1).map((to, i) => {
 /** Set by PointColouring and by the view. */
 export const COLOUR_UNIFORMS = /* glsl */ `
 uniform float freshness;
-// What colours mean: captured, height, distance, intensity, age, ring (cloud-colouring.ts).
+// What colours mean: captured, height, distance, intensity, age, ring, lit (cloud-colouring.ts).
 uniform int colourMode;
 // The value with the first colour, and 1 / the values' span.
 uniform vec2 colourRange;
@@ -53,6 +53,8 @@ vec3 ringColour(vec3 rgb, vec3 fromSensor) {
 }
 
 vec3 coloured(vec3 rgb, vec3 fromSensor, float height, float age) {
+  // Only surfaces are lit (surface-normal.ts).
+  if (colourMode == 6) return rgb;
   if (colourMode == 5) return ringColour(rgb, fromSensor);
   float value = colourMode == 1 ? height
     : colourMode == 2 ? length(fromSensor)

@@ -24,4 +24,5 @@ export { type MemorySource, MemoryView } from './memory-view.ts';
 export { RING_COLOURS, ringColours } from './ring-colours.ts';
 export { RobotWorld } from './robot-world.ts';
 export { isSoftwareRenderer } from './software-renderer.ts';
+export { LIT_AMBIENT } from './surface-normal.ts';
 export { type Stride, strideFor } from './tile-geometry.ts';

@@ -60,6 +60,16 @@ describe('PointColouring', () => {
     expect(colouring.range).toEqual({ min: 0, max: 1 });
   });
 
+  test('lit and captured colours stand for no value, so no point is looked at', () => {
+    const { colouring, uniforms } = colouringAt(0);
+    colouring.mode = 'lit';
+    colouring.beginFrame(0, 50, 0);
+    colouring.sample(points(Array.from({ length: 50 }, () => [0, 0, 7])), 0, 50, 0);
+    colouring.update(0);
+    expect(uniforms.colourMode.value).toBe(6);
+    expect(colouring.range).toEqual({ min: 0, max: 1 });
+  });
+
   test('the cut moves with the ground', () => {
     const { colouring, uniforms } = colouringAt(0);
     colouring.update(0);

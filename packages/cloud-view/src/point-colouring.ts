@@ -24,6 +24,7 @@ const LEAST_SPAN: Readonly<Record<ColourMode, number>> = {
   intensity: 0.1,
   age: 0.01,
   ring: 1,
+  lit: 1,
 };
 /** The upper end of the automatic range, which begins at 0, until points have come. */
 const FIRST_MAX: Readonly<Record<ColourMode, number>> = {
@@ -33,6 +34,7 @@ const FIRST_MAX: Readonly<Record<ColourMode, number>> = {
   intensity: 1,
   age: 1,
   ring: 1,
+  lit: 1,
 };
 /** A coordinate's step moves a point's elevation by less than this, or the point says nothing about rings, radians. */
 const MOST_STEP_RAD = 0.004;
@@ -151,7 +153,8 @@ export class PointColouring implements CloudColouring {
   /** Whether samples of points are of any use at present. */
   get #looks(): boolean {
     if (this.#mode === 'ring') return this.#knownRings === null;
-    return this.#mode !== 'captured' && this.#mode !== 'age' && this.fixedRange === null;
+    const hasRange = this.#mode === 'height' || this.#mode === 'distance' || this.#mode === 'intensity';
+    return hasRange && this.fixedRange === null;
   }
 
   #sampleRing(points: Int16Array, at: number): void {

@@ -15,6 +15,7 @@ import { type ExternalTexture, GLSL3, RawShaderMaterial, Vector2, Vector4 } from
 import { COLOUR_FUNCTIONS, COLOUR_UNIFORMS, FADED } from './colour-shader.ts';
 import type { PointUniforms } from './point-material.ts';
 import { ROTATE } from './pose-shader.ts';
+import { NORMAL_FUNCTIONS } from './surface-normal.ts';
 import { TILE_VERTICES } from './tile-geometry.ts';
 import { FRAME_SLOTS, HIDDEN } from './tile-map.ts';
 import { SLOTS_PER_ROW, TILE_SAMPLES } from './tile-textures.ts';
@@ -99,6 +100,7 @@ float sampleAt(int tile, int slot, int x, int y, out uint texel) {
   return goesOn ? max(own + change, 0.5 * own) : own;
 }
 
+${NORMAL_FUNCTIONS}
 // Of three samples: bit 0 all were seen, bit 2 torn.
 int triangleOf(float a, float b, float c) {
   float low = min(a, min(b, c));
@@ -146,6 +148,12 @@ void main() {
     paint.y = 0.0;
     float depth = 1.0 / max(inverse, 1e-4);
     rgb = coloured(rgb, ray * depth, world.z * depth - groundHeight, pose.w);
+  }
+  if (colourMode == 6 && inverse > 0.0) {
+    vec3 normal = rotate(tileOrientation[slot], normalAt(tile, slot, at, inverse, ray));
+    // An orthographic camera looks along z from everywhere.
+    vec3 fromEye = projectionMatrix[3][3] == 1.0 ? vec3(0.0, 0.0, -1.0) : (modelViewMatrix * world).xyz;
+    rgb *= litBy(mat3(modelViewMatrix) * normal, fromEye);
   }
   // The latency test's green has no grey in it.
   if (colour == 0x07e0u) {

@@ -46,6 +46,8 @@ const bodySchema = z.strictObject({
     .array(z.strictObject({ x: reachSchema, y: reachSchema }))
     .check(z.minLength(3), z.maxLength(64)),
   decelerationMps2: positive,
+  accelerationMps2: z.optional(positive),
+  turnRadps2: z.optional(positive),
 });
 
 export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {

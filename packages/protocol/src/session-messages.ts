@@ -6,6 +6,7 @@ import type { CloudFormat } from './cloud-format.ts';
 import type { CommandRejection } from './control.ts';
 import type { Operators } from './present-operators.ts';
 import type { Quantity } from './quantity.ts';
+import type { RobotBody } from './robot-body.ts';
 import type { Role } from './role.ts';
 import type { SensorRings } from './sensor-rings.ts';
 import type { MicrophoneState, VoiceState } from './sound-media.ts';
@@ -34,19 +35,6 @@ export const afterGapChoices = [
  * @useDeclaredType
  */
 export type AfterGap = (typeof afterGapChoices)[number];
-
-/** What a robot takes of the floor, and how it stops. */
-export interface RobotBody {
-  /** Corners of the outline around base_link, counter-clockwise, metres: x forward, y to the left. */
-  footprint: readonly {
-    /** Metres ahead of base_link. */
-    x: number;
-    /** Metres to the left of base_link. */
-    y: number;
-  }[];
-  /** How hard the robot brakes in ordinary driving, m/s². */
-  decelerationMps2: number;
-}
 
 /** The robot's first message in every session. */
 export interface Welcome {

@@ -547,6 +547,9 @@ corners = [{"x": 0.35, "y": -0.28}, {"x": 0.35, "y": 0.28}, {"x": -0.25, "y": 0.
 embodied = robot_session.good({**welcome, "body": {"footprint": corners, "decelerationMps2": 2}}, "welcome from a robot that tells its outline")
 robot_session.spoil(embodied, ("body.footprint", corners[:2]), ("body.footprint", corners * 17), ("body.footprint.0.x", 10.5), ("body.footprint.1.y", "0"),
                     ("body.decelerationMps2", 0), ("body.decelerationMps2", ABSENT), ("body.mass", 12, "body"))
+ramped = robot_session.good({**welcome, "body": {"footprint": corners, "decelerationMps2": 2, "accelerationMps2": 1, "turnRadps2": 3}},
+                            "welcome from a robot that tells its ramps")
+robot_session.spoil(ramped, ("body.accelerationMps2", 0), ("body.accelerationMps2", "1"), ("body.turnRadps2", -3), ("body.turnRadps2", None))
 for role in ["watch", "supervise"]:
     robot_session.good(changed(admitted, "access.role", role), "welcome, role: " + role)
 expires = robot_session.good({"type": "expires", "inS": 60})

@@ -59,6 +59,8 @@ function bodyOf({ motion, obstacleGuard }: WelcomeFacts): RobotBody {
   return {
     footprint: obstacleGuard.footprint.map(({ x, y }) => ({ x: round(x), y: round(y) })),
     decelerationMps2: motion.ramps.decelerationMps2,
+    accelerationMps2: motion.ramps.accelerationMps2,
+    turnRadps2: motion.ramps.turnRadps2,
   };
 }
 

@@ -25,6 +25,7 @@ describe('the appearance of clouds', () => {
     });
     expect(text).toBe('');
     appearance.setLook('LiDAR', { mode: 'distance', fixed: { min: 1, max: 8 } });
+    appearance.setLook('Camera', { mode: 'lit', fixed: null });
     appearance.cut.value = { below: -0.2, above: null };
     appearance.cutFromAbove.value = { below: null, above: null };
     appearance.headingUp.value = false;
@@ -32,7 +33,10 @@ describe('the appearance of clouds', () => {
     appearance.memory.value = false;
     appearance.paint.value = false;
     const again: StoredAppearance = parseAppearance(text);
-    expect([...again.looks]).toEqual([['LiDAR', { mode: 'distance', fixed: { min: 1, max: 8 } }]]);
+    expect([...again.looks]).toEqual([
+      ['LiDAR', { mode: 'distance', fixed: { min: 1, max: 8 } }],
+      ['Camera', { mode: 'lit', fixed: null }],
+    ]);
     expect(again).toMatchObject({
       cut: { below: -0.2, above: null },
       cutFromAbove: { below: null, above: null },

@@ -2,7 +2,7 @@
 import { COLOUR_MODES, type ColourMode, type ValueRange } from '@farpoint/cloud-view';
 import { effect } from '@preact/signals-core';
 import { type CloudAppearance, UNNAMED } from '../state/cloud-appearance.ts';
-import type { ValuedMode } from './colour-ticks.ts';
+import { isValued, type ValuedMode } from './colour-ticks.ts';
 import { quietButton, rowOf, type SliderScale, selectOf, sliderOf } from './panel-parts.ts';
 
 /** Limits of a fixed range, in the mode's unit. */
@@ -34,16 +34,16 @@ export function colourControls(
   const dispose = effect(() => {
     const look = appearance.lookOf(name);
     mode.value = look.mode;
-    const hasRange = look.mode !== 'captured' && look.mode !== 'ring';
-    range.hidden = !hasRange;
-    if (hasRange && look.mode !== shown) {
-      const parts = rangeControls(look.mode, shownName, current, (fixed) =>
+    const { mode: chosen } = look;
+    range.hidden = !isValued(chosen);
+    if (isValued(chosen) && chosen !== shown) {
+      const parts = rangeControls(chosen, shownName, current, (fixed) =>
         appearance.setLook(name, { mode: appearance.lookOf(name).mode, fixed }),
       );
       range.replaceChildren(...parts.rows);
       update = parts.update;
     }
-    shown = look.mode;
+    shown = chosen;
     update(look.fixed);
   });
   return { element: group, dispose };

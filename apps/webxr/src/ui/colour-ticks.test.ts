@@ -1,6 +1,7 @@
+import { COLOUR_MODES } from '@farpoint/cloud-view';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { ticksOf } from './colour-ticks.ts';
+import { isValued, ticksOf } from './colour-ticks.ts';
 
 const texts = (min: number, max: number) => ticksOf(min, max).map(({ text }) => text);
 
@@ -30,4 +31,8 @@ describe('ticksOf', () => {
       { seed: 5 },
     );
   });
+});
+
+test('only colours that stand for a value have numbers', () => {
+  expect(COLOUR_MODES.filter(isValued)).toEqual(['height', 'distance', 'intensity', 'age']);
 });

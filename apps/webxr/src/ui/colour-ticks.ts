@@ -15,8 +15,8 @@ export interface Quantity {
   readonly scale: number;
 }
 
-/** Ways to colour points by a value. `captured` colours stand for none, and rings are counted. */
-export type ValuedMode = Exclude<ColourMode, 'captured' | 'ring'>;
+/** Ways to colour points by a value. `captured` and `lit` colours stand for none, and rings are counted. */
+export type ValuedMode = Exclude<ColourMode, 'captured' | 'ring' | 'lit'>;
 
 export const QUANTITIES: Readonly<Record<ValuedMode, Quantity>> = {
   height: { name: 'height', unit: 'm', scale: 1 },
@@ -24,6 +24,10 @@ export const QUANTITIES: Readonly<Record<ValuedMode, Quantity>> = {
   intensity: { name: 'intensity', unit: '%', scale: 100 },
   age: { name: 'age', unit: 'ms', scale: 1000 },
 };
+
+export function isValued(mode: ColourMode): mode is ValuedMode {
+  return mode in QUANTITIES;
+}
 
 /**
  * Round numbers within a range, at most `most` of them.

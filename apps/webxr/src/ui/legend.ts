@@ -1,5 +1,5 @@
 /** What the colours of a cloud stand for: a bar of the colours, with numbers below it. */
-import { type CloudView, type ColourMode, colourStops, type Rgb } from '@farpoint/cloud-view';
+import { type CloudView, type ColourMode, colourStops, LIT_AMBIENT, type Rgb } from '@farpoint/cloud-view';
 import { QUANTITIES, type Tick, ticksOf, type ValuedMode } from './colour-ticks.ts';
 import { ringBar, ringCaption, ringTicks } from './ring-legend.ts';
 
@@ -11,7 +11,27 @@ export interface Legend {
 
 /** @param title names the sensor, or is empty */
 export function legendOf(title: string, mode: Exclude<ColourMode, 'captured'>, view: CloudView): Legend {
-  return mode === 'ring' ? ringLegend(title, view) : valueLegend(title, mode, view);
+  if (mode === 'ring') return ringLegend(title, view);
+  return mode === 'lit' ? litLegend(title, view) : valueLegend(title, mode, view);
+}
+
+function litLegend(title: string, view: Pick<CloudView, 'isSurface'>): Legend {
+  const parts = legendParts();
+  parts.bar.style.background = LIT;
+  parts.show([
+    { place: 0.08, text: 'facing' },
+    { place: 0.9, text: 'edge-on' },
+  ]);
+  let shown: boolean | null = null;
+  const update = () => {
+    const { isSurface } = view;
+    if (isSurface === shown) return;
+    shown = isSurface;
+    parts.caption.textContent = `${title}${isSurface ? 'lit from the eye' : 'points, not lit'}`;
+    parts.bar.hidden = parts.numbers.hidden = !isSurface;
+  };
+  update();
+  return { element: parts.element, update };
 }
 
 function valueLegend(title: string, mode: ValuedMode, view: CloudView): Legend {
@@ -72,6 +92,8 @@ const cssOf = (rgb: Rgb) => `rgb(${rgb.map((part) => Math.round(part * 255)).joi
 const GRADIENT = `linear-gradient(90deg, ${colourStops().map(cssOf).join()})`;
 /** Old points are dim. */
 const FADE = 'linear-gradient(90deg, #fff, #404040)';
+/** From a surface that faces the eye to one that is seen edge-on. */
+const LIT = `linear-gradient(90deg, #fff, ${cssOf([LIT_AMBIENT, LIT_AMBIENT, LIT_AMBIENT])})`;
 const ESTIMATED = 'The robot does not know its rings: these were found in the points, and may be wrong';
 
 function element(kind: 'div' | 'figure' | 'figcaption' | 'span', className: string): HTMLElement {

@@ -19,7 +19,7 @@ export interface AppearanceParts {
   /** Whether the headset shows the world as a model, seen from above. */
   readonly inTabletop: ReadonlySignal<boolean>;
   readonly client: Pick<RobotClient, 'drawSurface'>;
-  readonly remembered: Pick<RememberedWorld, 'on'>;
+  readonly remembered: Pick<RememberedWorld, 'on' | 'headingUp'>;
 }
 
 export function applyAppearance(parts: AppearanceParts): void {
@@ -51,5 +51,6 @@ export function applyAppearance(parts: AppearanceParts): void {
   effect(() => {
     stage.look.fromAbove = fromAbove.value;
     stage.headingUp = headingUp.value;
+    remembered.headingUp = headingUp.value;
   });
 }

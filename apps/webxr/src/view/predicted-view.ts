@@ -48,7 +48,7 @@ export class PredictedView {
     client.driver.onCommand = ({ twist }) =>
       this.#predictor.onCommand(performance.now(), twist.linear.x, twist.angular.z);
     client.on('session', () => this.#forget());
-    client.on('welcome', ({ limits }) => this.#predictor.setLimits(limits));
+    client.on('welcome', ({ limits, body }) => this.#predictor.setLimits({ ...limits, ...body }));
     client.on('telemetry', (telemetry) => this.#onTelemetry(telemetry, performance.now()));
     client.on('cloud', (batch) => this.#onCloud(batch));
   }

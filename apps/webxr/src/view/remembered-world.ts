@@ -1,8 +1,9 @@
-/** The remembered world of the page: remembers what comes, draws it, and saves and loads it. */
+/** The remembered world of the page: remembers what comes, draws it, also as a small map, and saves and loads it. */
 import { MemoryView } from '@farpoint/cloud-view';
-import { type RobotClient, WorldMemory } from '@farpoint/operator';
+import { type PointFileFormat, type RobotClient, WorldMemory } from '@farpoint/operator';
 import type { Camera, Object3D, WebGLRenderer } from 'three';
 import type { RememberedFigures } from '../status/page-stats.ts';
+import { MinimapPanel } from '../ui/minimap-panel.ts';
 import type { HeldClouds } from '../video/held-clouds.ts';
 
 export interface RememberedWorldParts {
@@ -15,6 +16,7 @@ export interface RememberedWorldParts {
 
 export class RememberedWorld {
   readonly #parts: RememberedWorldParts;
+  readonly #map: MinimapPanel;
   #memory: WorldMemory | null = null;
   #view: MemoryView | null = null;
   #on = false;
@@ -22,6 +24,7 @@ export class RememberedWorld {
   constructor(parts: RememberedWorldParts) {
     this.#parts = parts;
     const { client, held } = parts;
+    this.#map = new MinimapPanel(client);
     held.onBatch = (batch) => this.#memory?.take(batch);
     // Another session may have another world: a robot that was started anew counts its way from there.
     client.on('session', () => this.#memory?.forget());
@@ -45,8 +48,15 @@ export class RememberedWorld {
     return this.#view;
   }
 
-  /** What of it is in view; `null`: nothing. */
-  get figures(): RememberedFigures | null {
+  /** Whether the robot's heading is up on the small map; otherwise the world's y axis. */
+  set headingUp(up: boolean) {
+    this.#map.headingUp = up;
+  }
+
+  /** Brings the small map up to date. Call it a few times a second. @returns what is in view; `null`: nothing */
+  tick(nowMs: number): RememberedFigures | null {
+    const isSeen = this.#on && !this.#parts.renderer.xr.isPresenting && !document.hidden;
+    this.#map.tick(isSeen ? this.#memory : null, nowMs);
     const view = this.#view;
     if (view === null || view.oldestS === null) return null;
     return { points: view.drawn, oldestS: view.oldestS };
@@ -66,13 +76,13 @@ export class RememberedWorld {
     this.#memory?.forget();
   }
 
-  /** Everything as a PLY file; `null` if nothing was ever remembered. */
-  save(): Promise<ArrayBuffer | null> {
-    return this.#memory?.save() ?? Promise.resolve(null);
+  /** Everything as a file; `null` if nothing was ever remembered. */
+  save(format: PointFileFormat): Promise<ArrayBuffer | null> {
+    return this.#memory?.save(format) ?? Promise.resolve(null);
   }
 
   /**
-   * Adds what is in a PLY file.
+   * Adds what is in a PLY or PCD file.
    *
    * @returns the number of points added
    * @throws {MemoryFileError} says what is wrong with it
@@ -87,6 +97,7 @@ export class RememberedWorld {
     const { renderer, world } = this.#parts;
     this.#memory = new WorldMemory();
     this.#memory.enabled = this.#on;
+    this.#memory.onTopView = (view) => this.#map.take(view);
     this.#view = new MemoryView(renderer, this.#memory);
     this.#view.enabled = this.#on;
     world.add(this.#view);

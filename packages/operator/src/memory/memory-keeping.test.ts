@@ -2,7 +2,9 @@ import { describe, expect, test } from 'vitest';
 import { MemoryKeeping } from './memory-keeping.ts';
 import type { FromMemoryWorker } from './memory-messages.ts';
 import { MemoryPages } from './memory-pages.ts';
+import { POINT_FILE_FORMATS } from './point-file.ts';
 import { cameraAt, frameOfRoom } from './testing/room.ts';
+import { TOP_VIEW_BYTES, TopView } from './top-view.ts';
 
 class Port {
   readonly posted: FromMemoryWorker[] = [];
@@ -55,12 +57,26 @@ describe('MemoryKeeping', () => {
     expect(keeping.map.store.count).toBe(0);
   });
 
-  test('loads what it has saved, as old as it is, and refuses other files', () => {
+  test('looks from above', () => {
     const port = new Port();
     const keeping = new MemoryKeeping(port, { pages: 512 });
     look(keeping, 3);
     port.take();
-    keeping.onMessage({ type: 'save', ticket: 7, nowMs: 5000, savedAt: '2026-01-01T00:00:00Z' });
+    const buffer = new ArrayBuffer(TOP_VIEW_BYTES);
+    const area = { x: 3, y: 0, ground: 0, ceiling: 2 };
+    keeping.onMessage({ type: 'topView', buffer, area, nowMs: 5000 });
+    const [answer] = port.take() as [FromMemoryWorker & { type: 'topView' }];
+    expect(answer).toMatchObject({ type: 'topView', buffer });
+    expect(answer.oldestS).toBeGreaterThan(4);
+    expect(new TopView(answer.buffer).heights.filter((height) => height > 0).length).toBeGreaterThan(300);
+  });
+
+  test.each(POINT_FILE_FORMATS)('loads what it has saved as %s, as old as it is', (format) => {
+    const port = new Port();
+    const keeping = new MemoryKeeping(port, { pages: 512 });
+    look(keeping, 3);
+    port.take();
+    keeping.onMessage({ type: 'save', ticket: 7, nowMs: 5000, savedAt: '2026-01-01T00:00:00Z', format });
     const saved = port.take()[0] as FromMemoryWorker & { type: 'saved' };
     expect(saved.ticket).toBe(7);
     const other = new MemoryKeeping(port, { pages: 512 });
@@ -71,7 +87,19 @@ describe('MemoryKeeping', () => {
     const { store } = other.map;
     const page = store.pageChunks.findIndex((chunk) => chunk >= 0);
     expect(24 * 3600 - (store.seen[page * 256] as number) / 16).toBeCloseTo(64.3, 0);
-    other.onMessage({ type: 'load', ticket: 9, nowMs: 0, agoS: 0, bytes: new ArrayBuffer(5) });
-    expect(port.take()).toEqual([{ type: 'refused', ticket: 9, message: 'this is no PLY file' }]);
+  });
+
+  test('refuses other files', () => {
+    const port = new Port();
+    const keeping = new MemoryKeeping(port, { pages: 16 });
+    const refusal = (text: string) => {
+      const bytes = new TextEncoder().encode(text).buffer;
+      keeping.onMessage({ type: 'load', ticket: 9, nowMs: 0, agoS: 0, bytes });
+      return port.take();
+    };
+    expect(refusal('solid')).toEqual([{ type: 'refused', ticket: 9, message: 'this is no PLY file' }]);
+    expect(refusal('VERSION 0.7\n')).toEqual([
+      { type: 'refused', ticket: 9, message: 'the header does not end within 4096 bytes' },
+    ]);
   });
 });

@@ -3,7 +3,10 @@ import { KeyFrame } from './key-frame.ts';
 import { TICKS_PER_S, ticksOf } from './memory-layout.ts';
 import type { FromMemoryWorker, ToMemoryWorker } from './memory-messages.ts';
 import { MemoryPages, PAGES_BYTES } from './memory-pages.ts';
-import { PlyError, readPly, writePly } from './ply.ts';
+import { isPcd, readPcd, writePcd } from './pcd.ts';
+import { readPly, writePly } from './ply.ts';
+import { PointFileError } from './point-file.ts';
+import { TopView } from './top-view.ts';
 import { WorldMap, type WorldMapOptions } from './world-map.ts';
 
 /** Buffers for pages. While all are on their way, changes wait. */
@@ -46,6 +49,9 @@ export class MemoryKeeping {
           if ((map.store.pageChunks[page] as number) >= 0) map.store.noteChange(page);
         }
         break;
+      case 'topView':
+        this.#lookFromAbove(message);
+        return;
       case 'save':
         this.#save(message);
         return;
@@ -77,14 +83,27 @@ export class MemoryKeeping {
     }
   }
 
-  #save({ ticket, nowMs, savedAt }: ToMemoryWorker & { type: 'save' }): void {
-    const bytes = writePly(this.map.store, ticksOf(nowMs), savedAt);
+  #lookFromAbove({ buffer, area, nowMs }: ToMemoryWorker & { type: 'topView' }): void {
+    const view = new TopView(buffer);
+    view.fill(this.map.store, area, ticksOf(nowMs));
+    const { x, y, oldestS } = view;
+    this.#port.post({ type: 'topView', buffer, x, y, oldestS }, [buffer]);
+  }
+
+  #save({ ticket, nowMs, savedAt, format }: ToMemoryWorker & { type: 'save' }): void {
+    const { store } = this.map;
+    const now = ticksOf(nowMs);
+    const bytes =
+      format === 'ply'
+        ? writePly(store, now, savedAt)
+        : writePcd(store, format === 'pcd' ? 'binary' : 'ascii', now, savedAt);
     this.#port.post({ type: 'saved', ticket, bytes }, [bytes]);
   }
 
   #load({ ticket, nowMs, agoS, bytes }: ToMemoryWorker & { type: 'load' }): void {
     try {
-      const file = readPly(new Uint8Array(bytes));
+      const whole = new Uint8Array(bytes);
+      const file = isPcd(whole) ? readPcd(whole) : readPly(whole);
       const now = ticksOf(nowMs);
       let points = 0;
       for (let i = 0; i < file.count; i++) {
@@ -101,7 +120,7 @@ export class MemoryKeeping {
       }
       this.#port.post({ type: 'loaded', ticket, points }, []);
     } catch (error) {
-      if (!(error instanceof PlyError)) throw error;
+      if (!(error instanceof PointFileError)) throw error;
       this.#port.post({ type: 'refused', ticket, message: error.message }, []);
     }
   }

@@ -1,6 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { PlyError, readPly } from './ply.ts';
+import { readPly } from './ply.ts';
+import { PointFileError } from './point-file.ts';
 
 function ply(header: string, data: Uint8Array = new Uint8Array()): Uint8Array {
   return new Uint8Array([...new TextEncoder().encode(header), ...data]);
@@ -64,7 +65,7 @@ describe('readPly', () => {
           const { count, places } = readPly(ply(`ply\n${lines.join('\n')}\n`, data));
           expect(places.length).toBeGreaterThanOrEqual(count * 3);
         } catch (error) {
-          expect(error).toBeInstanceOf(PlyError);
+          expect(error).toBeInstanceOf(PointFileError);
         }
       }),
       { numRuns: 2000 },

@@ -7,7 +7,9 @@ import { KEY_FRAME_BYTES, KeyFrame } from './key-frame.ts';
 import { KeyFrameFeed } from './key-frame-feed.ts';
 import type { FromMemoryWorker, MemoryStats, ToMemoryWorker } from './memory-messages.ts';
 import { MemoryPages } from './memory-pages.ts';
+import type { PointFileFormat } from './point-file.ts';
 import type { MotionLimits } from './pose-jump.ts';
+import { TOP_VIEW_BYTES, TopView, type TopViewArea } from './top-view.ts';
 
 /** Key frames that may be on their way to the worker. */
 const FRAMES = 3;
@@ -34,6 +36,8 @@ export class WorldMemory {
   enabled = true;
   /** Draws what is remembered. */
   listener: MemoryListener | null = null;
+  /** Gets what {@link lookFromAbove} asked for. The view is valid during the call only. */
+  onTopView: ((view: TopView) => void) | null = null;
   readonly #worker: Worker;
   readonly #beganMs = performance.now();
   readonly #feeds = new Map<number, KeyFrameFeed>();
@@ -43,6 +47,8 @@ export class WorldMemory {
     { done(value: ArrayBuffer | number): void; failed(error: Error): void }
   >();
   #tickets = 0;
+  /** `null` while it is on its way. */
+  #topView: ArrayBuffer | null = new ArrayBuffer(TOP_VIEW_BYTES);
 
   /** Starts the worker. */
   constructor() {
@@ -86,6 +92,14 @@ export class WorldMemory {
     this.#post({ type: 'resend' });
   }
 
+  /** Has what is remembered around a place handed to {@link onTopView} soon, unless that is on its way already. */
+  lookFromAbove(area: TopViewArea): void {
+    const buffer = this.#topView;
+    if (buffer === null) return;
+    this.#topView = null;
+    this.#post({ type: 'topView', buffer, area, nowMs: this.#nowMs }, [buffer]);
+  }
+
   /** Milliseconds since the memory began, which is when its clock begins. */
   get #nowMs(): number {
     return performance.now() - this.#beganMs;
@@ -96,19 +110,20 @@ export class WorldMemory {
     return this.#nowMs / 1000;
   }
 
-  /** Everything that is remembered, as a binary PLY file. */
-  async save(): Promise<ArrayBuffer> {
+  /** Everything that is remembered, as a file. */
+  async save(format: PointFileFormat = 'ply'): Promise<ArrayBuffer> {
     const savedAt = new Date().toISOString();
     return (await this.#ask((ticket) => ({
       type: 'save',
       ticket,
       nowMs: this.#nowMs,
       savedAt,
+      format,
     }))) as ArrayBuffer;
   }
 
   /**
-   * Remembers what is in a binary PLY file, which {@link save} or another program has written, beside what is remembered
+   * Remembers what is in a binary PLY or a PCD file, which {@link save} or another program has written, beside what is remembered
    * already. Its places are those of the robot's world when it was saved.
    *
    * @param agoS how long ago the file was written, seconds
@@ -159,6 +174,13 @@ export class WorldMemory {
         this.stats = message.stats;
         this.#free.push(new KeyFrame(message.buffer));
         return;
+      case 'topView': {
+        const view = new TopView(message.buffer);
+        Object.assign(view, { x: message.x, y: message.y, oldestS: message.oldestS });
+        this.#topView = message.buffer;
+        this.onTopView?.(view);
+        return;
+      }
       case 'saved':
         this.#answer(message.ticket)?.done(message.bytes);
         return;

@@ -41,6 +41,21 @@ describe('an axis', () => {
   });
 });
 
+test('of a robot that is not identified, what it says of itself is believed, and little of the rest', () => {
+  const told = usualBase(100, { accelerationMps2: 1.2, decelerationMps2: 2.5, turnRadps2: 3 });
+  expect([told.linear.rise, told.linear.fall, told.angular.rise, told.angular.fall]).toEqual([
+    1.2, 2.5, 3, 3,
+  ]);
+  const unknown = usualBase(100);
+  expect(unknown.angular.rise).toBeLessThan(told.angular.rise);
+  expect(unknown.angular.lagS).toBeGreaterThan(told.angular.lagS);
+  // A robot of an earlier version tells only how it brakes.
+  expect(usualBase(100, { decelerationMps2: 2 })).toEqual({
+    ...unknown,
+    linear: { ...unknown.linear, fall: 2 },
+  });
+});
+
 test('a base with constant velocities drives on a circle', () => {
   const motion = { ...standingAt(), linear: 1, angular: 0.5 };
   const model = usualBase(0);

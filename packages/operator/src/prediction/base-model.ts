@@ -38,15 +38,30 @@ export interface BaseMotion {
 /** Longest step of an integration, ms. */
 export const STEP_MS = 10;
 
+/** How fast a robot says that it changes its velocity. */
+export interface BaseRamps {
+  /** Away from zero and towards it, m/s². */
+  accelerationMps2?: number | undefined;
+  decelerationMps2?: number | undefined;
+  /** Both ways, rad/s². */
+  turnRadps2?: number | undefined;
+}
+
+/** Of a robot of which nothing is known, and of one that says how it ramps: what its motors add, s. */
+const USUAL_LAG_S = 0.15;
+const RAMPED_LAG_S = 0.05;
+
 /**
- * What is assumed of a robot of which nothing is known yet. Rather slow: who expects too little is never ahead of the
- * robot.
+ * What is assumed of a robot until it is identified: what it says of itself, and for the rest a robot that is rather slow,
+ * because who expects too little is never ahead of the robot.
  */
-export function usualBase(delayMs: number): BaseModel {
+export function usualBase(delayMs: number, ramps: Readonly<BaseRamps> = {}): BaseModel {
+  const { accelerationMps2: rise = 0.7, decelerationMps2: fall = 1.5, turnRadps2: turn = 2 } = ramps;
+  const lagOf = (known: number | undefined) => (known === undefined ? USUAL_LAG_S : RAMPED_LAG_S);
   return {
     delayMs,
-    linear: { gain: 1, lagS: 0.15, rise: 0.7, fall: 1.5 },
-    angular: { gain: 1, lagS: 0.15, rise: 2, fall: 2 },
+    linear: { gain: 1, lagS: lagOf(ramps.accelerationMps2), rise, fall },
+    angular: { gain: 1, lagS: lagOf(ramps.turnRadps2), rise: turn, fall: turn },
   };
 }
 

@@ -9,8 +9,8 @@ import type { CommandHistory } from './command-history.ts';
 import type { TravelWindow } from './travel-window.ts';
 
 /** Least motion in the window before an axis is fitted, m and rad. */
-const LEAST_TRAVEL_M = 0.3;
-const LEAST_TURN_RAD = 0.4;
+const LEAST_TRAVEL_M = 0.12;
+const LEAST_TURN_RAD = 0.15;
 /** Errors of the velocity beyond this count linearly, m/s and rad/s: outliers. */
 const LINEAR_SCALE = 0.1;
 const ANGULAR_SCALE = 0.2;

@@ -166,13 +166,27 @@ describe('a predicted pose', () => {
   });
 });
 
+test('the first motion is predicted by the ramps that the welcome tells, which another session forgets', () => {
+  const predictor = newPredictor();
+  const slow = structuredClone(predictor.model);
+  predictor.setLimits({ ...LIMITS, accelerationMps2: 2, decelerationMps2: 2, turnRadps2: 3 });
+  predictor.setClock(ROBOT_CLOCK_MS, 2 * WAY_MS);
+  expect(predictor.model.angular).toMatchObject({ rise: 3, fall: 3 });
+  const whereAt = drive(predictor, 350);
+  expect(Math.abs(xAt(predictor, 366) - whereAt(366))).toBeLessThan(0.02);
+  predictor.reset();
+  predictor.setLimits(LIMITS);
+  predictor.setClock(ROBOT_CLOCK_MS, 2 * WAY_MS);
+  expect(predictor.model).toEqual(slow);
+});
+
 test('standing still for long spoils nothing that was learnt', () => {
   const predictor = newPredictor();
   const whereAt = drive(predictor, 4000);
   const learnt = structuredClone(predictor.model);
   for (let ms = 4025; ms < 6000; ms += 25) predictor.onCommand(ms, 0, 0);
   const stoodAt = whereAt(4000) + 0.2;
-  for (let ms = 6000; ms < 600_000; ms += 50)
+  for (let ms = 6500; ms < 600_000; ms += 50)
     predictor.onReport(reported(ms, stoodAt + 0.001 * Math.sin(ms)));
   expect(predictor.model).toEqual(learnt);
 });

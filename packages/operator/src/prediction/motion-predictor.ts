@@ -84,9 +84,10 @@ export class MotionPredictor {
   }
 
   /** The robot's welcome. */
-  setLimits({ maxLinear, maxAngular, watchdogMs }: PredictionLimits): void {
-    this.#limits = { maxLinear, maxAngular, watchdogMs };
-    this.#mostLinear = maxLinear;
+  setLimits(limits: Readonly<PredictionLimits>): void {
+    this.#limits = { ...limits };
+    this.#mostLinear = limits.maxLinear;
+    if (!this.#fit.excited) this.#fit = this.#newFit();
   }
 
   /** A command leaves. @param linear m/s @param angular rad/s */
@@ -271,7 +272,7 @@ export class MotionPredictor {
   }
 
   #newFit(): ModelFit {
-    return new ModelFit(usualBase(USUAL_LOOP_MS), this.#commands, this.#window);
+    return new ModelFit(usualBase(USUAL_LOOP_MS, this.#limits), this.#commands, this.#window);
   }
 }
 

@@ -1,4 +1,5 @@
 /** What a prediction is made of, and what it says of itself. */
+import type { BaseRamps } from './base-model.ts';
 
 /** What the robot says of itself in a telemetry message. */
 export interface ReportedMotion {
@@ -18,8 +19,8 @@ export interface ReportedMotion {
   mostLinear: number;
 }
 
-/** What no message loosens. */
-export interface PredictionLimits {
+/** What the robot's welcome says: what no message loosens, and how it ramps. */
+export interface PredictionLimits extends BaseRamps {
   maxLinear: number;
   maxAngular: number;
   watchdogMs: number;

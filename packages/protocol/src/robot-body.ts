@@ -1,0 +1,16 @@
+/** What a robot takes of the floor, and how it stops. */
+export interface RobotBody {
+  /** Corners of the outline around base_link, counter-clockwise, metres: x forward, y to the left. */
+  footprint: readonly {
+    /** Metres ahead of base_link. */
+    x: number;
+    /** Metres to the left of base_link. */
+    y: number;
+  }[];
+  /** How hard the robot brakes in ordinary driving, m/s². */
+  decelerationMps2: number;
+  /** How fast the robot gains speed, m/s². Left out where it is not known. */
+  accelerationMps2?: number | undefined;
+  /** How fast the robot begins and ends a turn, rad/s². Left out where it is not known. */
+  turnRadps2?: number | undefined;
+}
