@@ -258,6 +258,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
         'memory',
         'prediction',
         'view',
+        'view --video',
       ],
     ].map((rest) => [`pnpm bench ${rest}`, MEASURES]),
   ),

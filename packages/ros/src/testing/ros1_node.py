@@ -93,11 +93,17 @@ def grid():
     return message
 
 
+def say(line):
+    """One write: rospy calls back in several threads, and two lines must not be mixed."""
+    sys.stdout.write(json.dumps(line) + "\n")
+    sys.stdout.flush()
+
+
 def heard(topic):
     def on_velocity(message):
         twist = message.twist if hasattr(message, "twist") else message
         line = {"topic": topic, "x": twist.linear.x, "turn": twist.angular.z, "nodeMs": time.time() * 1000}
-        print(json.dumps(line), flush=True)
+        say(line)
 
     return on_velocity
 
@@ -147,7 +153,7 @@ def main():
 
         own = generate_dynamic("my_robot/Arm", "float32[] joints\nstring mode\n")["my_robot/Arm"]
         publishers.append((rospy.Publisher("/arm", own, queue_size=1), own(joints=[0.5, 1.5], mode="hold")))
-    print(json.dumps({"ready": True}), flush=True)
+    say({"ready": True})
     rate = rospy.Rate(float(sys.argv[3]))
     while not rospy.is_shutdown():
         now = rospy.Time.now()
