@@ -35,10 +35,16 @@ export function checkVideos(
   }
 }
 
-/** How often the simulated depth camera is triggered, 1/s; `undefined`: whenever it is asked. */
-export function cloudTrigger(videos: readonly ConfiguredVideo[]): number | undefined {
-  const camera = videos.find(({ ofCloud }) => ofCloud);
-  return camera === undefined ? undefined : triggerOf(camera);
+/**
+ * How often the simulated depth camera is triggered, 1/s; `undefined`: whenever it is asked. Beside cameras that are
+ * triggered it is triggered with them, as on a robot whose sensors share one.
+ *
+ * @param framesPerS how often it is to capture
+ */
+export function cloudTrigger(videos: readonly ConfiguredVideo[], framesPerS: number): number | undefined {
+  const own = videos.find(({ ofCloud }) => ofCloud);
+  if (own !== undefined) return triggerOf(own);
+  return videos.some((camera) => triggerOf(camera) !== undefined) ? framesPerS : undefined;
 }
 
 /** The rate at whose multiples a camera captures; `undefined` for those that capture when they like. */

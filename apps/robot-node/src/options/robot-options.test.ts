@@ -199,6 +199,19 @@ describe('robot options', () => {
       });
     });
 
+    it('that are triggered trigger the simulated clouds, too, at the clouds’ own rate', () => {
+      const triggerOf = (source: string) => {
+        const { sensors } = file(
+          `robot:\n  source: { fps: 10 }\n  videos: [{ name: Front, source: ${source} }]\n`,
+        );
+        const [main] = sensors;
+        return main?.capture.source.kind === 'sim' ? main.capture.source.triggerPerS : null;
+      };
+      expect(triggerOf('{ kind: sim }')).toBe(10);
+      expect(triggerOf('{ kind: test }')).toBe(10);
+      expect(triggerOf('{ kind: rtsp, url: rtsp://127.0.0.1/front }')).toBe(undefined);
+    });
+
     it.each([
       ['source: { kind: sim }', /only at the simulated depth camera’s place/],
       ['source: { kind: sim, width: 480, height: 480, yaw: 0.1 }', /only at the simulated depth camera’s/],

@@ -18,6 +18,7 @@ import { toAudit } from './audit-configuration.ts';
 import { toBroadcast } from './broadcast.ts';
 import { checkAccess } from './check-access.ts';
 import { checkVideos, cloudTrigger } from './check-videos.ts';
+import { framesPerS } from './frame-rate.ts';
 import { toObstacleGuard } from './guard.ts';
 import { toGuardTopics } from './guard-topics.ts';
 import { toMotion } from './motion.ts';
@@ -28,9 +29,6 @@ import { stateFolder } from './state.ts';
 import { toFence } from './to-fence.ts';
 import { toReturn } from './to-return.ts';
 import { toStops } from './to-stops.ts';
-
-/** The highest rate asked of the source if not configured. A recording has its own rate, which is kept. */
-const DEFAULT_FPS: Partial<Record<RobotOptionValues['source'], number>> = { sim: 60, recording: 120 };
 
 /** How messages say where an option's value comes from. */
 export type Where = (key: RobotOptionKey) => string;
@@ -152,7 +150,7 @@ function toSensors(values: RobotOptionValues, topics: TopicEntry[]): CloudSensor
   const capture: CaptureOptions = {
     sensor: 0,
     source: toSource(values, topics),
-    framesPerSecond: values.fps ?? DEFAULT_FPS[values.source] ?? 30,
+    framesPerSecond: framesPerS(values),
     plan: values.plan,
     sampling: { lambda: values.lambda, epsilon: values.epsilon, nearDistance: values.priorityDistance },
     floorFraction: values.floor,
@@ -198,7 +196,7 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
         kind: 'sim',
         seed: values.simSeed,
         size: values.simSize,
-        triggerPerS: cloudTrigger(values.videos),
+        triggerPerS: cloudTrigger(values.videos, framesPerS(values)),
       };
     case 'shm':
       return {
