@@ -8,6 +8,8 @@ export interface PictureFacts {
   greenShare: number;
   /** How many of the 512 colours with 3 bits per channel occur in at least 0.05 % of the pixels. */
   colours: number;
+  /** Mean lightness, 0–255. */
+  lightness: number;
 }
 
 export interface Part {
@@ -65,6 +67,7 @@ async function readParts(input: { base64: string; parts: Part[] }): Promise<Pict
     for (const [key, count] of histogram) if (count > most) [background, most] = [key, count];
     let drawn = 0;
     let green = 0;
+    let light = 0;
     const coarse = new Uint32Array(512);
     for (const [key, count] of histogram) {
       const [r, g, b] = [key >> 16, (key >> 8) & 255, key & 255];
@@ -75,11 +78,12 @@ async function readParts(input: { base64: string; parts: Part[] }): Promise<Pict
       );
       if (away > 24) drawn += count;
       if (g > 200 && r < 60 && b < 60) green += count;
+      light += count * (0.3 * r + 0.59 * g + 0.11 * b);
       const bin = ((r >> 5) << 6) | ((g >> 5) << 3) | (b >> 5);
       coarse[bin] = (coarse[bin] as number) + count;
     }
     const colours = coarse.filter((count) => count > pixels * 0.0005).length;
-    return { drawnShare: drawn / pixels, greenShare: green / pixels, colours };
+    return { drawnShare: drawn / pixels, greenShare: green / pixels, colours, lightness: light / pixels };
   });
 }
 
@@ -107,38 +111,6 @@ async function compareParts(input: { base64: string; a: Part; b: Part }): Promis
     if (away > 24) differing++;
   }
   return differing / (a.length / 4);
-}
-
-/** Mean lightness of parts of a PNG, 0–255. */
-export async function lightness(page: Page, png: Buffer, parts: Part[]): Promise<number[]> {
-  const reader = await page.context().newPage();
-  try {
-    return await reader.evaluate(readLightness, { base64: png.toString('base64'), parts });
-  } finally {
-    await reader.close();
-  }
-}
-
-async function readLightness(input: { base64: string; parts: Part[] }): Promise<number[]> {
-  const blob = await (await fetch(`data:image/png;base64,${input.base64}`)).blob();
-  const bitmap = await createImageBitmap(blob);
-  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-  const context = canvas.getContext('2d') as OffscreenCanvasRenderingContext2D;
-  context.drawImage(bitmap, 0, 0);
-  return input.parts.map((part) => {
-    const { data } = context.getImageData(
-      Math.round(part.left * bitmap.width),
-      Math.round(part.top * bitmap.height),
-      Math.round(part.width * bitmap.width),
-      Math.round(part.height * bitmap.height),
-    );
-    let sum = 0;
-    for (let i = 0; i < data.length; i += 4) {
-      const [r, g, b] = [data[i] as number, data[i + 1] as number, data[i + 2] as number];
-      sum += 0.3 * r + 0.59 * g + 0.11 * b;
-    }
-    return sum / (data.length / 4);
-  });
 }
 
 /** Red, green and blue, 0–255. */

@@ -2,7 +2,7 @@ import { EmulatedLink } from '@farpoint/local-stack';
 import type { Page, TestInfo } from '@playwright/test';
 import { Headset, headsetViewport } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
-import { leftEye, lightness, type Part, readPicture, rightEye, sharesNear } from '../src/picture.ts';
+import { leftEye, type Part, readPicture, rightEye, sharesNear } from '../src/picture.ts';
 import { expect, test } from '../src/stack-test.ts';
 
 const CANVAS = '320x240';
@@ -78,7 +78,8 @@ test('lit colours: the floor, seen at a slant, is darker than what faces the eye
       await mode.selectOption(chosen);
       await operator.expectFrames(2);
       await expect(page.locator('#link')).toHaveText('Live');
-      taken.push(await lightness(page, await operator.screenshot(testInfo, `${name}-${chosen}`), parts));
+      const facts = await readPicture(page, await operator.screenshot(testInfo, `${name}-${chosen}`), parts);
+      taken.push(facts.map(({ lightness }) => lightness));
     }
     const [captured, lit] = taken as [number[], number[]];
     return parts.map((_, i) => (lit[i] as number) / (captured[i] as number));
