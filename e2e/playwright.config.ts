@@ -33,5 +33,7 @@ export default defineConfig({
     // Without its pictures: taking them is a quarter of what a test costs a software renderer.
     trace: { mode: 'retain-on-failure', screenshots: false },
     screenshot: 'only-on-failure',
+    // An action that waits for ever is named as such, not as the test's time-out.
+    actionTimeout: 40_000,
   },
 });

@@ -37,7 +37,9 @@ test('shows VP8 live and in step; one that it cannot decode says why', async ({
   // Firefox decodes H.264 only once it has fetched a plugin.
   expect(arm?.fault !== null || (arm?.frames ?? 0) > 0).toBe(true);
   const { receiver, spreadMs, videos: shown, undated } = (await operator.stats()).videos;
-  expect([receiver, undated]).toEqual(['native', 0]);
+  // Frames may come before the clocks of robot and page have been compared.
+  expect(receiver).toBe('native');
+  expect(undated).toBeLessThan(30);
   expect(spreadMs).not.toBeNull();
   for (const { ageMs } of shown) expect(ageMs?.p50).toBeLessThan(1000);
   console.log(
@@ -48,6 +50,7 @@ test('shows VP8 live and in step; one that it cannot decode says why', async ({
   await firefoxPage.keyboard.press('f');
   await firefoxPage.waitForFunction(() => document.querySelector('#camera-stage canvas') !== null);
   await operator.expectFrames(5);
+  expect((await operator.stats()).videos.undated).toBe(undated);
   await operator.screenshot(testInfo, 'firefox-videos');
 });
 

@@ -153,6 +153,7 @@ test('from above, the robot is in the middle, can be driven, and stops', async (
   await page.getByRole('button', { name: 'Heading up' }).click();
   await expect(page.getByRole('button', { name: 'North up' })).toBeVisible();
   const large = await marked();
+  // A notice may be there, and lets the wheel through.
   await page.mouse.move(600, 300);
   for (let i = 0; i < 5; i++) await page.mouse.wheel(0, 200);
   // Further away, the robot is smaller.
@@ -174,7 +175,7 @@ for (const width of [360, 1280, 3840]) {
     const operator = await OperatorPage.open(page, stack, { robot: LIDAR_ROBOT.id });
     await operator.expectPoints();
     const controls = page.locator(
-      '#bar button:visible, #drive button:visible, #joystick:visible, #sensors button, #clouds .heads button, ' +
+      '#bar button:visible, #drive button:visible, #joystick:visible, #holder, #drive-hint:visible, #sensors button, #clouds .heads button, ' +
         '#clouds .legend, #clouds .controls:visible',
     );
     await expect(page.locator('.legend')).toBeVisible();

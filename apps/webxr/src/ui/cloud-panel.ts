@@ -7,6 +7,7 @@ import { effect, type ReadonlySignal, type Signal, signal, untracked } from '@pr
 import { type CloudAppearance, UNNAMED } from '../state/cloud-appearance.ts';
 import type { Switches } from '../state/switches.ts';
 import { colourControls } from './colour-controls.ts';
+import { keepInRoom } from './controls-room.ts';
 import { cutControls } from './cut-controls.ts';
 import { elements } from './elements.ts';
 import { type Legend, legendOf } from './legend.ts';
@@ -43,6 +44,7 @@ export class CloudPanel {
     const heads = element('heads');
     heads.append(fromAbove, colours);
     elements.clouds.append(heads, legends, controls);
+    keepInRoom(controls);
     effect(() => {
       fromAbove.ariaPressed = String(appearance.fromAbove.value);
     });
