@@ -11,6 +11,7 @@ import { roomRun } from '@farpoint/robot-node/testing/recorded-room';
 import { readRooms } from '@farpoint/robot-node/testing/room-files';
 import type { Codec } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { Progress } from './progress.ts';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
@@ -55,10 +56,12 @@ export const bench: Bench = {
       : worldDrives(codec, values.world, values['floor-camera'] === true);
     if (drives.length === 0) return;
     const runs: GuardedRun[] = [];
+    const progress = new Progress(count, 'runs');
     for (let i = 0; i < count; i++) {
       const drive = drives[i % drives.length] as Drive;
       const run = await drive(seed + i, seconds, times);
       runs.push(run);
+      progress.update(runs.length);
       for (const { atS, speed } of run.contacts) {
         console.log(
           `${run.world}, seed ${run.seed}: contact at ${atS.toFixed(2)} s, ${speed.toFixed(2)} m/s`,
@@ -67,6 +70,7 @@ export const bench: Bench = {
       if (run.fellAtS !== null)
         console.log(`${run.world}, seed ${run.seed}: over an edge at ${run.fellAtS.toFixed(2)} s`);
     }
+    progress.end();
     const rows = [...new Set(runs.map(({ world }) => world)), 'all'].map((world) =>
       summaryOf(
         world,
