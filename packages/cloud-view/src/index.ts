@@ -20,6 +20,7 @@ export { DrawGate } from './draw-gate.ts';
 export { DrawingGovernor, type DrawingStep } from './drawing-governor.ts';
 export type { DrawnPoints, FramePose } from './drawn-points.ts';
 export { GpuCompletion } from './gpu-completion.ts';
+export { DROP_TINT, type Hazards, HIT_TINT, LAST_TINTED_M, TINT_SHARE } from './hazards.ts';
 export { type MemorySource, MemoryView } from './memory-view.ts';
 export { RING_COLOURS, ringColours } from './ring-colours.ts';
 export { RobotWorld } from './robot-world.ts';

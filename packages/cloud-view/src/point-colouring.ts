@@ -9,6 +9,7 @@ import {
   type Rings,
   type ValueRange,
 } from './cloud-colouring.ts';
+import { type Hazards, setHazards } from './hazards.ts';
 import type { PointUniforms } from './point-material.ts';
 import { elevationOf, intensityOf, turnedZ } from './point-values.ts';
 import { MOST_RINGS, RingEstimator } from './ring-estimate.ts';
@@ -52,6 +53,7 @@ export class PointColouring implements CloudColouring {
   fixedRange: ValueRange | null = null;
   ground = 0;
   cut: Readonly<HeightCut> = { below: null, above: null };
+  hazards: Hazards | null = null;
   readonly range: ValueRange = { min: 0, max: 1 };
   readonly #uniforms: PointUniforms;
   readonly #auto = new AutoRange();
@@ -141,6 +143,7 @@ export class PointColouring implements CloudColouring {
       cut.below === null ? -UNLIMITED_M : ground + cut.below,
       cut.above === null ? UNLIMITED_M : ground + cut.above,
     );
+    setHazards(this.#uniforms, this.hazards);
     for (const slot of [0, 1]) frameAge.value[slot] = (nowMs - (this.#beganMs[slot] as number)) / 1000;
   }
 
