@@ -3,7 +3,7 @@ import { writeFileSync } from 'node:fs';
 
 /** A cloud without a pose is shown 1 m above the floor. */
 const EYE_M = 1;
-const STEP_M = 0.025;
+const STEP_M = 0.03;
 const GREY = 0x808080;
 
 export const greyRoom = {
@@ -20,9 +20,9 @@ export function writeGreyRoom(path: string): void {
     points.push(`${x.toFixed(3)} ${y.toFixed(3)} ${(height - EYE_M).toFixed(3)} ${GREY}`);
   const range = (from: number, to: number) =>
     Array.from({ length: Math.round((to - from) / STEP_M) }, (_, i) => from + i * STEP_M);
-  for (const x of range(0.6, 3.8)) {
+  for (const x of range(0.6, 5.4)) {
     for (const y of range(-1.8, 1.8)) {
-      const isPit = x > 1.8 && x < 2.8 && y < -0.6 && y > -1.6;
+      const isPit = x > 2.4 && x < 5.1 && y < -0.3 && y > -1.5;
       add(x, y, isPit ? -pit.depth : 0);
     }
   }

@@ -1,4 +1,5 @@
 import type { Hazards } from './hazards.ts';
+import type { SceneFigures } from './scene-estimate.ts';
 
 /**
  * The ways to colour a cloud. `captured`: the points' own colours. `height`: metres above the robot's ground.
@@ -60,4 +61,6 @@ export interface CloudColouring {
   cut: Readonly<HeightCut>;
   /** What is tinted as a hazard, whatever else the colours mean. `null`, the default: nothing. */
   hazards: Hazards | null;
+  /** What the cloud shows of the scene as a whole, from a few points of each frame. */
+  readonly scene: SceneFigures;
 }

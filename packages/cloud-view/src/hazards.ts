@@ -27,11 +27,9 @@ export const HIT_TINT: Rgb = [1, 0.27, 0.2];
 export const DROP_TINT: Rgb = [0.71, 0.48, 1];
 /** Share of a tint's colour: what is tinted can still be recognised. */
 export const TINT_SHARE = 0.6;
-/**
- * Up to this distance from base_link, tints are whole; they end at the second, metres. Farther away, a base that is
- * tilted by a degree would tint the floor.
- */
+/** Up to this distance from base_link, tints are whole, metres. */
 export const TINTED_M = 4;
+/** Here they end: farther away, a base that is tilted by a degree would tint the floor. */
 export const LAST_TINTED_M = 8;
 
 export interface HazardUniforms {
