@@ -27,6 +27,7 @@ export function writeGreyRoom(path: string): void {
     }
   }
   for (const y of range(0.6, 1.4)) for (const height of range(0.05, box.height)) add(2, y, height);
+  for (const x of range(2, 2.6)) for (const y of range(0.6, 1.4)) add(x, y, box.height);
   for (const y of range(-0.8, 0.8)) for (const height of range(beam.from, beam.to)) add(2.5, y, height);
   const header = [
     'VERSION 0.7',

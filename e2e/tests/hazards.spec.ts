@@ -87,7 +87,7 @@ test('what would be hit and missing floor are tinted, from the eye and from abov
   await expect.poll(async () => (await tints(page, whole)).drop).toBeGreaterThan(0.005);
   const fromAbove = await tints(page, whole);
   expect(fromAbove.grey).toBeGreaterThan(0.02);
-  expect(fromAbove.hit).toBeGreaterThan(plain.hit);
+  expect(fromAbove.hit).toBeGreaterThan(0.0005);
   for (const size of screenSizes) {
     await page.setViewportSize(size);
     await operator.expectFrames(2);
