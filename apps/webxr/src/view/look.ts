@@ -16,9 +16,11 @@ export const MAX_REACH = 60;
 /** How far behind the robot the third-person view is, metres. */
 export const DEFAULT_DISTANCE = 2.5;
 const MAX_DISTANCE = 15;
-/** Clouds that reach less or more than these multiples of the usual reach are fitted; nearer to it again, no longer. */
-const FITTED_BELOW = { begins: 0.3, ends: 0.4 };
-const FITTED_ABOVE = { begins: 2.5, ends: 2 };
+/**
+ * Clouds that reach farther than this multiple of the usual reach are fitted, until they reach less far than the second.
+ * Small ones are on the screen as it is; and how far a camera sees that looks at a wall says nothing of the scene.
+ */
+const FITTED = { begins: 2.5, ends: 2 };
 /** What is fitted has this margin, and stays while it is right within this factor. */
 const EXTENT_MARGIN = 1.05;
 const EXTENT_TOLERANCE = 1.3;
@@ -127,15 +129,13 @@ export class Look {
 
   /** The robot stays recognisable: it is moved away from by the square root of the reach. */
   get #fittedDistance(): number {
-    return clamp(DEFAULT_DISTANCE * Math.sqrt(this.#fittedReach / DEFAULT_REACH), 0.8, MAX_DISTANCE);
+    return DEFAULT_DISTANCE * Math.sqrt(this.#fittedReach / DEFAULT_REACH);
   }
 
   #reachFor(extent: number): number {
     const before = this.#fittedReach;
-    const least = DEFAULT_REACH * (before < DEFAULT_REACH ? FITTED_BELOW.ends : FITTED_BELOW.begins);
-    const most = DEFAULT_REACH * (before > DEFAULT_REACH ? FITTED_ABOVE.ends : FITTED_ABOVE.begins);
-    if (extent >= least && extent <= most) return DEFAULT_REACH;
-    return clamp(extent * EXTENT_MARGIN, MIN_REACH, MAX_REACH);
+    const most = DEFAULT_REACH * (before > DEFAULT_REACH ? FITTED.ends : FITTED.begins);
+    return extent <= most ? DEFAULT_REACH : Math.min(extent * EXTENT_MARGIN, MAX_REACH);
   }
 }
 
