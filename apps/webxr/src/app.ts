@@ -171,7 +171,7 @@ export class App {
       predicted: this.predicted,
     });
     const memory = { remembered: this.remembered, tell: notices.tell.bind(notices) };
-    this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all, memory });
+    this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all, memory, robot: state.robot });
     this.#sound = new SoundUi({
       ...{ client, player: this.player, state: state.sound },
       tell: ({ text, tone }) => notices.tell(text, tone),
@@ -256,7 +256,7 @@ export class App {
       ...{ client: this.client, remembered: this.remembered },
     });
     const { panel, controls } = openHeadset({
-      ...{ settings: this.settings.headset, stage, vr, inputs: this.#inputs, state },
+      ...{ settings: this.settings.headset, stage, vr, inputs: this.#inputs, state, appearance },
       releaseProgress: this.#release.progress,
     });
     this.wrist = panel;

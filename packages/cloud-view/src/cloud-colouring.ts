@@ -1,3 +1,6 @@
+import type { Hazards } from './hazards.ts';
+import type { SceneFigures } from './scene-estimate.ts';
+
 /**
  * The ways to colour a cloud. `captured`: the points' own colours. `height`: metres above the robot's ground.
  * `distance`: metres from the sensor. `intensity`: of the LiDAR's echo, 0–1, or the brightness of a point with a colour
@@ -56,4 +59,8 @@ export interface CloudColouring {
   ground: number;
   /** Heights between which points are drawn. Default: all. */
   cut: Readonly<HeightCut>;
+  /** What is tinted as a hazard, whatever else the colours mean. `null`, the default: nothing. */
+  hazards: Hazards | null;
+  /** What the cloud shows of the scene as a whole, from a few points of each frame. */
+  readonly scene: SceneFigures;
 }

@@ -7,6 +7,8 @@
  */
 import { MEMORY_LAYOUT } from '@farpoint/operator';
 import { type ExternalTexture, GLSL3, RawShaderMaterial, Vector2 } from 'three';
+import { HAZARD_FUNCTION, HAZARD_UNIFORMS } from './hazard-shader.ts';
+import { type HazardUniforms, hazardUniforms } from './hazards.ts';
 
 /** Pages in a row of the texture: 2048 texels, which every WebGL 2 has room for. */
 export const PAGES_PER_ROW = 8;
@@ -32,10 +34,11 @@ uniform float viewportHeight;
 // Now, in units of age.
 uniform float nowUnits;
 uniform vec2 heightCut;
+${HAZARD_UNIFORMS}
 // Chunk, and the page's number and, from bit 16 on, its surfels.
 in ivec4 place;
 flat out vec3 pointColour;
-
+${HAZARD_FUNCTION}
 void main() {
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   gl_PointSize = 1.0;
@@ -60,7 +63,8 @@ void main() {
   vec3 rgb = vec3(float(colour >> 11) / 31.0, float((colour >> 5) & 63u) / 63.0, float(colour & 31u) / 31.0);
   float age = (nowUnits - float(surfel.g >> 16)) * ${ageUnitS.toFixed(1)};
   float brightness = ${BRIGHTNESS.toFixed(2)} * mix(1.0, ${OLD_BRIGHTNESS.toFixed(2)}, clamp(age / ${OLD_S.toFixed(1)}, 0.0, 1.0));
-  pointColour = brightness * mix(rgb, vec3(dot(rgb, vec3(0.3, 0.59, 0.11))), ${GREYED.toFixed(2)});
+  vec3 greyed = mix(rgb, vec3(dot(rgb, vec3(0.3, 0.59, 0.11))), ${GREYED.toFixed(2)});
+  pointColour = brightness * hazardTinted(greyed, world);
 }
 `;
 
@@ -74,7 +78,7 @@ void main() {
 }
 `;
 
-export interface MemoryUniforms {
+export interface MemoryUniforms extends HazardUniforms {
   surfels: { value: ExternalTexture };
   /** Height of one eye's viewport, pixels of the drawing buffer. */
   viewportHeight: { value: number };
@@ -93,6 +97,7 @@ export function createMemoryMaterial(surfels: ExternalTexture): {
     viewportHeight: { value: 1 },
     nowUnits: { value: 0 },
     heightCut: { value: new Vector2(-1e30, 1e30) },
+    ...hazardUniforms(),
   };
   const material = new RawShaderMaterial({
     glslVersion: GLSL3,

@@ -16,6 +16,7 @@ import {
   type WebGLRenderer,
 } from 'three';
 import type { HeightCut } from './cloud-colouring.ts';
+import { type Hazards, setHazards } from './hazards.ts';
 import { createMemoryMaterial } from './memory-material.ts';
 import { MemoryTexture } from './memory-texture.ts';
 import { viewportHeightOf } from './viewport-height.ts';
@@ -38,6 +39,8 @@ export class MemoryView extends Points<InstancedBufferGeometry, RawShaderMateria
   cut: Readonly<HeightCut> = { below: null, above: null };
   /** Height of the robot's ground in its world, metres. */
   ground = 0;
+  /** What is tinted as a hazard; `null`, the default: nothing. */
+  hazards: Hazards | null = null;
   /** Whether anything is drawn. */
   enabled = true;
   /** Number of points in view. */
@@ -125,6 +128,7 @@ export class MemoryView extends Points<InstancedBufferGeometry, RawShaderMateria
       cut.below === null ? -UNLIMITED_M : ground + cut.below,
       cut.above === null ? UNLIMITED_M : ground + cut.above,
     );
+    setHazards(this.#uniforms, this.hazards);
     this.#uniforms.viewportHeight.value = viewportHeightOf(this.#renderer);
   }
 

@@ -9,10 +9,12 @@ import {
   type Rings,
   type ValueRange,
 } from './cloud-colouring.ts';
+import { type Hazards, setHazards } from './hazards.ts';
 import type { PointUniforms } from './point-material.ts';
 import { elevationOf, intensityOf, turnedZ } from './point-values.ts';
 import { MOST_RINGS, RingEstimator } from './ring-estimate.ts';
 import { fillRingTable, ringScale } from './ring-table.ts';
+import { SceneEstimate } from './scene-estimate.ts';
 
 /** Number of points of a frame whose values are looked at. */
 const SAMPLES_PER_FRAME = 200;
@@ -52,7 +54,9 @@ export class PointColouring implements CloudColouring {
   fixedRange: ValueRange | null = null;
   ground = 0;
   cut: Readonly<HeightCut> = { below: null, above: null };
+  hazards: Hazards | null = null;
   readonly range: ValueRange = { min: 0, max: 1 };
+  readonly scene = new SceneEstimate();
   readonly #uniforms: PointUniforms;
   readonly #auto = new AutoRange();
   readonly #estimator = new RingEstimator();
@@ -76,7 +80,7 @@ export class PointColouring implements CloudColouring {
   set mode(mode: ColourMode) {
     if (mode === this.#mode) return;
     this.#mode = mode;
-    this.forget();
+    this.#forgetValues();
   }
 
   get knownRings(): readonly number[] | null {
@@ -103,14 +107,17 @@ export class PointColouring implements CloudColouring {
 
   /** Looks at a few of `count` points from point `first` on, which belong to the frame of this slot. */
   sample(points: Int16Array, first: number, count: number, slot: number): void {
-    if (!this.#looks) return;
+    const looks = this.#looks;
     const unit = this.#uniforms.frameUnit.value[slot] as number;
-    const { z: sensorZ } = this.#uniforms.framePosition.value[slot]!;
+    const position = this.#uniforms.framePosition.value[slot]!;
     const orientation = this.#uniforms.frameOrientation.value[slot]!;
     for (; this.#skip < count; this.#skip += this.#stride) {
       const at = (first + this.#skip) * 4;
+      const [x, y, z] = [points[at] as number, points[at + 1] as number, points[at + 2] as number];
+      this.scene.add(position, orientation, x * unit, y * unit, z * unit);
+      if (!looks) continue;
       if (this.#mode === 'ring') this.#sampleRing(points, at);
-      else this.#auto.add(this.#valueOf(points, at, unit, sensorZ, orientation));
+      else this.#auto.add(this.#valueOf(points, at, unit, position.z, orientation));
     }
     this.#skip -= count;
   }
@@ -141,11 +148,18 @@ export class PointColouring implements CloudColouring {
       cut.below === null ? -UNLIMITED_M : ground + cut.below,
       cut.above === null ? UNLIMITED_M : ground + cut.above,
     );
+    setHazards(this.#uniforms, this.hazards);
+    this.scene.update(nowMs, this.#uniforms.framePosition.value[this.#newestSlot]!, ground);
     for (const slot of [0, 1]) frameAge.value[slot] = (nowMs - (this.#beganMs[slot] as number)) / 1000;
   }
 
   /** The points are discarded: the next ones may come from elsewhere. */
   forget(): void {
+    this.scene.reset();
+    this.#forgetValues();
+  }
+
+  #forgetValues(): void {
     this.#auto.reset(0, FIRST_MAX[this.#mode]);
     this.#estimator.reset();
   }

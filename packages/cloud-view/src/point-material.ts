@@ -11,6 +11,8 @@ import { type DataTexture, GLSL3, RawShaderMaterial, Vector2, Vector3, Vector4 }
 import { colourStops } from './colour-map.ts';
 import { COLOUR_FUNCTIONS, COLOUR_UNIFORMS } from './colour-shader.ts';
 import { MAX_RUNS, RUN_FIELDS } from './frame-window.ts';
+import { HAZARD_FUNCTION, HAZARD_UNIFORMS } from './hazard-shader.ts';
+import { type HazardUniforms, hazardUniforms } from './hazards.ts';
 import { ROTATE } from './pose-shader.ts';
 import { ringTexture } from './ring-texture.ts';
 
@@ -32,14 +34,14 @@ uniform vec4 frameOrientation[2];
 uniform float frameUnit[2];
 uniform float viewportHeight;
 uniform float sizeScale;
-${COLOUR_UNIFORMS}
+${COLOUR_UNIFORMS}${HAZARD_UNIFORMS}
 // Seconds since the frame began to arrive.
 uniform float frameAge[2];
 in ivec4 position;
 flat out vec3 pointColour;
 flat out float pointSize;
 
-${ROTATE}${COLOUR_FUNCTIONS}
+${ROTATE}${COLOUR_FUNCTIONS}${HAZARD_FUNCTION}
 void main() {
   int run = runCount - 1;
   while (run > 0 && gl_VertexID < runs[run].x) run--;
@@ -72,8 +74,9 @@ void main() {
     float((colour & 15u) * 16u + 8u)
   ) / 255.0;
   if (colourMode != 0) rgb = coloured(rgb, camera, world.z - groundHeight, frameAge[slot]);
-  // The latency test's green has no grey in it.
+  // The latency test's green has no grey in it, and no tint.
   if (colour == 0x03f0u) rgb = vec3(0.0, 1.0, 0.0);
+  else rgb = hazardTinted(rgb, world);
   pointColour = faded(rgb);
 }
 `;
@@ -92,7 +95,7 @@ void main() {
 }
 `;
 
-export interface PointUniforms {
+export interface PointUniforms extends HazardUniforms {
   runs: { value: Int32Array };
   runCount: { value: number };
   framePosition: { value: Vector4[] };
@@ -139,6 +142,7 @@ export function createPointMaterial(): { material: RawShaderMaterial; uniforms: 
     groundHeight: { value: 0 },
     heightCut: { value: new Vector2(-1e30, 1e30) },
     frameAge: { value: [0, 0] },
+    ...hazardUniforms(),
   };
   const material = new RawShaderMaterial({
     glslVersion: GLSL3,

@@ -13,6 +13,7 @@
  */
 import { type ExternalTexture, GLSL3, RawShaderMaterial, Vector2, Vector4 } from 'three';
 import { COLOUR_FUNCTIONS, COLOUR_UNIFORMS, FADED } from './colour-shader.ts';
+import { HAZARD_FUNCTION, HAZARD_UNIFORMS } from './hazard-shader.ts';
 import type { PointUniforms } from './point-material.ts';
 import { ROTATE } from './pose-shader.ts';
 import { NORMAL_FUNCTIONS } from './surface-normal.ts';
@@ -52,11 +53,11 @@ flat out vec2 corner;
 flat out int cell;
 // Least pixels of the camera's picture in one of this picture, as areas, where the cell is torn.
 flat out float leastPixels;
-// Layer of the picture, and its weight.
-flat out vec2 paint;
+// Layer of the picture, its weight, and 0 where the surface has the latency test's green.
+flat out vec3 paint;
 out vec3 surfaceColour;
-// Height in the world, times the inverse depth, and the inverse depth.
-out vec2 height;
+// Place in the world, times the inverse depth, and the inverse depth.
+out vec4 place;
 ${ROTATE}${COLOUR_FUNCTIONS}
 int slotOf(int tile) {
   return int(texelFetch(tileSlots, ivec2(tile % ${SLOTS_PER_ROW}, tile / ${SLOTS_PER_ROW}), 0).r);
@@ -133,7 +134,7 @@ void main() {
   vec3 direction = rotate(tileOrientation[slot], ray);
   vec4 world = vec4(direction + pose.xyz * inverse, inverse);
   gl_Position = projectionMatrix * (modelViewMatrix * world);
-  height = world.zw;
+  place = world;
   // A metre at a depth of 1 m covers this in this picture; gl_Position.w is how many times as far away the eye is, in a
   // world that may be a model.
   float s0 = 0.5 * viewportHeight * projectionMatrix[1][1];
@@ -141,7 +142,7 @@ void main() {
   leastPixels = lens.x * lens.y * nominal * nominal / ${MOST_STRETCH.toFixed(1)};
 
   float painted = tilePaint[slot >> 2][slot & 3];
-  paint = vec2(floor(painted), 2.0 * fract(painted));
+  paint = vec3(floor(painted), 2.0 * fract(painted), 1.0);
   uint colour = texel >> 16;
   vec3 rgb = vec3(float(colour >> 11) / 31.0, float((colour >> 5) & 63u) / 63.0, float(colour & 31u) / 31.0);
   if (colourMode != 0) {
@@ -155,12 +156,12 @@ void main() {
     vec3 fromEye = projectionMatrix[3][3] == 1.0 ? vec3(0.0, 0.0, -1.0) : (modelViewMatrix * world).xyz;
     rgb *= litBy(mat3(modelViewMatrix) * normal, fromEye);
   }
-  // The latency test's green has no grey in it.
+  // The latency test's green has no grey in it, and no tint.
   if (colour == 0x07e0u) {
     rgb = vec3(0.0, 1.0, 0.0);
-    paint.y = 0.0;
+    paint.yz = vec2(0.0);
   }
-  surfaceColour = faded(rgb);
+  surfaceColour = rgb;
 }
 `;
 
@@ -172,15 +173,16 @@ uniform highp sampler2DArray pictures;
 uniform vec2 gridSize;
 uniform float freshness;
 uniform vec2 heightCut;
+${HAZARD_UNIFORMS}
 in vec2 pixel;
 flat in vec2 corner;
 flat in int cell;
 flat in float leastPixels;
-flat in vec2 paint;
+flat in vec3 paint;
 in vec3 surfaceColour;
-in vec2 height;
+in vec4 place;
 out vec4 fragColour;
-${FADED}
+${FADED}${HAZARD_FUNCTION}
 void main() {
   vec2 across = dFdx(pixel);
   vec2 down = dFdy(pixel);
@@ -189,10 +191,12 @@ void main() {
   if ((state & 1) == 0) discard;
   float pixels = abs(across.x * down.y - across.y * down.x);
   if ((state & 4) != 0 && pixels < leastPixels) discard;
-  float metres = height.x / height.y;
-  if (metres < heightCut.x || metres > heightCut.y) discard;
+  vec3 world = place.xyz / place.w;
+  if (world.z < heightCut.x || world.z > heightCut.y) discard;
   vec3 picture = texture(pictures, vec3((pixel + 0.5) / gridSize, paint.x)).rgb;
-  fragColour = vec4(mix(surfaceColour, faded(picture), paint.y), 1.0);
+  vec3 rgb = mix(surfaceColour, picture, paint.y);
+  if (paint.z > 0.0) rgb = hazardTinted(rgb, world);
+  fragColour = vec4(faded(rgb), 1.0);
 }
 `;
 
@@ -237,7 +241,7 @@ export function createSurfaceMaterial(points: PointUniforms): {
     tilePaint: { value: Array.from({ length: FRAME_SLOTS / 4 }, () => new Vector4()) },
   };
   const { viewportHeight, freshness, colourMode, colourRange, colourMap, ringMap, ringScale } = points;
-  const { groundHeight, heightCut } = points;
+  const { groundHeight, heightCut, hazardBase, hazardUp, hazardBand } = points;
   const material = new RawShaderMaterial({
     glslVersion: GLSL3,
     vertexShader,
@@ -245,7 +249,7 @@ export function createSurfaceMaterial(points: PointUniforms): {
     uniforms: {
       ...uniforms,
       ...{ viewportHeight, freshness, colourMode, colourRange, colourMap, ringMap, ringScale },
-      ...{ groundHeight, heightCut },
+      ...{ groundHeight, heightCut, hazardBase, hazardUp, hazardBand },
     },
   });
   return { material, uniforms };

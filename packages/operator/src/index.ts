@@ -10,6 +10,7 @@ export type {
   AfterGap,
   Alarm,
   Battery,
+  BodyHeights,
   Broadcast,
   Cameras,
   CloudFormat,

@@ -59,7 +59,7 @@ export * from './reading.ts';
 export * from './reference-bridge.ts';
 export * from './reference-control.ts';
 export * from './return-state.ts';
-export type { RobotBody } from './robot-body.ts';
+export type { BodyHeights, RobotBody } from './robot-body.ts';
 export * from './role.ts';
 export { MAX_RINGS, type SensorRings } from './sensor-rings.ts';
 export * from './sequence.ts';

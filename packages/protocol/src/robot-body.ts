@@ -13,4 +13,18 @@ export interface RobotBody {
   accelerationMps2?: number | undefined;
   /** How fast the robot begins and ends a turn, rad/s². Left out where it is not known. */
   turnRadps2?: number | undefined;
+  /** Which heights matter to the robot. Left out where it does not say. */
+  heights?: BodyHeights | undefined;
+}
+
+/** Heights above the x-y plane of base_link at which the robot hits what is there, or falls, metres. */
+export interface BodyHeights {
+  /** What is lower is floor. */
+  clearanceM: number;
+  /** What is higher is passed under. */
+  heightM: number;
+  /** What lies lower than this below the plane is a missing floor. */
+  dropM: number;
+  /** By how much `clearanceM` and `dropM` grow with each metre of distance: the sensors' tilt is not exactly known. */
+  slope: number;
 }

@@ -48,6 +48,16 @@ const bodySchema = z.strictObject({
   decelerationMps2: positive,
   accelerationMps2: z.optional(positive),
   turnRadps2: z.optional(positive),
+  heights: z.optional(
+    z
+      .strictObject({
+        clearanceM: z.number().check(z.minimum(0)),
+        heightM: z.number().check(z.positive(), z.maximum(MOST_REACH_M)),
+        dropM: z.number().check(z.positive(), z.maximum(MOST_REACH_M)),
+        slope: z.number().check(z.minimum(0), z.maximum(1)),
+      })
+      .check(z.refine(({ clearanceM, heightM }) => clearanceM < heightM, 'clearanceM must be below heightM')),
+  ),
 });
 
 export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {

@@ -550,6 +550,12 @@ robot_session.spoil(embodied, ("body.footprint", corners[:2]), ("body.footprint"
 ramped = robot_session.good({**welcome, "body": {"footprint": corners, "decelerationMps2": 2, "accelerationMps2": 1, "turnRadps2": 3}},
                             "welcome from a robot that tells its ramps")
 robot_session.spoil(ramped, ("body.accelerationMps2", 0), ("body.accelerationMps2", "1"), ("body.turnRadps2", -3), ("body.turnRadps2", None))
+heights = {"clearanceM": 0.04, "heightM": 1.1, "dropM": 0.15, "slope": 0.01}
+tall = robot_session.good({**welcome, "body": {"footprint": corners, "decelerationMps2": 2, "heights": heights}},
+                          "welcome from a robot that tells which heights matter to it")
+robot_session.spoil(tall, ("body.heights.clearanceM", -0.01), ("body.heights.clearanceM", 1.1, "body.heights"), ("body.heights.heightM", 10.5),
+                    ("body.heights.dropM", 0), ("body.heights.dropM", ABSENT), ("body.heights.slope", 1.5), ("body.heights.slope", "0.01"),
+                    ("body.heights.widthM", 1, "body.heights"), ("body.heights", None))
 for role in ["watch", "supervise"]:
     robot_session.good(changed(admitted, "access.role", role), "welcome, role: " + role)
 expires = robot_session.good({"type": "expires", "inS": 60})

@@ -5,6 +5,7 @@ import type { SourceDescription, SourceFrame } from '../capture/frame-source.ts'
 import { STATIC_CAMERA_POSE } from '../capture/playback-source.ts';
 import { monotonicMs } from '../clock.ts';
 import { BlankFloor } from './blank-floor.ts';
+import { FLOOR_SLOPE } from './floor-slope.ts';
 import { type GridShape, SharedGridWriter } from './shared-grid.ts';
 
 /** Plain data, so that it can be passed to the capture thread. Lengths in metres. */
@@ -25,8 +26,6 @@ export interface CloudGuardOptions {
   blankIsMissing?: boolean;
 }
 
-/** How much wider the floor's band becomes with each metre of distance: a tilt of half a degree. */
-const SLOPE = 0.01;
 /** A ray this low over a cell shows that it is free, metres. */
 const LOW_RAY_M = 0.15;
 /** Share of the points that an obstacle as large as a cell would have, which make an obstacle. */
@@ -52,7 +51,7 @@ export class CloudGuard implements Disposable {
     const nearPoints = perSquareMetre * shape.cellM ** 2 * ENOUGH;
     this.#grid = new ObstacleGrid(codec, capacity, {
       ...shape,
-      ...{ clearanceM, heightM, dropM, slope: SLOPE, lowRayM: LOW_RAY_M, confirm: false },
+      ...{ clearanceM, heightM, dropM, slope: FLOOR_SLOPE, lowRayM: LOW_RAY_M, confirm: false },
       nearPoints: Math.min(MOST_POINTS, Math.max(LEAST_POINTS, nearPoints)),
       leastPoints: LEAST_POINTS,
     });

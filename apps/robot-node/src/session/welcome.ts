@@ -1,4 +1,5 @@
 import { type Alarm, PROTOCOL_VERSION, type Quantity, type RobotBody } from '@farpoint/protocol';
+import { FLOOR_SLOPE } from '../obstacles/floor-slope.ts';
 import type { RobotOptions } from '../robot-configuration.ts';
 import type { CloudSensor } from '../sensors/cloud-sensor.ts';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
@@ -56,11 +57,13 @@ export function welcome(
 
 function bodyOf({ motion, obstacleGuard }: WelcomeFacts): RobotBody {
   const round = (metres: number) => Number(metres.toFixed(3));
+  const { clearanceM, heightM, dropM } = obstacleGuard;
   return {
     footprint: obstacleGuard.footprint.map(({ x, y }) => ({ x: round(x), y: round(y) })),
     decelerationMps2: motion.ramps.decelerationMps2,
     accelerationMps2: motion.ramps.accelerationMps2,
     turnRadps2: motion.ramps.turnRadps2,
+    heights: { clearanceM, heightM, dropM, slope: FLOOR_SLOPE },
   };
 }
 

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { distanceFrom, radiusAt, reachOf } from './around-footprint.ts';
+import { distanceFrom, innerRadius, radiusAt, reachOf } from './around-footprint.ts';
 
 const LONG = [
   { x: 0.6, y: 0.2 },
@@ -15,6 +15,8 @@ test('a distance counts from the outline', () => {
   expect(distanceFrom(LONG, 0, -0.5)).toBeCloseTo(0.3);
   expect(distanceFrom(LONG, 0.9, 0.6)).toBeCloseTo(0.5);
 });
+
+test('the nearest side', () => expect(innerRadius(LONG)).toBeCloseTo(0.2));
 
 test('a point at a bearing and a distance from the outline is that far from it', () => {
   const bearings = fc.double({ min: -4, max: 4, noNaN: true });

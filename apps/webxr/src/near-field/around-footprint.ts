@@ -24,6 +24,16 @@ export function reachOf(outline: readonly FloorPoint[]): number {
   return Math.max(...outline.map(({ x, y }) => Math.hypot(x, y)));
 }
 
+/** Distance of a convex outline's nearest side from base_link, metres. @param outline counter-clockwise, around base_link */
+export function innerRadius(outline: readonly FloorPoint[]): number {
+  return Math.min(
+    ...outline.map((a, i) => {
+      const b = outline[(i + 1) % outline.length] as FloorPoint;
+      return (a.x * b.y - a.y * b.x) / Math.hypot(b.x - a.x, b.y - a.y);
+    }),
+  );
+}
+
 /**
  * How far from base_link a point is, metres: where a ray from base_link leaves the outline widened by a distance,
  * which is the union of its sides moved outwards and of discs at its corners.

@@ -32,6 +32,7 @@ describe('the appearance of clouds', () => {
     appearance.surface.value = true;
     appearance.memory.value = false;
     appearance.paint.value = false;
+    appearance.hazards.value = true;
     const again: StoredAppearance = parseAppearance(text);
     expect([...again.looks]).toEqual([
       ['LiDAR', { mode: 'distance', fixed: { min: 1, max: 8 } }],
@@ -44,8 +45,9 @@ describe('the appearance of clouds', () => {
       surface: true,
       memory: false,
       paint: false,
+      hazards: true,
     });
-    expect(nothing.paint).toBe(true);
+    expect(nothing).toMatchObject({ paint: true, hazards: false });
   });
 
   test('clouds are drawn as surfaces as suits the renderer, until somebody chooses', () => {

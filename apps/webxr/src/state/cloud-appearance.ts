@@ -24,6 +24,8 @@ export interface StoredAppearance {
   readonly memory: boolean | null;
   /** Whether surfaces are painted with the video of their camera, where there is one. */
   readonly paint: boolean;
+  /** Whether what the robot would hit, and missing floor, is tinted. */
+  readonly hazards: boolean;
 }
 
 /** The cloud of a robot with one sensor, which has no name. */
@@ -53,6 +55,7 @@ export class CloudAppearance {
   readonly drawsSurface: ReadonlySignal<boolean>;
   readonly memory: Signal<boolean | null>;
   readonly paint: Signal<boolean>;
+  readonly hazards: Signal<boolean>;
   /** Whether what was seen is remembered, chosen or not. */
   readonly remembers: ReadonlySignal<boolean>;
   /** Whether the flat screen shows the surroundings from above. Each visit begins with the robot's own view. */
@@ -75,14 +78,16 @@ export class CloudAppearance {
     this.drawsSurface = computed(() => this.surface.value ?? drawsFast);
     this.memory = signal(stored.memory);
     this.paint = signal(stored.paint);
+    this.hazards = signal(stored.hazards);
     this.remembers = computed(() => this.memory.value ?? drawsFast);
     let first = true;
     effect(() => {
-      const { looks, cut, cutFromAbove, headingUp, surface, memory, paint } = this;
+      const { looks, cut, cutFromAbove, headingUp, surface, memory, paint, hazards } = this;
       const now = {
         ...{ looks: looks.value, cut: cut.value },
         ...{ cutFromAbove: cutFromAbove.value, headingUp: headingUp.value },
         ...{ surface: surface.value, memory: memory.value, paint: paint.value },
+        hazards: hazards.value,
       };
       if (!first) store(now);
       first = false;
@@ -122,6 +127,7 @@ export function parseAppearance(text: string | null): StoredAppearance {
     surface: typeof record.surface === 'boolean' ? record.surface : null,
     memory: typeof record.memory === 'boolean' ? record.memory : null,
     paint: record.paint !== false,
+    hazards: record.hazards === true,
   };
 }
 

@@ -45,6 +45,8 @@ export function robotState({ link, stops, driver }: RobotClient, samples: Sample
     tellsNear: samples.of(
       () => link.phase === 'live' && link.session.telemetry?.motion?.obstacleGuard !== undefined,
     ),
+    /** Which heights matter to it; `null` if it does not say. */
+    heights: samples.of(() => link.session.welcome?.body?.heights ?? null),
     /** How fast it is, how fast it may go and why; `null` before it has said so. */
     speed: samples.of(() => {
       const { telemetry, welcome } = link.session;

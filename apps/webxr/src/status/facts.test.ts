@@ -100,7 +100,7 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
   const facts = {
     ...{ link: words, driving: words, telemetry, estopLatched: false, figures, estopAtRobot: false },
     ...{ stop: null, afterGap: 'let-go' as const, driveHand: 'right' as const, view: null },
-    ...{ speed: null, near: null },
+    ...{ speed: null, near: null, hazards: null },
   };
   const lines = wristLines({ ...facts, alarm: null, nextRobot: { id: 'b', name: 'B' } });
   expect(lines.map(({ text }) => text)).toEqual([
@@ -116,6 +116,8 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
   const aware = wristLines({ ...facts, speed, near, alarm: null, nextRobot: null });
   expect(aware.slice(1, 4).map(({ text }) => text)).toEqual(['Stationary', speed.text, near.text]);
   expect(aware).toHaveLength(8);
+  const tinted = wristLines({ ...facts, hazards: 'Red: would hit', alarm: null, nextRobot: null });
+  expect(tinted.at(-1)?.text).toBe('Red: would hit  Battery 20 %');
   const atRobot = wristLines({
     ...facts,
     alarm: null,

@@ -27,6 +27,8 @@ export interface WristFacts {
   driveHand: Hand;
   /** The view, unless it is the usual one. */
   view: string | null;
+  /** What tints mean; `null` without tints. */
+  hazards: string | null;
   /** The worst alarm and how many others there are; `null` if none is raised. */
   alarm: Words | null;
   figures: PageStats;
@@ -45,6 +47,7 @@ export function wristLines({
   nextRobot,
   driveHand,
   view,
+  hazards,
   alarm,
   figures,
 }: WristFacts): Words[] {
@@ -52,7 +55,7 @@ export function wristLines({
   const thousands = (pointsPerFrame / 1000).toFixed(1);
   const battery = telemetry?.battery;
   const hints = [
-    ...(view === null ? [] : [view]),
+    ...[view, hazards].filter((hint) => hint !== null),
     battery === undefined
       ? `Squeeze ${driveHand}: drive  B: stop`
       : `Battery ${Math.round(battery.percentage * 100)} %`,

@@ -52,6 +52,8 @@ export interface PageState {
   /** What is drawn of the navigator's path and map: number of points, and of cells that are not unknown. */
   navigation: { pathPoints: number; mapCells: number };
   vr: boolean;
+  /** Height of the grid, and how far the view from above reaches, metres. */
+  scene: { gridM: number; reachM: number };
   /** Where the view stands, REP-103 (m, rad), and whether that is a prediction. */
   view: { x: number; y: number; z: number; yaw: number } & ViewFigures;
 }

@@ -60,6 +60,7 @@ export function installTestApi(app: App): void {
         near: nearProbe(app),
         navigation: { pathPoints: stage.plan.shown, mapCells: stage.floorMap.shown },
         vr: app.vr.active.value,
+        scene: { gridM: stage.grid.object.position.y, reachM: stage.look.reach },
         view: {
           ...{ x: -stage.rig.position.z, y: -stage.rig.position.x, z: stage.rig.position.y },
           ...{ yaw: stage.rig.rotation.y, ...app.predicted.figures },

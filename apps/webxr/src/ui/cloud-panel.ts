@@ -5,11 +5,13 @@
 import type { CloudView } from '@farpoint/cloud-view';
 import { effect, type ReadonlySignal, type Signal, signal, untracked } from '@preact/signals-core';
 import { type CloudAppearance, UNNAMED } from '../state/cloud-appearance.ts';
+import type { RobotState } from '../state/robot-state.ts';
 import type { Switches } from '../state/switches.ts';
 import { colourControls } from './colour-controls.ts';
 import { keepInRoom } from './controls-room.ts';
 import { cutControls } from './cut-controls.ts';
 import { elements } from './elements.ts';
+import { hazardLegend } from './hazard-legend.ts';
 import { type Legend, legendOf } from './legend.ts';
 import { type MemoryControlsParts, memoryControls } from './memory-controls.ts';
 import { quietButton, rowOf } from './panel-parts.ts';
@@ -21,6 +23,7 @@ export interface CloudPanelParts {
   readonly sensors: Switches;
   readonly views: ReadonlySignal<readonly CloudView[]>;
   readonly memory: MemoryControlsParts;
+  readonly robot: Pick<RobotState, 'heights'>;
 }
 
 export class CloudPanel {
@@ -54,11 +57,12 @@ export class CloudPanel {
     });
     effect(() => {
       this.#legends = this.#sensors().flatMap(({ name, on, view }) => (on ? this.#legendOf(name, view) : []));
-      legends.replaceChildren(...this.#legends.map((legend) => legend.element));
+      const hazards = appearance.hazards.value ? [hazardLegend(parts.robot.heights.value)] : [];
+      legends.replaceChildren(...this.#legends.map((legend) => legend.element), ...hazards);
     });
     const ofSensors = element('');
     const drawing = [surfaceControls(appearance), memoryControls(appearance, parts.memory)];
-    const drawn = [frustaSwitch(appearance), navigationSwitch(appearance)];
+    const drawn = [hazardSwitch(appearance), frustaSwitch(appearance), navigationSwitch(appearance)];
     controls.append(ofSensors, ...drawing, cutControls(appearance), ...drawn);
     effect(() => {
       const parts = this.#names().map((name, i) =>
@@ -96,6 +100,18 @@ export class CloudPanel {
     if (mode === 'captured' || view === undefined) return [];
     return [legendOf(name === UNNAMED ? '' : `${name}: `, mode, view)];
   }
+}
+
+function hazardSwitch({ hazards }: CloudAppearance): HTMLElement {
+  const button = quietButton('', 'Tint what the robot would hit, and where its floor is missing (H)', () => {
+    hazards.value = !hazards.peek();
+  });
+  button.id = 'hazards';
+  effect(() => {
+    button.textContent = hazards.value ? 'Tinted' : 'Not tinted';
+    button.ariaPressed = String(hazards.value);
+  });
+  return rowOf('Hazards', button);
 }
 
 function frustaSwitch({ frusta }: CloudAppearance): HTMLElement {

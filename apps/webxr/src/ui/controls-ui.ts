@@ -3,6 +3,7 @@ import { LatencyError, type RobotClient } from '@farpoint/operator';
 import { effect } from '@preact/signals-core';
 import type { CloudAppearance } from '../state/cloud-appearance.ts';
 import type { PageState } from '../state/page-state.ts';
+import { hazardNotice } from '../status/hazard-words.ts';
 import { predictionWords } from '../status/view-words.ts';
 import type { PredictedView } from '../view/predicted-view.ts';
 import type { Stage } from '../view/stage.ts';
@@ -84,6 +85,9 @@ export class ControlsUi {
       case 'from-above':
         fromAbove.value = !fromAbove.peek();
         return;
+      case 'hazards':
+        this.#toggleHazards();
+        return;
       case 'enlarge':
         this.#parts.state.enlarged.next();
         return;
@@ -120,6 +124,13 @@ export class ControlsUi {
     predicted.on.value = !predicted.on.peek();
     state.notices.tell(predictionWords(predicted.on.peek()));
     state.sample();
+  }
+
+  #toggleHazards(): void {
+    const { appearance, state } = this.#parts;
+    const { hazards } = appearance;
+    hazards.value = !hazards.peek();
+    state.notices.tell(hazardNotice(hazards.peek(), state.robot.heights.peek()));
   }
 
   #nextRobot(): void {

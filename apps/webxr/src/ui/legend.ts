@@ -88,7 +88,7 @@ function legendParts() {
   return { element: figure, caption, bar, numbers, show };
 }
 
-const cssOf = (rgb: Rgb) => `rgb(${rgb.map((part) => Math.round(part * 255)).join()})`;
+export const cssOf = (rgb: Rgb) => `rgb(${rgb.map((part) => Math.round(part * 255)).join()})`;
 const GRADIENT = `linear-gradient(90deg, ${colourStops().map(cssOf).join()})`;
 /** Old points are dim. */
 const FADE = 'linear-gradient(90deg, #fff, #404040)';

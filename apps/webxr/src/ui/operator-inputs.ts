@@ -15,6 +15,7 @@ export type Action =
   | 'recentre'
   | 'view'
   | 'from-above'
+  | 'hazards'
   | 'enlarge'
   | 'dashboard'
   | 'predict'
@@ -28,6 +29,7 @@ const ACTION_KEYS: Readonly<Record<string, Action>> = {
   KeyC: 'recentre',
   KeyV: 'view',
   KeyT: 'from-above',
+  KeyH: 'hazards',
   KeyE: 'enlarge',
   KeyB: 'dashboard',
   KeyF: 'swap',

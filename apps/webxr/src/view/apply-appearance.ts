@@ -6,6 +6,7 @@ import type { Switches } from '../state/switches.ts';
 import type { RememberedWorld } from './remembered-world.ts';
 import type { SensorClouds } from './sensor-clouds.ts';
 import { SensorFrusta } from './sensor-frusta.ts';
+import { showHazards } from './show-hazards.ts';
 import type { Stage } from './stage.ts';
 
 export interface AppearanceParts {
@@ -18,7 +19,7 @@ export interface AppearanceParts {
   readonly inVr: ReadonlySignal<boolean>;
   /** Whether the headset shows the world as a model, seen from above. */
   readonly inTabletop: ReadonlySignal<boolean>;
-  readonly client: Pick<RobotClient, 'drawSurface'>;
+  readonly client: Pick<RobotClient, 'drawSurface' | 'on' | 'link'>;
   readonly remembered: Pick<RememberedWorld, 'on' | 'headingUp'>;
 }
 
@@ -42,6 +43,7 @@ export function applyAppearance(parts: AppearanceParts): void {
     const inUse = isFromAbove ? cutFromAbove.value : cut.value;
     for (const { colouring } of clouds.all.value) colouring.cut = inUse;
   });
+  showHazards({ client, clouds, appearance });
   const frusta = new SensorFrusta();
   stage.world.add(frusta.object);
   effect(() => {

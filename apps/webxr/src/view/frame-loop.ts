@@ -5,6 +5,7 @@ import type { Settings } from '../settings.ts';
 import type { PageStatistics } from '../status/page-stats.ts';
 import type { HeldClouds } from '../video/held-clouds.ts';
 import type { VideoFeed } from '../video/video-feed.ts';
+import { followScene } from './follow-scene.ts';
 import type { RememberedWorld } from './remembered-world.ts';
 import type { SensorClouds } from './sensor-clouds.ts';
 import type { Stage } from './stage.ts';
@@ -52,9 +53,10 @@ export class FrameLoop {
     this.#afterDrawing.push(act);
   }
 
-  /** Call this a few times a second. Draws less if the machine cannot keep up. */
+  /** Call this a few times a second. Draws less if the machine cannot keep up, and follows the scene that is seen. */
   govern(nowMs: number): void {
     const { client, clouds, settings, stage, stats } = this.#parts;
+    followScene(stage, clouds.all.peek());
     if (document.hidden || client.phase !== 'live') this.#governor.pause();
     else if (this.#governor.update(stats.displayFramesPerSecond, nowMs)) {
       const { scale, every } = this.#governor.step;

@@ -24,3 +24,11 @@ test('follows in steps of whole metres', () => {
   grid.centreOn(1.4, -2.6);
   expect([grid.object.position.x, grid.object.position.z]).toEqual([1, -3]);
 });
+
+test('approaches the ground’s height', () => {
+  const grid = new GroundGrid();
+  grid.approach(-1.8);
+  expect(grid.object.position.y).toBeCloseTo(-0.91);
+  for (let i = 0; i < 10; i++) grid.approach(-1.8);
+  expect(grid.object.position.y).toBeCloseTo(-1.81);
+});

@@ -7,6 +7,9 @@ const MIDDLE = 0x2a3a48;
 const OTHERS = 0x1a242e;
 /** Slightly below the floor's own points. */
 const HEIGHT_M = -0.01;
+/** Share of the way to the ground's height that one step goes, until it is as near as this, metres. */
+const APPROACH = 0.5;
+const SETTLED_M = 0.02;
 
 /** Lengths of segments, m, up to these distances from the centre, m. */
 const LENGTHS: readonly [withinM: number, lengthM: number][] = [
@@ -64,6 +67,13 @@ export class GroundGrid {
       new LineBasicMaterial({ vertexColors: true, toneMapped: false }),
     );
     this.object.position.y = HEIGHT_M;
+  }
+
+  /** Approaches the height of the ground, metres; at once if it is near. Call it a few times a second. */
+  approach(ground: number): void {
+    const { position } = this.object;
+    const off = ground + HEIGHT_M - position.y;
+    position.y += Math.abs(off) < SETTLED_M ? off : off * APPROACH;
   }
 
   centreOn(x: number, z: number): void {

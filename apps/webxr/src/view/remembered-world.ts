@@ -62,12 +62,13 @@ export class RememberedWorld {
     return { points: view.drawn, oldestS: view.oldestS };
   }
 
-  /** Call it before each rendering, after the camera was placed. @param like draws the same heights */
-  update(camera: Camera, like: Pick<MemoryView, 'cut' | 'ground'>): void {
+  /** Call it before each rendering, after the camera was placed. @param like draws the same heights, and tints the same */
+  update(camera: Camera, like: Pick<MemoryView, 'cut' | 'ground' | 'hazards'>): void {
     const view = this.#view;
     if (view === null) return;
     view.cut = like.cut;
     view.ground = like.ground;
+    view.hazards = like.hazards;
     view.update(camera);
   }
 

@@ -57,7 +57,8 @@ export class Stage {
   headingUp = true;
   readonly #marker = new RobotMarker();
   readonly #ghost = new RobotGhost();
-  readonly #grid = new GroundGrid();
+  /** On the ground that is seen. */
+  readonly grid = new GroundGrid();
   readonly #follower = new PoseFollower(FOLLOW_MS);
   readonly #topDown = new TopDownCamera();
   readonly #vignette = new Vignette();
@@ -85,7 +86,7 @@ export class Stage {
     this.world.add(this.#marker.object, this.#ghost.object, this.plan.object, this.floorMap.object);
     this.rig.add(this.camera, this.headset.front);
     this.camera.add(this.#vignette.object, this.#front.object);
-    this.scene.add(this.world, this.rig, this.#grid.object);
+    this.scene.add(this.world, this.rig, this.grid.object);
     this.rig.position.set(0, DEFAULT_EYE_M, 0);
     this.camera.rotation.order = 'YXZ';
     this.resize();
@@ -131,6 +132,7 @@ export class Stage {
     this.#follower.reset();
     this.#bodyFollower.reset();
     this.headset.align();
+    this.look.forgetExtent();
     this.#marker.object.visible = false;
     this.#ghost.hide();
   }
@@ -177,13 +179,13 @@ export class Stage {
     if (follower.started) {
       if (inVr) this.#placeHeadset(elapsed);
       else this.#placeRig();
-      this.#grid.centreOn(-follower.y, -follower.x);
+      this.grid.centreOn(-follower.y, -follower.x);
     }
     this.#vignette.show(inVr ? this.headset.darkness : 0);
     this.#front.show(inVr ? this.headset.frontSide : 0);
     const inTabletop = inVr && this.headset.view.peek() === 'tabletop';
     // The operator's own floor needs no grid.
-    this.#grid.object.visible = inTabletop || !(inVr && this.headset.passthrough);
+    this.grid.object.visible = inTabletop || !(inVr && this.headset.passthrough);
     const isSeenFromAbove = inTabletop || this.#isFromAbove;
     this.#marker.onTop = isSeenFromAbove;
     this.path.onTop = isSeenFromAbove;

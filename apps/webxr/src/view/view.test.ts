@@ -2,7 +2,16 @@ import { bodyYaw, opticalYaw, worldToThree } from '@farpoint/cloud-view';
 import fc from 'fast-check';
 import { Quaternion, Vector3 } from 'three';
 import { describe, expect, test } from 'vitest';
-import { DEFAULT_FOV, DEFAULT_REACH, Look, MAX_FOV, MAX_REACH, MIN_FOV, MIN_REACH } from './look.ts';
+import {
+  DEFAULT_DISTANCE,
+  DEFAULT_FOV,
+  DEFAULT_REACH,
+  Look,
+  MAX_FOV,
+  MAX_REACH,
+  MIN_FOV,
+  MIN_REACH,
+} from './look.ts';
 import { PoseFollower, shortestTurn } from './pose-follower.ts';
 
 /** Optical frame (z forward, x right, y down) of a level camera with the given heading, in REP-103 axes. */
@@ -128,5 +137,58 @@ describe('Look', () => {
     expect(look.fov).toBeCloseTo(66.6, 1);
     look.recentre();
     expect(look.fov).toBeCloseTo(44.4, 1);
+  });
+
+  test('fits the view from above to a cloud that reaches much farther, and to no other', () => {
+    const look = new Look();
+    look.fitExtent(null);
+    for (const usual of [0.5, 2, 6, 14]) look.fitExtent(usual);
+    expect([look.reach, look.distance]).toEqual([DEFAULT_REACH, DEFAULT_DISTANCE]);
+    look.fitExtent(20);
+    expect(look.reach).toBe(21);
+    expect(look.distance).toBeCloseTo(DEFAULT_DISTANCE * Math.sqrt(3.5));
+    // It is steady.
+    look.fitExtent(23);
+    expect(look.reach).toBe(21);
+    look.fitExtent(16.5);
+    expect(look.reach).toBe(21);
+    look.fitExtent(13);
+    expect(look.reach).toBe(13.65);
+    look.fitExtent(11);
+    expect(look.reach).toBe(DEFAULT_REACH);
+    look.fitExtent(500);
+    expect(look.reach).toBe(MAX_REACH);
+  });
+
+  test('the operator’s own zoom stays, until it is reset to what fits', () => {
+    const look = new Look();
+    look.fromAbove = true;
+    look.zoom(0.5);
+    look.fitExtent(20);
+    expect(look.reach).toBe(DEFAULT_REACH / 2);
+    look.recentre();
+    expect(look.reach).toBe(21);
+    look.fromAbove = false;
+    look.switchMode();
+    look.zoom(0.5);
+    look.fitExtent(40);
+    expect(look.distance).toBeCloseTo((DEFAULT_DISTANCE * Math.sqrt(3.5)) / 2);
+    look.recentre();
+    expect(look.distance).toBeCloseTo(DEFAULT_DISTANCE * Math.sqrt(7));
+  });
+
+  test('a view that is looked at does not zoom by itself, except when the extent becomes known', () => {
+    const look = new Look();
+    look.fromAbove = true;
+    look.fitExtent(20);
+    expect(look.reach).toBe(21);
+    look.fitExtent(50);
+    expect(look.reach).toBe(21);
+    look.forgetExtent();
+    look.fitExtent(6);
+    expect(look.reach).toBe(DEFAULT_REACH);
+    look.fromAbove = false;
+    look.fitExtent(50);
+    expect(look.reach).toBe(52.5);
   });
 });

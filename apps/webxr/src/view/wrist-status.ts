@@ -2,8 +2,10 @@
 import { effect, type ReadonlySignal } from '@preact/signals-core';
 import type { HeadsetRig } from '../headset/headset-rig.ts';
 import type { Hand } from '../headset/headset-settings.ts';
+import type { CloudAppearance } from '../state/cloud-appearance.ts';
 import type { PageState } from '../state/page-state.ts';
 import { alarmLine } from '../status/alarm-words.ts';
+import { hazardHint } from '../status/hazard-words.ts';
 import { viewFact } from '../status/headset-words.ts';
 import { nearWords } from '../status/near-words.ts';
 import { stopWords } from '../status/words.ts';
@@ -12,6 +14,7 @@ import type { WristPanel } from './wrist-panel.ts';
 
 export interface WristStatusParts {
   readonly state: PageState;
+  readonly appearance: Pick<CloudAppearance, 'hazards'>;
   readonly panel: WristPanel;
   readonly headset: Pick<HeadsetRig, 'view' | 'model'>;
   readonly driveHand: Hand;
@@ -23,6 +26,7 @@ export interface WristStatusParts {
 
 export function showOnWrist({
   state,
+  appearance,
   panel,
   headset,
   driveHand,
@@ -44,6 +48,7 @@ export function showOnWrist({
         estopAtRobot: robot.estopAtRobot.value,
         ...{ stop: stopWords[robot.stop.value], afterGap: robot.afterGap.value },
         ...{ driveHand, view: viewFact(headset.view.value, headset.model.scale) },
+        hazards: hazardHint(appearance.hazards.value, robot.heights.value),
         alarm: alarmLine(robot.alarms.value),
         figures: figures.value,
       }),
