@@ -59,6 +59,7 @@ export function installTestApi(app: App): void {
         path: app.stage.path.shown,
         near: nearProbe(app),
         navigation: { pathPoints: stage.plan.shown, mapCells: stage.floorMap.shown },
+        model: stage.figures.shown,
         vr: app.vr.active.value,
         view: {
           ...{ x: -stage.rig.position.z, y: -stage.rig.position.x, z: stage.rig.position.y },
