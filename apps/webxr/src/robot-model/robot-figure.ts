@@ -26,15 +26,18 @@ export class RobotFigure {
   set parts({ links, geometries }: FigureParts) {
     this.object.clear();
     const nodes = [this.object];
+    const draw = (node: Group, link: number) => {
+      const geometry = geometries[link];
+      if (geometry) node.add(new Mesh(geometry, this.#material));
+    };
+    draw(this.object, 0);
     this.#joints = links.map(({ parent, place, axis, moves }) => {
       const [node, position, turn] = [new Group(), new Vector3(), new Quaternion()];
       readPlace(place, position, turn);
       (nodes[parent] as Group).add(node);
+      draw(node, nodes.length);
       nodes.push(node);
       return { node, position, turn, axis: new Vector3(...axis).normalize(), slides: moves === 'slides' };
-    });
-    geometries.forEach((geometry, link) => {
-      if (geometry !== null) (nodes[link] as Group).add(new Mesh(geometry, this.#material));
     });
     this.pose([]);
   }
