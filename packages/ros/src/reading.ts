@@ -4,7 +4,7 @@ import { levelOf } from './diagnostic-board.ts';
 import { batteryDetailsSchema, diagnosticArraySchema, navSatFixSchema } from './messages.ts';
 import type { NavigationNews } from './navigation-news.ts';
 import type { TopicEntry, TopicRole } from './topic-table.ts';
-import type { JointNews, ModelNews } from './urdf/model-topic.ts';
+import type { JointNews, ModelNews } from './urdf/model-news.ts';
 
 /** As it is sent, without its age, and what else the message says. */
 export interface TopicReading extends Pick<Reading, 'topic' | 'label' | 'level' | 'values'> {

@@ -6,10 +6,10 @@ import { DEFAULT_LIDAR } from './simulated-lidar.ts';
 /** The wheels' joints, which turn as the wheels do. */
 export const SIM_WHEEL_JOINTS = { left: 'left_wheel_joint', right: 'right_wheel_joint' } as const;
 
-const { radius, trackWidth, wheelRadius } = DEFAULT_LIMITS;
+const { trackWidth, wheelRadius } = DEFAULT_LIMITS;
 const WHEEL_WIDTH = 0.04;
-/** The base stays this far inside the outline, metres. */
-const INSET = 0.015;
+/** The base is between the wheels, metres. */
+const BASE_RADIUS = trackWidth / 2 - WHEEL_WIDTH / 2 - 0.005;
 const MAST_X = 0.06;
 const CAMERA = DEFAULT_CAMERA;
 
@@ -19,6 +19,7 @@ export function simUrdf(hasLidar: boolean): string {
   return `<?xml version="1.0"?>
 <robot name="farpoint_sim">
   <material name="white"><color rgba="0.82 0.86 0.89 1"/></material>
+  <material name="grey"><color rgba="0.5 0.56 0.62 1"/></material>
   <material name="dark"><color rgba="0.16 0.19 0.23 1"/></material>
   <material name="teal"><color rgba="0.21 0.79 0.71 1"/></material>
   <material name="amber"><color rgba="0.95 0.68 0.24 1"/></material>
@@ -28,10 +29,10 @@ export function simUrdf(hasLidar: boolean): string {
     <child link="base_link"/>
   </joint>
   <link name="base_link">
-    ${visual('white', '0 0 0.14', cylinder(radius - INSET, 0.12))}
-    ${visual('dark', '0 0 0.21', cylinder(radius - INSET - 0.02, 0.02))}
-    ${visual('teal', `${radius - INSET - 0.03} 0 0.15`, box(0.08, 0.12, 0.05))}
-    ${visual('dark', `${-radius + 0.07} 0 0.04`, '<sphere radius="0.04"/>')}
+    ${visual('white', '0 0 0.14', cylinder(BASE_RADIUS, 0.12))}
+    ${visual('grey', '0 0 0.21', cylinder(BASE_RADIUS - 0.02, 0.02))}
+    ${visual('teal', `${BASE_RADIUS - 0.02} 0 0.15`, box(0.08, 0.12, 0.05))}
+    ${visual('dark', `${0.04 - BASE_RADIUS} 0 0.04`, '<sphere radius="0.04"/>')}
     ${visual('dark', `${MAST_X} 0 ${(0.22 + mastTop) / 2}`, box(0.04, 0.04, mastTop - 0.22))}
     ${visual('white', `${CAMERA.forward - 0.03} 0 ${CAMERA.up}`, box(0.05, 0.16, 0.05))}
     ${hasLidar ? visual('dark', `${MAST_X} 0 ${DEFAULT_LIDAR.up}`, cylinder(0.05, 0.08)) : ''}

@@ -21,13 +21,13 @@ import { checkVideos, cloudTrigger } from './check-videos.ts';
 import { framesPerS } from './frame-rate.ts';
 import { toObstacleGuard } from './guard.ts';
 import { toGuardTopics } from './guard-topics.ts';
-import { toModel } from './model.ts';
 import { toMotion } from './motion.ts';
 import { readText } from './read-text.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { rosKindOf } from './ros-kind.ts';
 import { stateFolder } from './state.ts';
 import { toFence } from './to-fence.ts';
+import { toModel } from './to-model.ts';
 import { toReturn } from './to-return.ts';
 import { toStops } from './to-stops.ts';
 

@@ -16,8 +16,11 @@ import {
 import { figureParts } from './figure-parts.ts';
 import { RobotFigure } from './robot-figure.ts';
 
-/** As the outline of the ghost. */
-const GHOST = { color: 0xc9b8ff, transparent: true, opacity: 0.3, depthWrite: false };
+/** In the colour of the ghost's outline, and behind what it coincides with. */
+const GHOST = {
+  ...{ color: 0xc9b8ff, transparent: true, opacity: 0.3, depthWrite: false },
+  ...{ polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 8 },
+};
 /** Eyes that are nearer to the model than this see into it, metres. */
 const NEAR_M = 0.1;
 

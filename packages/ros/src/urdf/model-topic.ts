@@ -3,14 +3,9 @@ import { jointStateSchema, MOST_JOINTS, stringSchema } from '../messages.ts';
 import { RateLimit } from '../rate-limit.ts';
 import { shortened, type TopicReading } from '../reading.ts';
 import type { TopicEntry } from '../topic-table.ts';
-import { type RobotModel, readUrdf } from './read-urdf.ts';
+import type { ModelNews } from './model-news.ts';
+import { readUrdf } from './read-urdf.ts';
 import { UrdfFault } from './urdf-fault.ts';
-
-/** What a description says: a model, or why there is none. */
-export type ModelNews = { kind: 'model'; model: RobotModel } | { kind: 'refused'; fault: UrdfFault };
-
-/** Where joints are, by their names: radians or metres. */
-export type JointNews = readonly (readonly [name: string, position: number])[];
 
 const NO_WORDS = { level: 'ok', values: [] as TopicReading['values'] } as const;
 const LABEL = 'Model';

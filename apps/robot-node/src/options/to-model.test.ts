@@ -2,8 +2,8 @@ import { mkdtempSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { expect, test } from 'vitest';
-import { toModel } from './model.ts';
 import type { RobotOptionValues } from './robot-program.ts';
+import { toModel } from './to-model.ts';
 
 const SMALL =
   '<robot name="r"><link name="a"><visual><geometry><sphere radius="1"/></geometry></visual></link></robot>';
