@@ -1,4 +1,5 @@
 import type { AfterGap, DriveLimits, IceServer, Quantity } from '@farpoint/protocol';
+import type { TopicReading } from '@farpoint/ros';
 import type { EstopReleasePolicy, TakePolicy } from '@farpoint/safety';
 import type { RobotAuditOptions } from './audit/open-robot-audit.ts';
 import type { BaseOptions } from './base/base-messages.ts';
@@ -52,6 +53,8 @@ export interface RobotOptions extends RateControlOptions {
   quantities: readonly Quantity[];
   /** Limits beyond which a value is an alarm. */
   alarms: readonly AlarmRule[];
+  /** The model that operators see, as far as no topic tells it. */
+  model?: TopicReading | undefined;
   takePolicy: TakePolicy;
   /** Who may release what an operator has latched. */
   estopRelease: EstopReleasePolicy;

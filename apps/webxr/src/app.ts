@@ -13,6 +13,7 @@ import type { HeadsetControls } from './headset/headset-controls.ts';
 import { openHeadset } from './headset/open-headset.ts';
 import { PanelPlacements } from './panels/panel-placements.ts';
 import { loadPlacements, storePlacements } from './panels/stored-panels.ts';
+import { showRobotModel } from './robot-model/show-robot-model.ts';
 import type { Settings } from './settings.ts';
 import { tokenOrigin } from './signaling-tokens.ts';
 import { SoundPlayer } from './sound/sound-player.ts';
@@ -202,6 +203,7 @@ export class App {
       if (this.#left.tick(this.vr.active.value ? this.vr.hidden : document.hidden, nowMs))
         driver.letGo(nowMs);
       this.client.tick(performance.now());
+      showRobotModel(this.client, this.stage, this.appearance);
       showDrivePath(this.client, this.stage);
       showNavigation(this.client, this.stage, this.appearance, nowMs);
       this.near.tick(nowMs);

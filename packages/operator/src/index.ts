@@ -26,6 +26,9 @@ export type {
   LeaseState,
   MapTiles,
   MicrophoneState,
+  ModelLink,
+  ModelPlace,
+  ModelShape,
   NearField,
   NearKind,
   NearSector,
@@ -117,6 +120,7 @@ export type { MapPlace, NavigatorMap } from './session/navigator-map.ts';
 export type { NavigatorPath } from './session/navigator-path.ts';
 export type { NearSurroundings } from './session/near-surroundings.ts';
 export { type AgedReading, Readings } from './session/readings.ts';
+export { RobotModel } from './session/robot-model.ts';
 export type { RobotSession } from './session/robot-session.ts';
 export type { SessionPhase } from './session/session-keeper.ts';
 export { finalLosses, lossOf, type SessionLoss } from './session/session-loss.ts';

@@ -60,6 +60,18 @@ export * from './reference-bridge.ts';
 export * from './reference-control.ts';
 export * from './return-state.ts';
 export type { BodyHeights, RobotBody } from './robot-body.ts';
+export {
+  type JointPositions,
+  MAX_JOINT_POSITION,
+  MAX_MODEL_LINKS,
+  MAX_MODEL_M,
+  MAX_MODEL_SHAPES,
+  type ModelLink,
+  type ModelPart,
+  type ModelPlace,
+  type ModelShape,
+  type RobotModelParts,
+} from './robot-model.ts';
 export * from './role.ts';
 export { MAX_RINGS, type SensorRings } from './sensor-rings.ts';
 export * from './sequence.ts';

@@ -9,6 +9,7 @@ import { MAX_CAMERAS } from './picture-chunk.ts';
 import { MAX_SENSORS } from './placement.ts';
 import { operatorsSchema } from './present-operators.ts';
 import { quantitySchema } from './quantity.ts';
+import { robotModelSchema } from './robot-model.ts';
 import { roles } from './role.ts';
 import { sensorRingsSchema, sensorSchema } from './sensor-rings.ts';
 import { afterGapChoices, faultReasons, type RobotSessionMessage } from './session-messages.ts';
@@ -145,6 +146,7 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
       ),
     }),
     sensorRingsSchema,
+    robotModelSchema,
     quantitySchema,
     alarmSchema,
     z.strictObject({ type: z.literal('expires'), inS: secondsSchema }),

@@ -7,6 +7,7 @@ import type { CommandRejection } from './control.ts';
 import type { Operators } from './present-operators.ts';
 import type { Quantity } from './quantity.ts';
 import type { RobotBody } from './robot-body.ts';
+import type { RobotModelParts } from './robot-model.ts';
 import type { Role } from './role.ts';
 import type { SensorRings } from './sensor-rings.ts';
 import type { MicrophoneState, VoiceState } from './sound-media.ts';
@@ -255,6 +256,7 @@ export type RobotSessionMessage =
   | SensorRings
   | Videos
   | Sound
+  | RobotModelParts
   | Quantity
   | Alarm
   | GrantExpires

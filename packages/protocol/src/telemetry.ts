@@ -1,6 +1,6 @@
 /**
  * The `telemetry` channel, opened by the robot, unordered, with a short lifetime: the robot's state, 20 times per
- * second, what is near it, samples of quantities, readings, diagnostics, its navigator's path and its map.
+ * second, what is near it, samples of quantities, readings, diagnostics, its navigator's path and its map, its joints.
  */
 import * as z from 'zod/mini';
 import { type Diagnostics, diagnosticsSchema } from './diagnostics.ts';
@@ -13,6 +13,7 @@ import { type NearField, nearFieldSchema } from './near-field.ts';
 import { type PlannedPath, plannedPathSchema } from './planned-path.ts';
 import { type Samples, samplesSchema } from './quantity.ts';
 import { type Reading, readingSchema } from './reading.ts';
+import { type JointPositions, jointPositionsSchema } from './robot-model.ts';
 
 /** Whether the robot is driving, and if not, why. */
 export const driveStates = [
@@ -107,7 +108,8 @@ export type TelemetryMessage =
   | Samples
   | Diagnostics
   | PlannedPath
-  | MapTiles;
+  | MapTiles
+  | JointPositions;
 
 const telemetrySchema = z.strictObject({
   type: z.literal('telemetry'),
@@ -150,6 +152,7 @@ export const telemetryCodec: JsonCodec<TelemetryMessage> = {
     diagnosticsSchema,
     plannedPathSchema,
     mapTilesSchema,
+    jointPositionsSchema,
   ]),
   maxBytes: 4096,
 };

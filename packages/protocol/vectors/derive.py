@@ -647,6 +647,22 @@ robot_session.spoil(videos, ("videos", ABSENT), ("videos", [{"name": "x", "mid":
                     ("videos.1.fault", "x" * 257), ("videos.1.extra", 1, "videos.1"))
 robot_session.spoil(of_sensor, ("videos.0.ofSensor", 8), ("videos.0.ofSensor", -1), ("videos.0.ofSensor", 0.5), ("videos.0.ofSensor", "0"))
 robot_session.spoil(fault, ("message", "x" * 513), ("message", 1), ("reason", "because"))
+LEVEL = [0, 0, 0, 1]
+model = robot_session.good({"type": "robotModel", "number": 2, "count": 6, "at": 0, "parts": [
+    {"part": "link", "parent": 0, "place": [0.1, 0.2, 0.05] + LEVEL, "moves": "turns", "axis": [0, 1, 0]},
+    {"part": "link", "parent": 1, "place": [0, 0, 0.3, 0, 0, 0.7071, 0.7071], "moves": "slides", "axis": [0.6, 0, -0.8]},
+    {"part": "shape", "link": 0, "place": [0, 0, 0.1] + LEVEL, "form": "box", "size": [0.4, 0.3, 0.1], "colour": 3360153},
+    {"part": "shape", "link": 1, "place": [0, 0, 0, 0.7071, 0, 0, 0.7071], "form": "cylinder", "size": [0.05, 0.04], "colour": 0},
+    {"part": "shape", "link": 2, "place": [0, 0, 0] + LEVEL, "form": "sphere", "size": [0.02], "colour": 16777215}]})
+robot_session.good({**model, "at": 5, "parts": [model["parts"][2]]}, "robotModel: its last part")
+robot_session.good({**model, "count": 0, "parts": []}, "robotModel: there is none any more")
+robot_session.spoil(model, ("number", -1), ("number", 2 ** 32), ("count", 641), ("count", -1), ("count", 4, "parts"), ("count", ABSENT), ("at", -1), ("at", 2, "parts"),
+                    ("parts", ABSENT), ("parts", [model["parts"][2]] * 33), ("parts.0.part", "joint"), ("parts.0.parent", -1), ("parts.0.parent", 128),
+                    ("parts.0.place", [0, 0, 0]), ("parts.0.place", [0, 0, 0, 0, 0, 0, 0]), ("parts.0.place", [100.5, 0, 0] + LEVEL, "parts.0.place.0"),
+                    ("parts.0.place", [0, 0, None] + LEVEL, "parts.0.place.2"), ("parts.0.moves", "floats"), ("parts.0.axis", [0, 0, 0]), ("parts.0.axis", [0, 1]),
+                    ("parts.0.axis", ABSENT), ("parts.0.name", "wheel", "parts.0"), ("parts.2.link", 129), ("parts.2.link", 0.5), ("parts.2.form", "mesh"),
+                    ("parts.2.size", [1, 1]), ("parts.2.size", [1, 1, 0], "parts.2.size.2"), ("parts.2.size", [1, 1, 101], "parts.2.size.2"), ("parts.3.size", [1]),
+                    ("parts.4.size", []), ("parts.2.colour", 16777216), ("parts.2.colour", "red"), ("parts.2.mesh", "a.stl", "parts.2"), ("scale", 1, ""))
 write("robot-session.json", robot_session.lists())
 
 operator_session = Messages()
@@ -774,6 +790,10 @@ telemetry.spoil(room, ("topic", ""), ("number", -1), ("number", 2 ** 32), ("time
                 ("tiles", [[3, runs((0, 9))]], "tiles"), ("tiles", [[3, ""]], "tiles"), ("tiles", [[3, "BQ="]], "tiles"), ("tiles", [[3, "**=="]], "tiles"),
                 ("tiles", [[3, 7]], "tiles.0.1"), ("tiles", [[3]], "tiles.0"), ("tiles", [[3, runs((0, 8))]] * 65), ("tiles", [[0, "A" * 1372]], "tiles.0.1"),
                 ("cells", 1320, ""))
+joints = telemetry.good({"type": "joints", "model": 2, "timeMs": 88131.25, "ageMs": 12, "positions": [-1.57, 0.25]})
+telemetry.good(changed(joints, "positions", [-1000, 1000] * 64), "joints: the most")
+telemetry.spoil(joints, ("model", -1), ("model", ABSENT), ("timeMs", -1), ("ageMs", ABSENT), ("positions", ABSENT), ("positions", [0] * 129), ("positions", [None], "positions.0"),
+                ("positions", [1000.5], "positions.0"), ("positions", ["0"], "positions.0"), ("names", [], ""))
 reading = telemetry.good({"type": "reading", "topic": "/battery", "label": "Battery", "level": "ok",
                           "values": [["", "87 %"], ["", "25.1 V"], ["cells", "[4.1, 4.2]"]], "ageMs": 120})
 telemetry.good(changed(reading, "values", []), "reading without values")

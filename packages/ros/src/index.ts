@@ -73,5 +73,10 @@ export {
   topicTableSchema,
 } from './topic-table.ts';
 export { TransformTree } from './transform-tree.ts';
+export type { JointSource } from './urdf/joint-sources.ts';
+export type { JointNews, ModelNews } from './urdf/model-news.ts';
+export { ModelTopic, modelReading, newsOf } from './urdf/model-topic.ts';
+export { type RobotModel, readUrdf } from './urdf/read-urdf.ts';
+export { UrdfFault, type UrdfFaultCode, urdfFaultCodes } from './urdf/urdf-fault.ts';
 export { type VelocityWriter, velocityWriter } from './velocity.ts';
 export { type TypedTopic, WorldState } from './world-state.ts';

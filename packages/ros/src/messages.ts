@@ -69,6 +69,17 @@ export const laserScanSchema = z
   });
 export type LaserScan = z.infer<typeof laserScanSchema>;
 
+/** More than any robot has. */
+export const MOST_JOINTS = 1024;
+
+/** Joint states come in parts, from several nodes; joints without a position are no news. */
+export const jointStateSchema = z.object({
+  name: z.array(z.string().max(200)).max(MOST_JOINTS),
+  position: z.union([z.instanceof(Float64Array), z.array(number).max(MOST_JOINTS)]),
+});
+
+export const stringSchema = z.object({ data: z.string() });
+
 export const tfMessageSchema = z.object({
   transforms: z
     .array(

@@ -4,6 +4,7 @@ import { levelOf } from './diagnostic-board.ts';
 import { batteryDetailsSchema, diagnosticArraySchema, navSatFixSchema } from './messages.ts';
 import type { NavigationNews } from './navigation-news.ts';
 import type { TopicEntry, TopicRole } from './topic-table.ts';
+import type { JointNews, ModelNews } from './urdf/model-news.ts';
 
 /** As it is sent, without its age, and what else the message says. */
 export interface TopicReading extends Pick<Reading, 'topic' | 'label' | 'level' | 'values'> {
@@ -13,6 +14,10 @@ export interface TopicReading extends Pick<Reading, 'topic' | 'label' | 'level' 
   components?: readonly DiagnosticReport[];
   /** The path or the map, if it is a topic of one. */
   navigation?: NavigationNews;
+  /** The robot's model, if it is a topic of one. */
+  model?: ModelNews;
+  /** Where joints are, if it is a topic of that. */
+  joints?: JointNews;
 }
 
 const { values: MOST_VALUES, label: MOST_LABEL, name: MOST_NAME, text: MOST_TEXT } = READING_LIMITS;

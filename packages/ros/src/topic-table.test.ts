@@ -47,6 +47,17 @@ describe('topic table', () => {
     expect(qosOf(map!)).toEqual({ reliability: 'reliable', durability: 'transient-local', depth: 1 });
   });
 
+  it('hears a description that was published once, and joints from any number of topics', () => {
+    const [model, joints] = topicTableSchema.parse([
+      { topic: '/robot_description', as: 'model' },
+      { topic: '/joint_states', as: 'joints' },
+      { topic: '/arm/joint_states', as: 'joints' },
+    ]);
+    expect(model).toMatchObject({ type: 'std_msgs/msg/String', most: 1 });
+    expect(qosOf(model!)).toEqual({ reliability: 'reliable', durability: 'transient-local', depth: 1 });
+    expect(joints).toMatchObject({ type: 'sensor_msgs/msg/JointState', most: 20 });
+  });
+
   it.each([
     [
       'compressed depth as a picture',

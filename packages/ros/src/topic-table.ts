@@ -32,6 +32,10 @@ export const TOPIC_ROLES = {
   path: ['nav_msgs/msg/Path'],
   /** What is free and what is occupied. */
   map: ['nav_msgs/msg/OccupancyGrid'],
+  /** The robot's description: URDF. */
+  model: ['std_msgs/msg/String'],
+  /** Where the joints of the description are. */
+  joints: ['sensor_msgs/msg/JointState'],
   /** Any type: its values as text. */
   text: [],
   /** Published: the velocity for the wheels. */
@@ -44,7 +48,7 @@ const roles = Object.keys(TOPIC_ROLES) as [TopicRole, ...TopicRole[]];
 /** Messages per second that are read of what is shown to people, unless the table says otherwise; others have no limit. */
 const MOST_TOLD: Partial<Record<TopicRole, number>> = {
   ...{ battery: 1, fix: 1, diagnostics: 1, text: 1 },
-  ...{ path: 5, map: 1 },
+  ...{ path: 5, map: 1, model: 1, joints: 20 },
 };
 const MOST_TOPICS = 64;
 /** Suffix of image_transport's topics, and their type. */
@@ -168,6 +172,7 @@ const SINGLE: readonly TopicRole[] = [
   'battery',
   'path',
   'map',
+  'model',
   'velocity',
 ];
 
@@ -219,7 +224,7 @@ export function qosOf({ topic, as, qos }: TopicEntry): Qos {
   if (qos !== undefined) return qos;
   if (as === 'velocity') return VELOCITY_QOS;
   // Published once, for those who come later, too.
-  if (as === 'map') return { ...LATCHED_QOS, depth: 1 };
+  if (as === 'map' || as === 'model') return { ...LATCHED_QOS, depth: 1 };
   if (as !== 'tf') return SENSOR_QOS;
   return topic.endsWith(STATIC_SUFFIX) ? LATCHED_QOS : { ...RELIABLE_QOS, depth: 100 };
 }

@@ -11,6 +11,7 @@ export { DEFAULT_LIMITS, type RobotLimits } from './drive.ts';
 export { SimulationError, type SimulationErrorCode } from './errors.ts';
 export { type FloorPlan, floorPlan, WaysTo } from './floor-plan.ts';
 export { type EarthOrigin, earthPlace } from './gnss.ts';
+export { SIM_WHEEL_JOINTS, simUrdf } from './robot-urdf.ts';
 export { type BaseState, SimulatedBase, TIME_STEP } from './simulated-base.ts';
 export { type CloudFrame, type RenderOptions, SimulatedCamera } from './simulated-camera.ts';
 export { DEFAULT_LIDAR, type LidarOptions, type LidarTurn, SimulatedLidar } from './simulated-lidar.ts';

@@ -29,8 +29,8 @@ export interface BaseReport {
   state: TimedBaseState;
   /** How often the watchdog has stopped the base. */
   watchdogStops: number;
-  /** What the components say about themselves, and the position by satellite; once a second. */
+  /** What its topics say: the joints 20 times a second, the components and the position by satellite once. */
   readings?: TopicReading[];
-  /** The numbers of the motors' topic; with the readings. */
+  /** The numbers of the motors' topic; once a second. */
   motors?: readonly (number | null)[];
 }

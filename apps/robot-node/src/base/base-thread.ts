@@ -16,7 +16,7 @@ export class BaseThread implements VelocitySink {
   /** Simulated sensors read the world from here. */
   readonly snapshot = makeSharedSnapshot(officeWorld().movers.length);
   onState: ((state: TimedBaseState) => void) | null = null;
-  /** Called once a second with what the topics say, and the numbers of the motors' topic. */
+  /** Called with what the topics say, and the numbers of the motors' topic. */
   onReadings: ((readings: readonly TopicReading[], motors: readonly (number | null)[]) => void) | null = null;
   /** Called once if the thread ends unexpectedly. */
   onFailure: ((error: Error) => void) | null = null;

@@ -1,20 +1,28 @@
 /** The simulated base's thread. It stops the wheels by itself when the main thread hangs. */
 import { parentPort, workerData } from 'node:worker_threads';
-import { numbersOf } from '@farpoint/ros';
-import { componentStates, earthPlace, officeWorld, SimulatedBase, withThings } from '@farpoint/sim';
+import { ModelTopic, numbersOf, type TopicReading } from '@farpoint/ros';
+import {
+  componentStates,
+  earthPlace,
+  officeWorld,
+  SIM_WHEEL_JOINTS,
+  SimulatedBase,
+  withThings,
+} from '@farpoint/sim';
 import { ReadingTopic } from '../capture/reading-topic.ts';
 import { monotonicMs } from '../clock.ts';
 import type { BaseReport, BaseRequest, BaseWorkerData } from './base-messages.ts';
 import { RealTimeBase } from './real-time-base.ts';
 import { SnapshotWriter } from './shared-snapshot.ts';
 import { SimNavigation } from './sim-navigation.ts';
-import { SIM_DIAGNOSTICS, SIM_FIX, SIM_MOTORS } from './sim-topics.ts';
+import { SIM_DIAGNOSTICS, SIM_FIX, SIM_JOINTS, SIM_MOTORS } from './sim-topics.ts';
 import { Wheels } from './wheels.ts';
 
 /** Maximum age of the world that the sensors see. */
 const TICK_MS = 4;
 const REPORT_MS = 20;
 const COMPONENTS_MS = 1000;
+const JOINTS_MS = 50;
 /** A receiver with corrections from the ground: centimetres. */
 const GNSS = {
   status: { status: 2, service: 1 },
@@ -33,8 +41,10 @@ const wheels = new Wheels(base, watchdogMs);
 const writer = new SnapshotWriter(snapshot);
 const diagnostics = new ReadingTopic(SIM_DIAGNOSTICS);
 const fix = origin === null ? null : new ReadingTopic(SIM_FIX);
+const joints = new ModelTopic(SIM_JOINTS);
 let reportedMs = Number.NEGATIVE_INFINITY;
 let toldComponentsMs = Number.NEGATIVE_INFINITY;
+let toldJointsMs = Number.NEGATIVE_INFINITY;
 
 function tick(): void {
   const now = monotonicMs();
@@ -43,19 +53,32 @@ function tick(): void {
   if (now - reportedMs < REPORT_MS) return;
   reportedMs = now;
   const report: BaseReport = { state: { ...base.state, timeMs: now }, watchdogStops: wheels.stops };
+  const told: (TopicReading | null)[] = [];
+  if (now - toldJointsMs >= JOINTS_MS) {
+    toldJointsMs = now;
+    told.push(wheelJoints(now));
+  }
   if (now - toldComponentsMs >= COMPONENTS_MS) {
     toldComponentsMs = now;
     const { state } = base.simulated;
     const header = { stamp: { sec: 0, nanosec: 0 }, frame_id: '' };
     const { x, y } = state.pose.position;
-    report.readings = [
+    told.push(
       diagnostics.take({ header, status: componentStates(state) }, now),
       origin === null ? null : (fix?.take({ ...GNSS, header, ...earthPlace(origin, x, y) }, now) ?? null),
       ...(navigator?.readings(state.pose, now) ?? []),
-    ].filter((reading) => reading !== null);
+    );
     report.motors = numbersOf(SIM_MOTORS, state.motorCelsius);
   }
+  const readings = told.filter((reading) => reading !== null);
+  if (readings.length > 0) report.readings = readings;
   port?.postMessage(report);
+}
+
+function wheelJoints(nowMs: number): TopicReading | null {
+  const { left, right } = base.simulated.state.wheelAngles;
+  const name = [SIM_WHEEL_JOINTS.left, SIM_WHEEL_JOINTS.right];
+  return joints.take({ name, position: [left, right] }, nowMs);
 }
 
 tick();

@@ -17,10 +17,12 @@ const entries = topicTableSchema.parse([
   { topic: FIX_TOPIC, as: 'fix' },
   { topic: '/map', as: 'map' },
   { topic: '/plan', as: 'path' },
+  { topic: '/joint_states', as: 'joints' },
 ]);
 type Entry = (typeof entries)[number];
 /** The fix only where the world has a place on the earth; map and plan only where they are asked for. */
-export const [SIM_DIAGNOSTICS, SIM_MOTORS, SIM_FIX, SIM_MAP, SIM_PLAN] = entries as [
+export const [SIM_DIAGNOSTICS, SIM_MOTORS, SIM_FIX, SIM_MAP, SIM_PLAN, SIM_JOINTS] = entries as [
+  Entry,
   Entry,
   Entry,
   Entry,

@@ -261,6 +261,49 @@ describe('RosSource', () => {
     });
   });
 
+  it.each([1, 2] as const)(
+    'tells a description of ROS %i that came before anybody listened, and its joints',
+    async (version) => {
+      const table = [
+        { topic: '/points', as: 'cloud' },
+        { topic: '/robot_description', as: 'model' },
+        { topic: '/joint_states', as: 'joints' },
+      ];
+      const states = (name: string[], position: number[]) => ({
+        ...{ header: headerAt(0, ''), name, velocity: [], effort: [] },
+        position: Float64Array.from(position),
+      });
+      const JOINTS = 'sensor_msgs/msg/JointState';
+      const { graph, source, readings, faults, pass } = await setUp(
+        table,
+        (g) => {
+          g.say('/robot_description', 'std_msgs/msg/String', {
+            data: '<robot name="r"><link name="a"/></robot>',
+          });
+          g.say('/points', CLOUD, cloudOf(0, 3, 1));
+        },
+        { version },
+      );
+      source.start();
+      expect(readings).toMatchObject([{ topic: '/robot_description', model: { kind: 'model' } }]);
+      graph.say('/joint_states', JOINTS, states(['a'], [1]));
+      graph.say('/joint_states', JOINTS, states(['b'], [2]));
+      pass(50);
+      graph.say('/joint_states', JOINTS, states(['a'], [3]));
+      expect(readings.slice(1)).toMatchObject([
+        { joints: [['a', 1]] },
+        {
+          joints: [
+            ['a', 3],
+            ['b', 2],
+          ],
+        },
+      ]);
+      expect(faults).toEqual([]);
+      source.close();
+    },
+  );
+
   describe.each([1, 2] as const)('a navigator of ROS %i', (version) => {
     const table = [
       { topic: '/points', as: 'cloud' },

@@ -2,6 +2,7 @@
 
 import {
   type CloudAxes,
+  ModelTopic,
   NavigationTopic,
   RateLimit,
   RosFault,
@@ -41,6 +42,7 @@ export interface RosSourceOptions {
 /** Number of state messages that may wait in the graph. */
 const STATE_QUEUE = 100;
 const STATE_ROLES = ['pose', 'tf', 'battery'];
+const SPOKEN = [ReadingTopic, NavigationTopic, ModelTopic];
 /** How often a path or a map whose frame was unknown is tried again, times a second. */
 const RETRIES = 2;
 
@@ -186,7 +188,7 @@ class StateTopics {
   readonly #listeners: Listener[];
   readonly #navigation: NavigationTopic[] = [];
   readonly #retries = new RateLimit(RETRIES);
-  /** What navigators' topics said before {@link start}: a map may come once only. */
+  /** What {@link #tell} was given before {@link start}. */
   #early: Map<string, TopicReading> | null = new Map();
 
   constructor(graph: RosGraph, topics: TopicTable, clock: RosClock) {
@@ -214,13 +216,16 @@ class StateTopics {
     const reading = ReadingTopic.is(entry) ? new ReadingTopic(entry) : null;
     const navigation = NavigationTopic.is(entry) ? new NavigationTopic(entry) : null;
     if (navigation !== null) this.#navigation.push(navigation);
-    const limited = reading?.readsAll !== true;
+    const model = ModelTopic.is(entry) ? new ModelTopic(entry) : null;
+    const limited = reading?.readsAll !== true && as !== 'joints';
     return listen(graph, entry, { queue: STATE_QUEUE, limited, onFault }, (message) => {
       if (STATE_ROLES.includes(as)) this.world.take({ name, type }, message);
       if (as === poseRole) this.measuredMs = clock.now();
       const told = reading?.take(message, clock.now()) ?? null;
       if (told !== null) this.onReading?.(told);
-      if (navigation !== null) this.#tellNavigation(navigation.take(message, this.#framePose));
+      const shown = model?.take(message, clock.now()) ?? null;
+      if (shown !== null) this.#tell(shown);
+      if (navigation !== null) this.#tell(navigation.take(message, this.#framePose));
       else if (as === 'tf' || as === 'pose') this.#retryNavigation(clock.now());
     });
   }
@@ -231,18 +236,19 @@ class StateTopics {
     if (!this.#navigation.some(({ waits }) => waits) || !this.#retries.admits(nowMs)) return;
     for (const topic of this.#navigation) {
       const told = topic.retry(this.#framePose);
-      if (told !== null) this.#tellNavigation(told);
+      if (told !== null) this.#tell(told);
     }
   }
 
-  #tellNavigation(reading: TopicReading): void {
+  /** What may come once only: it is kept until {@link start}. */
+  #tell(reading: TopicReading): void {
     if (this.#early === null) this.onReading?.(reading);
     else this.#early.set(reading.topic, reading);
   }
 }
 
 function isHeard(entry: TopicEntry): boolean {
-  return STATE_ROLES.includes(entry.as) || ReadingTopic.is(entry) || NavigationTopic.is(entry);
+  return STATE_ROLES.includes(entry.as) || SPOKEN.some((kind) => kind.is(entry));
 }
 
 /** @throws {RosFault} if the table has no clouds */

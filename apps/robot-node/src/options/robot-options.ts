@@ -27,6 +27,7 @@ import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { rosKindOf } from './ros-kind.ts';
 import { stateFolder } from './state.ts';
 import { toFence } from './to-fence.ts';
+import { toModel } from './to-model.ts';
 import { toReturn } from './to-return.ts';
 import { toStops } from './to-stops.ts';
 
@@ -52,6 +53,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   const broadcast = toBroadcast(values, ca, refuse);
   const motion = toMotion(values, refuse);
   const fence = toFence(values, refuse);
+  const model = toModel(values, refuse);
   const returns = toReturn(values, refuse, (kind) => toGraph(values, kind));
   if (mistakes.length > 0) throw new OptionsError(mistakes);
   const folder = stateFolder(values.stateDir, process.env);
@@ -91,7 +93,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     takePolicy: values.takePolicy,
     estopRelease: values.estopRelease,
     afterGap: values.afterGap,
-    ...{ fence, returns },
+    ...{ fence, returns, model },
     stops: toStops(values, (kind) => toGraph(values, kind)),
     stateFolder: folder,
     referenceSignaling: values.referenceSignaling ?? undefined,

@@ -12,6 +12,7 @@ import { guardTopicsOptions } from './guard-topics.ts';
 import { identityOptions } from './identity.ts';
 import { limitsOptions } from './limits.ts';
 import { measurementOptions } from './measurement.ts';
+import { modelOptions } from './model.ts';
 import { motionOptions } from './motion.ts';
 import { networkOptions } from './network.ts';
 import { picturesOptions } from './pictures.ts';
@@ -42,6 +43,7 @@ const options = {
   ...simOptions,
   ...sinkOptions,
   ...topicsOptions,
+  ...modelOptions,
   ...alarmsOptions,
   ...rosOptions,
   ...limitsOptions,

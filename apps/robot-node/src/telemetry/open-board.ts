@@ -1,6 +1,7 @@
 import { MAX_ALARMS, MAX_QUANTITIES } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
 import type { Capture } from '../capture/capture.ts';
+import { monotonicMs } from '../clock.ts';
 import type { RobotOptions } from '../robot-configuration.ts';
 import { NO_PLAYED_TELEMETRY, type PlayedTelemetry } from './played-telemetry.ts';
 import type { SessionRecording } from './session-recording.ts';
@@ -8,7 +9,7 @@ import { TelemetryBoard } from './telemetry-board.ts';
 
 /** The board of what the robot tells about itself, with what its source plays, and recorded if anything is. */
 export function openBoard(
-  { quantities, alarms }: Pick<RobotOptions, 'quantities' | 'alarms'>,
+  { quantities, alarms, model }: Pick<RobotOptions, 'quantities' | 'alarms' | 'model'>,
   capture: Pick<Capture, 'description' | 'onTelemetry'>,
   recording: Pick<SessionRecording, 'telemetryTaker'> | null,
   log: Logger,
@@ -25,6 +26,7 @@ export function openBoard(
       'the recording has more quantities or alarms than can be shown: the last are left out',
     );
   const board = new TelemetryBoard(quantities, alarms, shown);
+  if (model !== undefined) board.take(model, monotonicMs());
   capture.onTelemetry = (message) => board.play(message);
   const watched = [...alarms, ...shown.alarms].map(({ watches, label }) => ({ watches, label }));
   board.taker = recording?.telemetryTaker(board.quantities, watched) ?? null;

@@ -1,9 +1,10 @@
-/** Everything that the robot tells about itself besides its state: readings, samples, components' reports, alarms, path, map. */
+/** Everything that the robot tells about itself besides its state: readings, samples, components' reports, alarms, path, map, model. */
 import type { Alarm, Quantity } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 import type { TimedBaseState } from '../base/base.ts';
 import { AlarmBoard, type AlarmRule } from './alarms/alarm-board.ts';
 import { ComponentBoard } from './component-board.ts';
+import { ModelBoard } from './model-board.ts';
 import { NavigationBoard } from './navigation-board.ts';
 import { NO_PLAYED_TELEMETRY, type PlayedMessage, type PlayedTelemetry } from './played-telemetry.ts';
 import { ReadingBoard } from './reading-board.ts';
@@ -31,6 +32,7 @@ export class TelemetryBoard {
   readonly readings = new ReadingBoard();
   readonly components = new ComponentBoard();
   readonly navigation = new NavigationBoard();
+  readonly model = new ModelBoard();
   readonly samples: SampleBoard;
   readonly alarms: AlarmBoard;
   /** The robot's own, then those of the recording that it plays. */
@@ -64,6 +66,10 @@ export class TelemetryBoard {
 
   /** Takes what a topic says. */
   take(reading: TopicReading, nowMs: number): void {
+    if (reading.model !== undefined || reading.joints !== undefined) {
+      this.model.take(reading, nowMs);
+      return;
+    }
     this.readings.add(reading, nowMs);
     if (reading.numbers !== undefined) this.sample(reading.topic, reading.numbers, nowMs);
     const { topic, components, navigation } = reading;

@@ -30,7 +30,7 @@ export interface Surroundings {
 
 /**
  * Sends each operator the robot's state, what is near it, statistics of its stream, samples of quantities, alarms,
- * components' reports, up to five readings a second, and the navigator's path and map. Call `send` 20 times a second.
+ * components' reports, up to five readings a second, the navigator's path and map, and its model and joints. Call `send` 20 times a second.
  */
 export class TelemetrySender {
   readonly #operators: ReadonlyMap<string, OperatorSession>;
@@ -65,7 +65,8 @@ export class TelemetrySender {
     // Readings go with the telemetry that narrow paths get, too, so that every reading reaches all operators.
     const motion = this.#status.state(nowMs);
     const forNarrow = this.#sequence % NARROW_EVERY === 0;
-    const { readings, samples, components, navigation } = this.#board;
+    const { readings, samples, components, navigation, model } = this.#board;
+    if (this.#sequence % COMPONENTS_EVERY === 0) this.#tellOfModel(nowMs);
     const reading = forNarrow ? readings.next(nowMs) : null;
     const all = samples.all();
     const newest = forNarrow ? samples.newest() : null;
@@ -99,7 +100,16 @@ export class TelemetrySender {
       send(isNarrow ? newest : all);
       send(reading);
       if (!isNarrow || this.#sequence % (COMPONENTS_EVERY * NARROW_EVERY) === 0) send(reports);
-      for (const each of navigation.next(operator, isNarrow ? 'narrow' : 'wide', nowMs)) send(each);
+      const width = isNarrow ? 'narrow' : 'wide';
+      for (const each of navigation.next(operator, width, nowMs)) send(each);
+      const parts = model.nextParts(operator, width, nowMs);
+      if (parts !== null) operator.messages.send(parts);
+      send(model.nextJoints(operator, nowMs));
     }
+  }
+
+  #tellOfModel(nowMs: number): void {
+    const reading = this.#board.model.reading(nowMs);
+    if (reading !== null) this.#board.readings.add(reading, nowMs);
   }
 }

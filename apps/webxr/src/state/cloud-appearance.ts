@@ -64,6 +64,8 @@ export class CloudAppearance {
   readonly frusta = signal(false);
   /** Whether the path and the map of the robot's navigator are drawn. Each visit begins with them. */
   readonly navigation = signal(true);
+  /** Whether the robot's model is drawn. Each visit begins with it. */
+  readonly model = signal(true);
 
   /**
    * @param store keeps every change

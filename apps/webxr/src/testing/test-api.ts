@@ -15,6 +15,7 @@ import type {
 import type { DriveState, LatencyFrame } from '@farpoint/protocol';
 import type { HeadsetView } from '../headset/rig-pose.ts';
 import type { NearHit } from '../near-field/directions.ts';
+import type { RobotFigures } from '../robot-model/robot-figures.ts';
 import type { PageStats } from '../status/page-stats.ts';
 import type { DrivePath } from '../view/drive-path.ts';
 import type { NearRing } from '../view/near-ring.ts';
@@ -51,6 +52,8 @@ export interface PageState {
   near: NearProbe;
   /** What is drawn of the navigator's path and map: number of points, and of cells that are not unknown. */
   navigation: { pathPoints: number; mapCells: number };
+  /** What is drawn of the robot's model: moving links, shapes, where the joints are (rad, m), and whether it is in view. */
+  model: RobotFigures['shown'];
   vr: boolean;
   /** Height of the grid, and how far the view from above reaches, metres. */
   scene: { gridM: number; reachM: number };

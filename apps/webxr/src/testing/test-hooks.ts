@@ -59,6 +59,7 @@ export function installTestApi(app: App): void {
         path: app.stage.path.shown,
         near: nearProbe(app),
         navigation: { pathPoints: stage.plan.shown, mapCells: stage.floorMap.shown },
+        model: stage.figures.shown,
         vr: app.vr.active.value,
         scene: { gridM: stage.grid.object.position.y, reachM: stage.look.reach },
         view: {

@@ -62,7 +62,7 @@ export class CloudPanel {
     });
     const ofSensors = element('');
     const drawing = [surfaceControls(appearance), memoryControls(appearance, parts.memory)];
-    const drawn = [hazardSwitch(appearance), frustaSwitch(appearance), navigationSwitch(appearance)];
+    const drawn = [hazardSwitch, frustaSwitch, navigationSwitch, modelSwitch].map((made) => made(appearance));
     controls.append(ofSensors, ...drawing, cutControls(appearance), ...drawn);
     effect(() => {
       const parts = this.#names().map((name, i) =>
@@ -124,6 +124,12 @@ function navigationSwitch({ navigation }: CloudAppearance): HTMLElement {
   const button = drawnButton(navigation, 'The path that the robot’s own navigator has planned, and its map');
   button.id = 'navigation';
   return rowOf('Path, map', button);
+}
+
+function modelSwitch({ model }: CloudAppearance): HTMLElement {
+  const button = drawnButton(model, 'What the robot looks like, by its own description');
+  button.id = 'robot-model';
+  return rowOf('Robot', button);
 }
 
 function drawnButton(drawn: Signal<boolean>, title: string): HTMLButtonElement {

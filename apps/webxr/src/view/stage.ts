@@ -7,6 +7,7 @@ import { FrontPointer } from '../headset/front-pointer.ts';
 import { HeadsetRig } from '../headset/headset-rig.ts';
 import { DEFAULT_HEADSET, type HeadsetSettings } from '../headset/headset-settings.ts';
 import { Vignette } from '../headset/vignette.ts';
+import { RobotFigures } from '../robot-model/robot-figures.ts';
 import { bearingOnScreen } from './blocked-edge.ts';
 import { DrivePath } from './drive-path.ts';
 import { FloorMap } from './floor-map.ts';
@@ -59,6 +60,8 @@ export class Stage {
   readonly #ghost = new RobotGhost();
   /** On the ground that is seen. */
   readonly grid = new GroundGrid();
+  /** What the robot looks like. */
+  readonly figures: RobotFigures;
   readonly #follower = new PoseFollower(FOLLOW_MS);
   readonly #topDown = new TopDownCamera();
   readonly #vignette = new Vignette();
@@ -84,6 +87,7 @@ export class Stage {
     this.scene.background = new Color(BACKGROUND);
     this.#marker.object.add(this.near.object, this.path.object);
     this.world.add(this.#marker.object, this.#ghost.object, this.plan.object, this.floorMap.object);
+    this.figures = new RobotFigures(this.#marker.object, this.#ghost.object, this.world);
     this.rig.add(this.camera, this.headset.front);
     this.camera.add(this.#vignette.object, this.#front.object);
     this.scene.add(this.world, this.rig, this.grid.object);
@@ -104,6 +108,12 @@ export class Stage {
   /** In VR the world stays as it is. */
   get #isFromAbove(): boolean {
     return this.look.fromAbove && !this.renderer.xr.isPresenting;
+  }
+
+  /** Whether the operator looks from the robot's own camera. */
+  get #isFromRobot(): boolean {
+    if (this.renderer.xr.isPresenting) return this.headset.view.peek() === 'first-person';
+    return !this.#isFromAbove && this.look.mode === 'first-person';
   }
 
   /** Share of the screen's resolution that is drawn, for machines that cannot keep up. */
@@ -141,7 +151,7 @@ export class Stage {
   set robotBody(body: RobotBody | null) {
     this.path.body = body;
     this.#ghost.body = body;
-    this.#marker.boxed = body === null;
+    this.#marker.boxed = body === null && !this.figures.known;
   }
 
   /** Where a direction of the robot is on the screen, or in the headset's view: radians counter-clockwise from up. */
@@ -194,6 +204,7 @@ export class Stage {
     this.#ghost.onTop = isSeenFromAbove;
     if (this.#isFromAbove) this.#placeTopDown();
     else if (!inVr) this.#placeFlatCamera();
+    this.figures.place(this.#isFromRobot, this.viewCamera);
   }
 
   #followBody(elapsedMs: number, placed: PredictedView | null): void {

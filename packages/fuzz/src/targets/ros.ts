@@ -11,11 +11,22 @@ import {
   lazyDecoder,
   type PointCloud2,
   PointCloud2Decoder,
+  readUrdf,
 } from '@farpoint/ros';
 import type { FuzzTarget } from '../fuzz-target.ts';
 
 const ROOM = new Float32Array(4 * 4096);
 const WORDS = new Uint32Array(4096);
+
+/** Each element and attribute that is read. */
+const URDF = `<?xml version="1.0"?><robot name="r"><material name="m"><color rgba="1 0.5 0 1"/></material>
+<link name="base_link"><visual><origin xyz="0 0 .1" rpy="0 -1e-1 2"/><geometry><box size="1 2 3"/></geometry></visual></link>
+<link name="a"><visual><geometry><mesh filename="package://r/a.stl"/></geometry><material name="m"/></visual>
+<collision><geometry><cylinder radius="0.1" length="2"/></geometry></collision></link><!-- none -->
+<link name="b &amp; &#99;"><visual><geometry><sphere radius="1"/></geometry></visual></link>
+<joint name="x" type="revolute"><parent link="base_link"/><child link="a"/><axis xyz="0 1 0"/></joint>
+<joint name="y" type="fixed"><parent link="a"/><child link="b &amp; c"/><mimic joint="x" multiplier="2" offset="1"/></joint>
+</robot>`;
 
 /** CDR, little-endian: fields are aligned from the end of the four-byte header. */
 class Cdr {
@@ -127,6 +138,13 @@ export const rosTargets: readonly FuzzTarget[] = [
       };
     })(),
     refusals: ['RosFault'],
+  },
+  {
+    name: 'urdf',
+    seeds: () => [Buffer.from(URDF)],
+    run: (input) => void readUrdf(Buffer.from(input).toString()),
+    refusals: ['UrdfFault'],
+    maxBytes: 8192,
   },
   {
     name: 'protobuf-image',

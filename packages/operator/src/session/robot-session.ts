@@ -39,6 +39,7 @@ import { NavigatorMap } from './navigator-map.ts';
 import { NavigatorPath } from './navigator-path.ts';
 import { NearSurroundings } from './near-surroundings.ts';
 import { Readings } from './readings.ts';
+import { RobotModel } from './robot-model.ts';
 
 /** Channels on which the robot sends. */
 export type RobotChannel = 'session' | 'telemetry' | 'control' | 'pictures';
@@ -109,6 +110,8 @@ export class RobotSession {
   readonly plannedPath = new NavigatorPath();
   /** What the robot's map says. */
   readonly map = new NavigatorMap();
+  /** What the robot looks like, and where its joints are. */
+  readonly model = new RobotModel();
   /** Readings of the robot's sensors and topics. */
   readonly readings = new Readings();
   /** The numbers that the robot measures over time, by the number in their samples. */
@@ -217,6 +220,9 @@ export class RobotSession {
       case 'videos':
         this.#events.onVideos(message.videos);
         return;
+      case 'robotModel':
+        this.model.takeParts(message);
+        return;
       case 'quantity':
         this.quantities.set(message.number, message);
         this.#events.onQuantity(message);
@@ -265,6 +271,9 @@ export class RobotSession {
         return;
       case 'map':
         if (this.map.take(telemetry, nowMs)) this.#events.onMap(telemetry);
+        return;
+      case 'joints':
+        this.model.takeJoints(telemetry, nowMs);
         return;
       case 'diagnostics':
         this.components.take(telemetry);

@@ -1,0 +1,25 @@
+/** Why a robot description cannot be used. */
+export const urdfFaultCodes = [
+  'too-large', // longer than a description may be
+  'not-xml', // not well-formed
+  'doctype', // it has a document type, which could define entities
+  'not-urdf', // its root is not <robot>
+  'xacro', // it has macros that nobody has expanded
+  'bad-value', // a number, a name or a type that URDF does not have
+  'unknown-name', // a link, or a joint that another mimics, does not exist
+  'not-a-tree', // two links have none or the same parent, or joints form a ring
+  'too-many', // more elements, links, moving links or shapes than are read
+] as const;
+export type UrdfFaultCode = (typeof urdfFaultCodes)[number];
+
+/** A robot description cannot be used; the message says what is wrong, and where. */
+export class UrdfFault extends Error {
+  override readonly name = 'UrdfFault';
+  readonly code: UrdfFaultCode;
+
+  /** @param line in the description, from 1; 0: nowhere in particular */
+  constructor(code: UrdfFaultCode, detail: string, line = 0) {
+    super(line === 0 ? detail : `line ${line}: ${detail}`);
+    this.code = code;
+  }
+}
