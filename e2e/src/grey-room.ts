@@ -1,10 +1,10 @@
 /** A cloud with known heights, as a PCD file: a grey floor with a pit, a box on it, and a beam over it. */
-import { writeFileSync } from 'node:fs';
+import { type Place, writeGreyPcd } from './grey-pcd.ts';
 
 /** A cloud without a pose is shown 1 m above the floor. */
 const EYE_M = 1;
 const STEP_M = 0.03;
-const GREY = 0x808080;
+const GREY = 0x80;
 
 export const greyRoom = {
   box: { height: 0.5 },
@@ -15,9 +15,8 @@ export const greyRoom = {
 /** Writes the cloud: x ahead, y to the left, z up, from the eye. */
 export function writeGreyRoom(path: string): void {
   const { box, beam, pit } = greyRoom;
-  const points: string[] = [];
-  const add = (x: number, y: number, height: number) =>
-    points.push(`${x.toFixed(3)} ${y.toFixed(3)} ${(height - EYE_M).toFixed(3)} ${GREY}`);
+  const places: Place[] = [];
+  const add = (x: number, y: number, height: number) => places.push([x, y, height - EYE_M]);
   const range = (from: number, to: number) =>
     Array.from({ length: Math.round((to - from) / STEP_M) }, (_, i) => from + i * STEP_M);
   for (const x of range(0.6, 5.4)) {
@@ -29,16 +28,5 @@ export function writeGreyRoom(path: string): void {
   for (const y of range(0.6, 1.4)) for (const height of range(0.05, box.height)) add(2, y, height);
   for (const x of range(2, 2.6)) for (const y of range(0.6, 1.4)) add(x, y, box.height);
   for (const y of range(-0.8, 0.8)) for (const height of range(beam.from, beam.to)) add(2.5, y, height);
-  const header = [
-    'VERSION 0.7',
-    'FIELDS x y z rgb',
-    'SIZE 4 4 4 4',
-    'TYPE F F F U',
-    'COUNT 1 1 1 1',
-    `WIDTH ${points.length}`,
-    'HEIGHT 1',
-    `POINTS ${points.length}`,
-    'DATA ascii',
-  ];
-  writeFileSync(path, [...header, ...points, ''].join('\n'));
+  writeGreyPcd(path, places, GREY);
 }

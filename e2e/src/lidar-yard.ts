@@ -1,7 +1,7 @@
 /** A revolution of a LiDAR that stands higher than its robot's poses say, in a walled yard, as a PCD file. */
-import { writeFileSync } from 'node:fs';
+import { type Place, writeGreyPcd } from './grey-pcd.ts';
 
-const GREY = 0xa0a0a0;
+const GREY = 0xa0;
 const RINGS = { count: 16, lowestDeg: -25, stepDeg: 1.87 };
 const COLUMNS = 900;
 
@@ -16,9 +16,7 @@ export const lidarYard = {
 /** Writes the cloud: x ahead, y to the left, z up, from the sensor. A few of its points are wrong. */
 export function writeLidarYard(path: string): void {
   const { sensorM, wallM } = lidarYard;
-  const points: string[] = [];
-  const add = (...place: number[]) =>
-    points.push(`${place.map((metres) => metres.toFixed(3)).join(' ')} ${GREY}`);
+  const places: Place[] = [];
   for (let column = 0; column < COLUMNS; column++) {
     const azimuth = (2 * Math.PI * column) / COLUMNS;
     const [x, y] = [Math.cos(azimuth), Math.sin(azimuth)];
@@ -26,20 +24,9 @@ export function writeLidarYard(path: string): void {
     for (let ring = 0; ring < RINGS.count; ring++) {
       const rise = Math.tan(((RINGS.lowestDeg + ring * RINGS.stepDeg) * Math.PI) / 180);
       const level = rise < 0 ? Math.min(toWall, -sensorM / rise) : toWall;
-      add(x * level, y * level, rise * level);
+      places.push([x * level, y * level, rise * level]);
     }
-    if (column % 10 === 0) add(120 * x, 120 * y, -6);
+    if (column % 10 === 0) places.push([120 * x, 120 * y, -6]);
   }
-  const header = [
-    'VERSION 0.7',
-    'FIELDS x y z rgb',
-    'SIZE 4 4 4 4',
-    'TYPE F F F U',
-    'COUNT 1 1 1 1',
-    `WIDTH ${points.length}`,
-    'HEIGHT 1',
-    `POINTS ${points.length}`,
-    'DATA ascii',
-  ];
-  writeFileSync(path, [...header, ...points, ''].join('\n'));
+  writeGreyPcd(path, places, GREY);
 }
