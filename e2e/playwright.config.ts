@@ -2,16 +2,23 @@ import { chromiumLaunchOptions } from '@farpoint/local-stack';
 import { defineConfig } from '@playwright/test';
 
 // A software-rendered page shows its robot late: too late for a robot of default limits to move. Tests of those limits set
-// their own.
+// their own. Each of these goes once what its line names is done.
 for (const [name, value] of [
+  // A pause of a slow page no longer counts as the age of what is seen.
   ['VIEW_SLOW_MS', '3000'],
+  // The same.
   ['VIEW_BRAKE_MS', '4000'],
+  // The same.
   ['VIEW_STALL_MS', '3000'],
+  // A slow page drives at the speed that its pictures permit, and the tests wait for less.
   ['BLIND_TRAVEL_M', '8'],
-  // Its camera does not see the floor before its wheels: it would set off too slowly for tests.
+  // The simulated robot sees the floor before its wheels; until then it would set off too slowly for tests.
   ['GUARD_UNSEEN_MPS', '10'],
 ] as const)
   process.env[`FARPOINT_ROBOT_${name}`] ??= value;
+
+/** Whether `pnpm test` runs a failed test again, alone: what it leaves behind is to be understood then. */
+const isSecondRun = (process.env.FARPOINT_SECOND_RUN ?? '') !== '';
 
 export default defineConfig({
   projects: [
@@ -30,9 +37,9 @@ export default defineConfig({
   use: {
     launchOptions: chromiumLaunchOptions(),
     viewport: { width: 960, height: 540 },
-    // Without its pictures: taking them is a quarter of what a test costs a software renderer.
-    trace: { mode: 'retain-on-failure', screenshots: false },
-    screenshot: 'only-on-failure',
+    // A trace has each WebSocket frame and each change of the page: it makes a page slow that draws in software.
+    trace: isSecondRun ? { mode: 'on', screenshots: false } : 'off',
+    screenshot: isSecondRun ? 'only-on-failure' : 'off',
     // An action that waits for ever is named as such, not as the test's time-out.
     actionTimeout: 40_000,
   },

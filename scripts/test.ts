@@ -1,210 +1,119 @@
 /**
  * `pnpm test`: runs all checks, in the order in which a fault is cheapest to find. Each step says what it does and
- * how long it took. A step that cannot run says what is missing, and which command fixes that.
+ * how long it took, and the end says what became of everything. What is missing on this machine is installed first; what
+ * cannot be had is named.
  */
+import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
-import { CHROMIUM_REMEDY } from '@farpoint/local-stack';
-import * as dds from '../packages/dds/src/build.ts';
-import * as gpio from '../packages/gpio/src/build.ts';
-import * as sharedMemory from '../packages/shared-memory/src/build.ts';
-import * as sound from '../packages/sound/src/build.ts';
-import * as systemd from '../packages/systemd/src/build.ts';
-import * as udpBatch from '../packages/udp-batch/src/build.ts';
-import * as video from '../packages/video/src/build.ts';
-import { auditDependencies } from './lib/audit-dependencies.ts';
-import { ensureChromium } from './lib/ensure-chromium.ts';
-import { ensureCycloneDds, ensureDdsPeers } from './lib/ensure-dds.ts';
-import { ensureFirefox } from './lib/ensure-firefox.ts';
-import { ensureGStreamer } from './lib/ensure-gstreamer.ts';
-import { ensureJanus } from './lib/ensure-janus.ts';
-import { ensureNumpy } from './lib/ensure-numpy.ts';
-import { ensureRos1 } from './lib/ensure-ros1.ts';
-import { ensureTurnServer } from './lib/ensure-turn-server.ts';
-import { failuresOf } from './lib/failures.ts';
-import { root, run } from './lib/run.ts';
-import { addTallies, emptyTally, type Tally, tallyCargo, tallyPlaywright, tallyVitest } from './lib/tally.ts';
-import { testRust } from './lib/test-rust.ts';
-import { writeBill } from './lib/write-bill.ts';
+import { root } from './lib/run.ts';
+import { addTallies, emptyTally } from './lib/tally.ts';
+import { readWorkspaceFile } from './lib/workspace-files.ts';
+import { groupStates } from './test/group-states.ts';
+import { NEEDS } from './test/needs.ts';
+import { nameOf } from './test/outcome.ts';
+import { ProvenGroups } from './test/proven.ts';
+import { provision } from './test/provision.ts';
+import { readQuarantine } from './test/quarantine.ts';
+import { STEPS, type TestRun } from './test/steps.ts';
+import { type StepSummary, summaryOf } from './test/summary.ts';
+import { type Judged, MOST_FLAKY } from './test/verdict.ts';
 
-interface StepResult {
-  ok: boolean;
-  /** Why the step did not run, with the remedy. If `CI` is set, the whole run then fails. */
-  skipped?: string;
-  /** Why it could not run although nothing is missing here: a service elsewhere does not answer. Fails no run. */
-  unreachable?: string;
-  tally?: Tally;
-  output?: string;
-  /** Whether `output` was on the screen while the step ran. */
-  echoed?: boolean;
-}
+const HELP = `pnpm test [--only STEP[,STEP…]] [--all] [--pictures]
 
-interface Step {
-  name: string;
-  what: string;
-  run: () => Promise<StepResult>;
-}
+${STEPS.map(({ name, what }) => `  ${name.padEnd(11)} ${what}`).join('\n')}
 
-const say = (line: string): void => console.log(`  ${line}`);
-
-async function runQuietly(program: string, args: string[]): Promise<StepResult> {
-  const { code, output } = await run(program, args);
-  return { ok: code === 0, output };
-}
-
-/** @param project name of one or, with `*`, several of the projects in vitest.config.ts */
-async function runVitest(project: 'pure' | 'stack*'): Promise<StepResult> {
-  const { code, output } = await run('vitest', ['run', '--project', project], { echo: true });
-  return { ok: code === 0, tally: tallyVitest(output), output, echoed: true };
-}
-
-async function runPlaywright(project: 'chromium' | 'firefox'): Promise<StepResult> {
-  const args = ['--dir', 'e2e', 'exec', 'playwright', 'test', '--project', project];
-  const { code, output } = await run('pnpm', args, { echo: true });
-  return { ok: code === 0, tally: tallyPlaywright(output), output, echoed: true };
-}
-
-const steps: Step[] = [
-  { name: 'lint', what: 'format and lint (biome)', run: () => runQuietly('biome', ['check', '.']) },
-  {
-    name: 'types',
-    what: 'type check (tsc)',
-    run: () => runQuietly('pnpm', ['run', 'typecheck']),
-  },
-  {
-    name: 'supply',
-    what: 'bill of materials (CycloneDX), and advisories on production dependencies (pnpm audit)',
-    run: async () => {
-      await writeBill(join(root, '.farpoint', 'farpoint.cdx.json'));
-      const outcome = await auditDependencies();
-      if (outcome.made) return { ok: outcome.faults.length === 0, output: outcome.faults.join('\n') };
-      return { ok: true, unreachable: `dependency audit: ${outcome.reason}` };
-    },
-  },
-  {
-    name: 'native',
-    what: 'native addons build from source (node-gyp)',
-    run: async () => {
-      await ensureCycloneDds(say);
-      await ensureGStreamer(say);
-      const left: string[] = [];
-      for (const [what, { buildAddon, BUILD_REMEDY }] of [
-        ['shared memory', sharedMemory],
-        ['a stop by GPIO', gpio],
-        ['the systemd unit', systemd],
-        ['sending many packets by one system call', udpBatch],
-        ['ROS 2', dds],
-        ['camera video', video],
-        ['sound', sound],
-      ] as const) {
-        const { ok, output } = buildAddon();
-        if (ok) continue;
-        say(output.trim().split('\n').slice(-20).join('\n  '));
-        left.push(`${what} is not tested; ${BUILD_REMEDY}`);
-      }
-      await ensureNumpy(say);
-      if (dds.buildAddon().ok) await ensureDdsPeers(say);
-      return left.length === 0 ? { ok: true } : { ok: true, skipped: left.join('; ') };
-    },
-  },
-  {
-    name: 'pure',
-    what: 'unit tests without processes, threads or sockets (vitest)',
-    run: () => runVitest('pure'),
-  },
-  {
-    name: 'rust',
-    what: 'Rust: committed WASM is fresh, rebuilds from source, format, clippy, tests',
-    run: async () => {
-      const result = await testRust(say);
-      return { ...result, tally: tallyCargo(result.output) };
-    },
-  },
-  {
-    name: 'stack',
-    what: 'unit tests with processes, threads and sockets (vitest)',
-    run: async () => {
-      await ensureRos1(say);
-      await ensureJanus(say);
-      return runVitest('stack*');
-    },
-  },
-  { name: 'build', what: 'build what is deployed', run: () => runQuietly('node', ['scripts/build.ts']) },
-  {
-    name: 'e2e',
-    what: 'end to end in Chromium (playwright)',
-    run: async () => {
-      if ((await ensureChromium(say)) === null) {
-        return { ok: false, output: `no Chromium, and it could not be installed; run: ${CHROMIUM_REMEDY}` };
-      }
-      await ensureTurnServer(say);
-      await ensureJanus(say);
-      return runPlaywright('chromium');
-    },
-  },
-  {
-    name: 'firefox',
-    what: 'end to end in Firefox (WebDriver BiDi)',
-    run: async () => {
-      const missing = await ensureFirefox(say);
-      return missing === null ? runPlaywright('firefox') : { ok: true, skipped: missing };
-    },
-  },
-];
+  --all       also the groups of tests (tests/groups.yaml) that have passed here with the same inputs, and the long forms
+  --pictures  browser tests save the pictures that only people look at (e2e/output)`;
 
 const { values } = parseArgs({
-  options: { only: { type: 'string' }, help: { type: 'boolean', short: 'h' } },
+  options: {
+    only: { type: 'string' },
+    all: { type: 'boolean', default: false },
+    pictures: { type: 'boolean', default: false },
+    help: { type: 'boolean', short: 'h' },
+  },
 });
 
 if (values.help) {
-  console.log('pnpm test [--only STEP[,STEP…]]\n');
-  for (const step of steps) console.log(`  ${step.name.padEnd(7)} ${step.what}`);
+  console.log(HELP);
   process.exit(0);
 }
 
 const only = values.only?.split(',');
-const unknown = only?.find((name) => !steps.some((step) => step.name === name));
+const unknown = only?.find((name) => !STEPS.some((step) => step.name === name));
 if (unknown !== undefined) {
-  console.error(
-    `--only: there is no step ${unknown}; the steps are ${steps.map((step) => step.name).join(', ')}`,
-  );
+  const names = STEPS.map(({ name }) => name).join(', ');
+  console.error(`--only: there is no step ${unknown}; the steps are ${names}`);
   process.exit(2);
 }
 
-let total = emptyTally;
-const faults: string[] = [];
-const chosen = steps.filter((step) => only === undefined || only.includes(step.name));
+if (values.all) process.env.FARPOINT_LONG_TESTS = '1';
+if (values.pictures) process.env.FARPOINT_PICTURES = '1';
+const began = performance.now();
+const say = (line: string): void => console.log(`  ${line}`);
+const chosen = STEPS.filter(({ name }) => only === undefined || only.includes(name));
+const quarantine = readQuarantine(readWorkspaceFile('tests/quarantine.yaml'));
+
+const needs = NEEDS.filter(({ steps }) => chosen.some(({ name }) => steps.includes(name)));
+if (needs.length > 0) console.log(`[0/${chosen.length}] what the tests use is here, or is installed`);
+const missing = await provision(needs, say);
+const proven = new ProvenGroups();
+const hasGroups = chosen.some(({ name }) => name === 'stack' || name === 'rust');
+const names = missing.map(({ name }) => name);
+const groups = hasGroups ? await groupStates(proven, names, values.all) : [];
+const context: TestRun = { say, missing, groups, proven, quarantine };
+
+const summaries: StepSummary[] = [];
+let counted = emptyTally;
 for (const [index, step] of chosen.entries()) {
   console.log(`[${index + 1}/${chosen.length}] ${step.what}`);
   const started = performance.now();
-  const result = await step.run();
-  const seconds = ((performance.now() - started) / 1000).toFixed(1);
-  if (result.tally !== undefined) total = addTallies(total, result.tally);
-  if (!result.ok) {
-    if (result.output !== undefined && !result.echoed) console.log(result.output);
-    // Said again below: a reader of a long log looks at its end first.
-    const failures = result.output === undefined ? '' : `\n${failuresOf(result.output)}`;
-    faults.push(`${step.name}: failed${failures}`);
-    console.log(`  ✗ failed after ${seconds} s`);
-  } else if (result.unreachable !== undefined) {
-    console.log(`  – skipped: ${result.unreachable}`);
-  } else if (result.skipped !== undefined) {
-    console.log(`  – partly skipped: ${result.skipped}`);
-    if (process.env.CI) faults.push(`${step.name}: ${result.skipped}`);
-  } else {
-    console.log(`  ✓ ${seconds} s`);
-  }
+  const result = await step.run(context);
+  const ms = performance.now() - started;
+  const { ok, judged = [], failure = null, notTested = [] } = result;
+  if (result.tally !== undefined) counted = addTallies(counted, result.tally);
+  if (failure !== null) console.log(failure);
+  for (const what of notTested) say(`– not tested here: ${what}`);
+  const seconds = (ms / 1000).toFixed(1);
+  console.log(ok ? `  ✓ ${seconds} s` : `  ✗ failed after ${seconds} s`);
+  const isOfTest = judged.some(({ verdict }) => verdict === 'failed');
+  summaries.push({
+    ...{ name: step.name, ms, ok, judged, notTested, proven: result.proven ?? [] },
+    // The end of a log is what its reader looks at first.
+    failure: ok || (isOfTest && failure === null) ? null : (failure ?? '').split('\n').slice(-12).join('\n'),
+  });
 }
 
-// A step that fails without a failing test (a lint, a build) counts as one failure.
-const failed = Math.max(total.failed, faults.length);
-for (const fault of faults) console.log(`\n${fault}`);
-if (only?.join() === 'pure' && faults.length === 0) {
+const all = summaries.flatMap(({ judged }) => judged);
+const count = (...verdicts: Judged['verdict'][]) =>
+  all.filter((test) => verdicts.includes(test.verdict)).length;
+const tooFlaky = count('flaky') > MOST_FLAKY;
+const isGreen = summaries.every(({ ok }) => ok) && counted.failed === 0 && !tooFlaky;
+const lines = summaryOf(summaries, performance.now() - began, againWords, quarantine, Date.now());
+mkdirSync(join(root, '.farpoint'), { recursive: true });
+writeFileSync(join(root, '.farpoint', 'test-summary.txt'), `${lines.join('\n')}\n`);
+console.log(`\n${lines.join('\n')}`);
+if (only?.join() === 'pure' && isGreen)
   console.log(
     'next: pnpm test --only lint,types,stack, then pnpm test for everything; one package: see CONTRIBUTING.md',
   );
-}
-console.log(
-  `\n${total.passed} passed, ${failed} failed${total.skipped > 0 ? `, ${total.skipped} skipped` : ''}`,
+
+// A step that fails without a failing test (a lint, a build) counts as one failure.
+const failures = Math.max(
+  count('failed') + counted.failed,
+  summaries.filter(({ ok }) => !ok).length + (tooFlaky ? 1 : 0),
 );
-process.exit(faults.length === 0 && total.failed === 0 ? 0 : 1);
+const passed = count('passed', 'flaky') + counted.passed;
+const skipped = count('skipped', 'quarantined') + counted.skipped;
+console.log(`\n${passed} passed, ${failures} failed${skipped > 0 ? `, ${skipped} skipped` : ''}`);
+process.exit(isGreen ? 0 : 1);
+
+/** The command that repeats one test. */
+function againWords(step: string, test: Judged): string {
+  if (step === 'e2e' || step === 'firefox') {
+    const project = step === 'e2e' ? 'chromium' : 'firefox';
+    return `pnpm --dir e2e exec playwright test --project ${project} ${test.file.replace('e2e/', '')}:${test.line ?? ''}`;
+  }
+  return `pnpm exec vitest run ${nameOf({ ...test, title: '' })}`;
+}

@@ -74,7 +74,7 @@ export async function startLiveStack(options: LiveStackOptions): Promise<LiveSta
       const page = await browser.newPage({
         viewport: { width: Math.max(width, 320), height: Math.max(height, 180) },
       });
-      await page.goto(`${stack.webUrl}?canvas=${options.canvas}&${options.query ?? ''}`);
+      await page.goto(`${stack.webUrl}?canvas=${options.canvas}&measure=1&${options.query ?? ''}`);
       await page.waitForFunction(() => window.farpoint !== undefined);
       await page.waitForFunction(
         (id) => window.farpoint.robots().some((listed) => listed.id === id),

@@ -105,7 +105,7 @@ async function measure(
       name: 'Simulated robot',
       args: ['--source', 'sim', '--sim-seed', '1', '--signaling', link.signalingUrl, ...robotArgs],
     });
-    const visit = await open(browser, `${stack.webUrl}?robot=sim-1&canvas=64x36&every=8`);
+    const visit = await open(browser, `${stack.webUrl}?robot=sim-1&canvas=64x36&measure=1&every=8`);
     cleanups.push(() => visit.close());
     while ((await visit.stats()).framesDrawn < 5) await pause(100);
     await pause(WARM_UP_MS);

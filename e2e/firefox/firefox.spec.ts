@@ -63,5 +63,5 @@ test('sees the whole cloud, drives, and stops immediately', async ({ firefoxPage
   const stopped = await operator.body();
   await operator.expectFrames(5);
   expect(await operator.body()).toEqual(stopped);
-  await operator.releaseKeys();
+  await operator.release();
 });

@@ -97,7 +97,7 @@ test('dashboard', async ({ page, startStack }) => {
   await page.keyboard.down('d');
   await expect.poll(async () => Math.abs((await operator.body()).yaw - start.yaw)).toBeGreaterThan(0.1);
   await page.keyboard.up('d');
-  await operator.releaseKeys();
+  await operator.release();
   await operator.expectStanding();
   await operator.expectFrames(10);
   await expectQuiet(page);

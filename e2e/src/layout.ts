@@ -1,5 +1,5 @@
 import type { Locator } from '@playwright/test';
-import { expect } from '@playwright/test';
+import { expect } from './expect.ts';
 
 /**
  * Expects that each of the elements is entirely on the screen, and that none covers another.

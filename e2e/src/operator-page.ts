@@ -1,6 +1,8 @@
 import type { LocalStack } from '@farpoint/local-stack';
 import type { DrawnProbe, PageState, PageStats } from '@farpoint/webxr/test-api';
-import { expect, type Page, type TestInfo } from '@playwright/test';
+import type { Page, TestInfo } from '@playwright/test';
+import { expect } from './expect.ts';
+import { savesPictures, screenSizes, shownOrLate } from './screens.ts';
 
 export interface OpenOptions {
   robot?: string;
@@ -9,8 +11,13 @@ export interface OpenOptions {
   signaling?: string;
   /** `relay`: through TURN servers only. */
   ice?: 'relay';
-  /** Fixed size of the canvas, `WIDTHxHEIGHT`. A small one leaves more processor time for the rest. */
+  /**
+   * Fixed size of the canvas, `WIDTHxHEIGHT`; by default a small one, which leaves more processor time for the rest.
+   * `full`: as large as the window gives it, for tests whose subject is the picture.
+   */
   canvas?: string;
+  /** `1`: each picture is waited for, so that its time is known. */
+  measure?: '1';
   /** Refuse coded clouds. */
   mode?: 'points64';
   /** Draw only every n-th point of coded clouds. */
@@ -49,17 +56,19 @@ interface BrowserKeyboard {
   up(key: Key): Promise<void>;
 }
 
-/** At which every screen should be looked at. */
-export const screenSizes = [
-  { width: 360, height: 740 },
-  { width: 1280, height: 720 },
-  { width: 3840, height: 2160 },
-] as const;
+const SMALL_CANVAS = '320x180';
 
 const DEAD_MAN = ' ';
 const FORWARD = 'w';
 const RELEASE_ESTOP = 'r';
 type Key = typeof DEAD_MAN | typeof FORWARD | typeof RELEASE_ESTOP;
+
+/** Run in the page. */
+const SCRIPTED = {
+  forward: () => window.farpoint.hold({ forward: 1, left: 0 }),
+  back: () => window.farpoint.hold({ forward: -1, left: 0 }),
+};
+type ScriptedWay = keyof typeof SCRIPTED;
 
 /** A dead-man grip in a test's hand. */
 export interface Grip {
@@ -79,12 +88,14 @@ export class OperatorPage {
   static async open(page: BrowserPage, stack: LocalStack, options: OpenOptions = {}): Promise<OperatorPage> {
     const url = new URL(stack.webUrl);
     if (options.robot !== undefined) url.searchParams.set('robot', options.robot);
+    const { canvas = SMALL_CANVAS } = options;
+    if (canvas !== 'full') url.searchParams.set('canvas', canvas);
     for (const name of [
       'token',
       'signaling',
       'ice',
       'bridge',
-      'canvas',
+      'measure',
       'mode',
       'every',
       'surface',
@@ -176,8 +187,21 @@ export class OperatorPage {
       .toBe(0);
   }
 
-  /** Holds the dead-man key and drives forward until {@link releaseKeys}. The first grip requests the lease. */
-  async holdForward(): Promise<void> {
+  /** Drives forward until {@link release}, by the page's script input. The first grip requests the lease. */
+  holdForward(): Promise<void> {
+    return this.hold(this.scriptGrip('forward'));
+  }
+
+  /** A grip of the page's script input. No device has to be read in time, which a page that draws in software is not. */
+  scriptGrip(way: ScriptedWay): Grip {
+    return {
+      hold: () => this.page.evaluate(SCRIPTED[way]),
+      release: () => this.page.evaluate(() => window.farpoint.hold(null)),
+    };
+  }
+
+  /** As {@link holdForward}, by the dead-man key and W: for tests whose subject is the keyboard. */
+  async holdForwardKeys(): Promise<void> {
     const { keyboard } = this.page;
     await this.hold({
       async hold() {
@@ -221,10 +245,6 @@ export class OperatorPage {
     await this.hold(grip);
   }
 
-  async releaseKeys(): Promise<void> {
-    await this.release();
-  }
-
   /** Holds the key that releases the emergency stop until the robot has released it. */
   async releaseEstop(): Promise<void> {
     await this.page.keyboard.down(RELEASE_ESTOP);
@@ -232,8 +252,9 @@ export class OperatorPage {
     await this.page.keyboard.up(RELEASE_ESTOP);
   }
 
-  /** Saves screenshots of the page as a phone, a laptop and a large screen show it. */
+  /** Saves pictures for people of the page as a phone, a laptop and a large screen show it, if they want any. */
   async screenshots(page: Page, testInfo: TestInfo, name: string): Promise<void> {
+    if (!savesPictures) return;
     const before = page.viewportSize();
     for (const size of screenSizes) {
       await page.setViewportSize(size);
@@ -242,8 +263,14 @@ export class OperatorPage {
     if (before !== null) await page.setViewportSize(before);
   }
 
-  /** Saves a screenshot of the page with the test's output. */
-  async screenshot(testInfo: TestInfo, name: string): Promise<Buffer> {
+  /** Saves a picture for people, if they want any; otherwise waits until what it would show is drawn. */
+  async screenshot(testInfo: TestInfo, name: string): Promise<void> {
+    if (savesPictures) await this.picture(testInfo, name);
+    else await this.page.evaluate(shownOrLate);
+  }
+
+  /** Takes a picture for the test, and saves it with its output. */
+  async picture(testInfo: TestInfo, name: string): Promise<Buffer> {
     return Buffer.from(await this.page.screenshot({ path: testInfo.outputPath(`${name}.png`) }));
   }
 }

@@ -67,6 +67,7 @@ export const test = base.extend<StackFixtures>({
     if (!existsSync(join(webRoot, 'index.html')))
       throw new Error('the web app is not built: run `pnpm build`');
     const stacks: LocalStack[] = [];
+    const log = testInfo.outputPath('programs.log');
     const lines: string[] = [];
     await use(async (spec = {}) => {
       const stack = await LocalStack.start({
@@ -78,10 +79,12 @@ export const test = base.extend<StackFixtures>({
       stacks.push(stack);
       return stack;
     });
-    for (const stack of stacks) await stack.stop();
+    // Before the programs are stopped: what they say of that explains no failure.
     if (testInfo.status !== testInfo.expectedStatus) {
-      await testInfo.attach('programs.log', { body: lines.join('\n'), contentType: 'text/plain' });
+      writeFileSync(log, `${lines.join('\n')}\n`);
+      testInfo.attachments.push({ name: 'programs.log', path: log, contentType: 'text/plain' });
     }
+    for (const stack of stacks) await stack.stop();
   },
   openRobot: async ({ page, startStack }, use) => {
     await use(async () => {
@@ -122,4 +125,4 @@ export const test = base.extend<StackFixtures>({
   },
 });
 
-export { expect } from '@playwright/test';
+export { expect } from './expect.ts';

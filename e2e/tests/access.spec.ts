@@ -68,7 +68,7 @@ test('an operator without a grant is told what to do; a grant for this browserâ€
   await operator.expectPoints(100);
   await operator.holdForward();
   await operator.expectState('holder', 'you');
-  await operator.releaseKeys();
+  await operator.release();
 
   // The key and the grant outlive the page, and no script can read the key.
   await page.reload();
@@ -210,6 +210,6 @@ test('a supervisor sees who is here, and ends the session of a driver who drives
   expect((await driver.state()).session).toBe('none');
   await driverPage.getByRole('button', { name: /Simulated robot 1/ }).click();
   await expect(obstacle(driverPage)).toContainText('does not admit you');
-  await driver.releaseKeys();
+  await driver.release();
   await driverPage.context().close();
 });

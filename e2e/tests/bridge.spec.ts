@@ -14,10 +14,10 @@ test('through the bridge: see the robot’s world, drive it, stop it and measure
   const stack = await startStack({ robots: [inReferenceProfile(simulatedRobot)] });
   const bridge = await BridgeProcess.start(stack);
   try {
-    const operator = await OperatorPage.open(page, stack, { bridge: bridge.address });
+    const operator = await OperatorPage.open(page, stack, { bridge: bridge.address, canvas: 'full' });
     await page.getByRole('button', { name: /Simulated robot 1/ }).click();
     await operator.expectPoints(5000);
-    const picture = await operator.screenshot(testInfo, 'through-the-bridge');
+    const picture = await operator.picture(testInfo, 'through-the-bridge');
     const [room] = await readPicture(page, picture, [{ left: 0, top: 0, width: 1, height: 1 }]);
     expect(room?.drawnShare).toBeGreaterThan(0.15);
     expect(room?.colours).toBeGreaterThan(20);
@@ -39,7 +39,7 @@ test('through the bridge: see the robot’s world, drive it, stop it and measure
       })
       .toBe('other');
     await watcher.expectMovedFrom(start, 0.3, operator);
-    await operator.releaseKeys();
+    await operator.release();
     await watcher.expectStanding();
 
     // The page's own stop: held keys do not move the robot until the stop is released and the grip was let go.
@@ -49,11 +49,11 @@ test('through the bridge: see the robot’s world, drive it, stop it and measure
     await operator.holdForward();
     await operator.expectFrames(20);
     expect(await watcher.body()).toEqual(stopped);
-    await operator.releaseKeys();
+    await operator.release();
     await operator.releaseEstop();
     await operator.holdForward();
     await watcher.expectMovedFrom(stopped, 0.2, operator);
-    await operator.releaseKeys();
+    await operator.release();
     await watcher.expectStanding();
 
     const result = await page.evaluate(() => window.farpoint.latencyTest());

@@ -22,7 +22,7 @@ for (const { name, args } of recordings) {
     const stack = await startStack({ robots: [robot] });
     const operator = await OperatorPage.open(page, stack, { robot: name });
     await operator.expectPoints(60_000);
-    const picture = await operator.screenshot(testInfo, name);
+    const picture = await operator.picture(testInfo, name);
     const [facts] = await readPicture(page, picture, [{ left: 0, top: 0, width: 1, height: 1 }]);
     expect(facts?.drawnShare).toBeGreaterThan(0.15);
     expect(facts?.colours).toBeGreaterThan(10);

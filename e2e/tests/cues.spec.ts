@@ -51,7 +51,7 @@ test('driven against a wall: a tone when it slows, two when it is held; three wh
     .toBe('Held: something is in the way');
   await expect.poll(async () => (await sounded(page)).slice(-2)).toEqual([440, 440]);
   expect(await sounded(page)).toContain(660);
-  await operator.releaseKeys();
+  await operator.release();
   await operator.expectStanding();
 
   await page.keyboard.press('x');

@@ -2,6 +2,7 @@ import { writeFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
 import { expectOnScreenAndApart } from '../src/layout.ts';
 import { OperatorPage } from '../src/operator-page.ts';
+import { screenSizes } from '../src/screens.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
 const ROBOT = {
@@ -62,7 +63,7 @@ test('values, curves, diagnostics and alarms of a robot, live', async ({ page, s
   await expect(dashboard(page).locator('.alarms li').first()).toContainText('The robot is fast (0.3');
   await expect(tile(page, 'Speed, m/s').locator('.now')).toHaveText(/^(0\.[3-9]\d|1\.00) m\/s$/);
   await operator.screenshot(testInfo, 'driving');
-  await operator.releaseKeys();
+  await operator.release();
   await expect(dashboard(page).locator('.alarms li')).toHaveCount(1);
   // The window still has the drive.
   await expect(tile(page, 'Speed, m/s').locator('.figures > :nth-child(3)')).toHaveText(
@@ -203,9 +204,9 @@ test('a map with tiles, where they are configured and the robot knows its place 
   await operator.screenshot(testInfo, 'tiles');
 });
 
-for (const width of [360, 1280, 3840]) {
+for (const { width, height } of screenSizes) {
   test(`leaves room for driving on a screen ${width} pixels wide`, async ({ page, startStack }, testInfo) => {
-    const screen = { width, height: width === 360 ? 740 : Math.round((width * 9) / 16) };
+    const screen = { width, height };
     await page.setViewportSize(screen);
     const stack = await startStack({ robots: [ROBOT] });
     const operator = await OperatorPage.open(page, stack, { robot: ROBOT.id });

@@ -1,5 +1,6 @@
 /** The floor before the robot shows what it takes of it, where the hand leads it, and where it would come to stand. */
-import { OperatorPage, screenSizes } from '../src/operator-page.ts';
+import { OperatorPage } from '../src/operator-page.ts';
+import { savesPictures, screenSizes } from '../src/screens.ts';
 import { expect, lightRobot, simulatedRobot, test } from '../src/stack-test.ts';
 
 test('the way of the present command and its end are on the floor, and turn red where the robot is held', async ({
@@ -32,7 +33,7 @@ test('the way of the present command and its end are on the floor, and turn red 
   await page.keyboard.press('t');
   await drives(({ tone }) => tone === 'held');
   await operator.screenshot(testInfo, 'held');
-  await operator.releaseKeys();
+  await operator.release();
   await expect.poll(path).toBe(null);
 });
 
@@ -40,6 +41,7 @@ test('a robot of a configured outline shows that, and not a usual robot', async 
   page,
   startStack,
 }, testInfo) => {
+  test.skip(!savesPictures, 'it is looked at by people: pnpm test --pictures');
   const outline = '0.6,0.4 -0.6,0.4 -0.6,-0.4 0.6,-0.4';
   const robot = { ...simulatedRobot, args: [...simulatedRobot.args, '--footprint', outline] };
   const stack = await startStack({ robots: [robot] });

@@ -2,6 +2,7 @@ import type { Page } from '@playwright/test';
 import { Headset } from '../src/headset.ts';
 import { expectOnScreenAndApart } from '../src/layout.ts';
 import { OperatorPage } from '../src/operator-page.ts';
+import { screenSizes } from '../src/screens.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
 /** Each change of the robot's emergency stop, as recorded in its journal. */
@@ -211,11 +212,7 @@ test('on a gamepad and in the headset: B stops, another button held releases', a
   expect(changes(lines)).toEqual([true, false, true, false]);
 });
 
-for (const [width, height] of [
-  [360, 740],
-  [1280, 720],
-  [3840, 2160],
-] as const) {
+for (const { width, height } of screenSizes) {
   test(`while latched, every control is on a screen ${width} pixels wide and none covers another`, async ({
     browser,
     startStack,

@@ -61,10 +61,10 @@ test('two robots: the operator switches in one action; the first robot stops, th
   expect(other.y).toBeCloseTo(start.y, 5);
 
   // The grip is released and pressed again: now the other robot drives.
-  await operator.releaseKeys();
+  await operator.release();
   await operator.holdForward();
   await operator.expectMovedFrom(other, 0.3);
-  await operator.releaseKeys();
+  await operator.release();
   await operator.expectStanding();
 
   // Back with a key. The first robot is where it braked.
@@ -95,7 +95,7 @@ test('signaling is killed and restarted while driving: driving continues, and th
   const afterKill = await operator.body();
   await operator.expectMovedFrom(afterKill, 0.2);
   expect((await operator.state()).session).toBe('live');
-  await operator.releaseKeys();
+  await operator.release();
 
   await stack.startSignaling();
   await operator.expectState('signaling', 'ready');
@@ -126,9 +126,9 @@ test('the robot process is killed and restarted: the page says so and reconnects
   await operator.expectState('holder', 'you');
   await operator.expectFrames(20);
   expect(await operator.body()).toEqual(start);
-  await operator.releaseKeys();
+  await operator.release();
   await operator.releaseEstop();
   await operator.holdForward();
   await operator.expectMovedFrom(start, 0.2);
-  await operator.releaseKeys();
+  await operator.release();
 });

@@ -9,20 +9,20 @@ test('on a flat screen: choose the robot, see its world, drive it with the keybo
   startStack,
 }, testInfo) => {
   const stack = await startStack();
-  const operator = await OperatorPage.open(page, stack);
+  const operator = await OperatorPage.open(page, stack, { canvas: 'full' });
   await page.getByRole('button', { name: /Simulated robot 1/ }).click();
   await operator.expectPoints(5000);
 
-  const before = await operator.screenshot(testInfo, 'room');
+  const before = await operator.picture(testInfo, 'room');
   const [room] = await readPicture(page, before, [wholePage]);
   expect(room?.drawnShare).toBeGreaterThan(0.3);
   expect(room?.colours).toBeGreaterThan(20);
 
   const start = await operator.body();
-  await operator.holdForward();
+  await operator.holdForwardKeys();
   await operator.expectState('holder', 'you');
   await operator.expectMovedFrom(start, 0.5);
-  await operator.releaseKeys();
+  await operator.release();
   await operator.expectStanding();
   await operator.screenshot(testInfo, 'after-driving');
 
@@ -69,15 +69,15 @@ test('the emergency stop latches until it is released on purpose', async ({ page
   await operator.expectState('drive', 'estop');
 
   // Neither held keys nor newly pressed keys move it.
-  await operator.releaseKeys();
+  await operator.release();
   const stopped = await operator.body();
   await operator.holdForward();
   await operator.expectFrames(30);
   expect(await operator.body()).toEqual(stopped);
-  await operator.releaseKeys();
+  await operator.release();
 
   await operator.releaseEstop();
   await operator.holdForward();
   await operator.expectMovedFrom(stopped, 0.2);
-  await operator.releaseKeys();
+  await operator.release();
 });

@@ -3,8 +3,9 @@ import type { Page, TestInfo } from '@playwright/test';
 import { writeGreyRoom } from '../src/grey-room.ts';
 import { Headset, headsetViewport } from '../src/headset.ts';
 import { expectOnScreenAndApart } from '../src/layout.ts';
-import { OperatorPage, screenSizes } from '../src/operator-page.ts';
+import { OperatorPage } from '../src/operator-page.ts';
 import { leftEye, meanDifference, type Part, type Rgb, rightEye, sharesNear } from '../src/picture.ts';
+import { screenSizes } from '../src/screens.ts';
 import { expect, test } from '../src/stack-test.ts';
 
 /** What the legend may not cover, and what may not cover it. */
@@ -140,11 +141,11 @@ test('surfaces are tinted as well, where they are not floor', async ({ page, sta
   await expect
     .poll(
       async () => {
-        const plain = await operator.screenshot(testInfo, 'surface-plain');
+        const plain = await operator.picture(testInfo, 'surface-plain');
         await page.keyboard.press('h');
         await expect(page.locator('.legend.hazards')).toBeVisible();
         await operator.expectFrames(2);
-        const tinted = await operator.screenshot(testInfo, 'surface-tinted');
+        const tinted = await operator.picture(testInfo, 'surface-tinted');
         await page.keyboard.press('h');
         await operator.expectFrames(2);
         const changes = await Promise.all(

@@ -23,7 +23,7 @@ test('in AR the model stands in the operator’s room, or the world around them 
   await headset.frames(5);
   // Where nothing is drawn, the headset shows the room: the emulated one shows black.
   expect(await page.evaluate(() => window.farpoint.pixel(0.01, 0.01))).toEqual([0, 0, 0]);
-  const table = await operator.screenshot(testInfo, 'ar-tabletop');
+  const table = await operator.picture(testInfo, 'ar-tabletop');
   const [model] = await readPicture(page, table, [{ left: 0, top: 0.3, width: 0.5, height: 0.7 }]);
   expect(model?.colours).toBeGreaterThan(10);
   const from = await operator.body();

@@ -3,6 +3,7 @@ import type { HeadsetProbe } from '@farpoint/webxr/test-api';
 import type { Page } from '@playwright/test';
 import { Headset, headsetViewport } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
+import { savesPictures } from '../src/screens.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 
 test.use({ viewport: headsetViewport });
@@ -117,7 +118,7 @@ test('in the headset, set to turn steadily: the other stick turns the view, with
   await headset.thumbstick('left', -1, 0);
   await expect.poll(async () => (await probe(page)).yaw - yaw).toBeGreaterThan(0.5);
   const { darkness } = await probe(page);
-  await page.screenshot({ path: testInfo.outputPath('turning.png') });
+  if (savesPictures) await page.screenshot({ path: testInfo.outputPath('turning.png') });
   expect(darkness).toBeGreaterThan(0.4);
   await headset.thumbstick('left', 0, 0);
   await expect.poll(async () => (await probe(page)).darkness).toBe(0);
@@ -192,7 +193,7 @@ test('in the headset the display has the highest refresh rate that is offered an
   await page.getByLabel('Refresh rate').selectOption('120');
   await page.getByLabel('Turning').selectOption('smooth');
   await page.setViewportSize({ width: 640, height: 960 });
-  await page.screenshot({ path: test.info().outputPath('settings.png') });
+  if (savesPictures) await page.screenshot({ path: test.info().outputPath('settings.png') });
   await page.getByRole('button', { name: 'Save' }).click();
   await page.waitForFunction(() => window.farpoint?.state().session === 'live');
   const kept = await page.evaluate(() => JSON.parse(localStorage.getItem('farpoint.settings') ?? '{}'));

@@ -20,7 +20,7 @@ test('in the headset: both eyes show the room, the thumbstick drives, the world 
   await page.getByRole('button', { name: /VR/ }).click();
   await operator.expectState('vr', true);
   await operator.expectPoints(5000);
-  const before = await operator.screenshot(testInfo, 'both-eyes');
+  const before = await operator.picture(testInfo, 'both-eyes');
   const [left, right] = await readPicture(page, before, [leftEye, rightEye]);
   for (const eye of [left, right]) {
     expect(eye?.drawnShare).toBeGreaterThan(0.2);

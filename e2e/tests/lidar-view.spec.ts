@@ -2,6 +2,7 @@ import type { Page } from '@playwright/test';
 import { expectOnScreenAndApart } from '../src/layout.ts';
 import { OperatorPage } from '../src/operator-page.ts';
 import { type Part, type Rgb, sharesNear } from '../src/picture.ts';
+import { screenSizes } from '../src/screens.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
 const LIDAR_ROBOT = { ...simulatedRobot, args: [...simulatedRobot.args, '--sim-lidars', '1'] };
@@ -146,7 +147,7 @@ test('from above, the robot is in the middle, can be driven, and stops', async (
   await operator.expectMovedFrom(start, 0.5);
   await page.keyboard.press('KeyX');
   await operator.expectState('estop', true);
-  await operator.releaseKeys();
+  await operator.release();
   await operator.expectStanding();
   await expect.poll(marked).toBeGreaterThan(0.005);
 
@@ -164,12 +165,12 @@ test('from above, the robot is in the middle, can be driven, and stops', async (
   await expect.poll(marked).toBe(0);
 });
 
-for (const width of [360, 1280, 3840]) {
+for (const { width, height } of screenSizes) {
   test(`the panel for clouds covers nothing on a screen ${width} pixels wide`, async ({
     page,
     startStack,
   }, testInfo) => {
-    const screen = { width, height: width === 360 ? 740 : Math.round((width * 9) / 16) };
+    const screen = { width, height };
     await page.setViewportSize(screen);
     const stack = await startStack({ robots: [LIDAR_ROBOT] });
     const operator = await OperatorPage.open(page, stack, { robot: LIDAR_ROBOT.id });

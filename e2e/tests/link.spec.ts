@@ -43,7 +43,7 @@ test('over an emulated link: points arrive with the link’s delay, and nothing 
     const start = await operator.body();
     await operator.holdForward();
     await operator.expectMovedFrom(start, 0.3);
-    await operator.releaseKeys();
+    await operator.release();
     await operator.expectStanding();
 
     // What the link drops reaches nobody, because there is no other path.

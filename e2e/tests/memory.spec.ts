@@ -1,8 +1,9 @@
 import { readFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
 import { expectOnScreenAndApart } from '../src/layout.ts';
-import { OperatorPage, screenSizes } from '../src/operator-page.ts';
+import { OperatorPage } from '../src/operator-page.ts';
 import { type Part, type Rgb, sharesNear } from '../src/picture.ts';
+import { savesPictures, screenSizes } from '../src/screens.ts';
 import { expect, test } from '../src/stack-test.ts';
 
 const BACKGROUND: Rgb = [11, 15, 20];
@@ -81,7 +82,7 @@ test('a small map shows what is remembered around the robot and the way driven, 
     .toBeGreaterThan(0.4);
   await turnRound(operator, page);
   await expect.poll(() => mapped(page, 'behind'), { message: 'share behind' }).toBeGreaterThan(0.15);
-  await map.screenshot({ path: testInfo.outputPath('map.png') });
+  if (savesPictures) await map.screenshot({ path: testInfo.outputPath('map.png') });
 
   const pieces = page.locator(
     '#bar button:visible, #drive button:visible, #facts, #clouds .heads button, #near:visible, #minimap:visible',

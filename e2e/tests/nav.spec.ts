@@ -1,7 +1,8 @@
 /** What the robot's own navigator has planned and its map are on the floor, while they hold. */
 import { EmulatedLink } from '@farpoint/local-stack';
 import { Headset, headsetViewport } from '../src/headset.ts';
-import { OperatorPage, screenSizes } from '../src/operator-page.ts';
+import { OperatorPage } from '../src/operator-page.ts';
+import { LAPTOP, screenSizes } from '../src/screens.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 
 /** From the hall through its opening into the corridor. */
@@ -45,7 +46,7 @@ test('path and map are on the floor, from behind and from above, and can be hidd
       await operator.screenshot(testInfo, `${view}-${size.width}`);
     }
   }
-  await page.setViewportSize(screenSizes[1]);
+  await page.setViewportSize(LAPTOP);
   await page.locator('#colours-open').click();
   const shown = page.locator('#navigation');
   await expect(shown).toHaveText('Drawn');

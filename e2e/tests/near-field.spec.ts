@@ -1,7 +1,8 @@
 /** What is near the robot is shown all around it and named in metres, also where the camera does not see it. */
 import { EmulatedLink } from '@farpoint/local-stack';
 import { Headset, headsetViewport } from '../src/headset.ts';
-import { OperatorPage, screenSizes } from '../src/operator-page.ts';
+import { OperatorPage } from '../src/operator-page.ts';
+import { screenSizes } from '../src/screens.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 
 /** A low box, which the camera sees from afar only. Its nearest side is 0.75 m before base_link at the start. */
@@ -128,7 +129,7 @@ test('the edge of the view is red where the robot is held, and no longer when it
   await operator.screenshot(testInfo, 'held-looking-left');
   await page.locator('#stage').dblclick({ position: { x: 480, y: 200 } });
   await operator.screenshots(page, testInfo, 'held');
-  await operator.releaseKeys();
+  await operator.release();
   await expect(edge).toBeHidden();
 });
 

@@ -1,5 +1,6 @@
 /** The robot looks where it goes, and the page says when it does not. */
-import { OperatorPage, screenSizes } from '../src/operator-page.ts';
+import { OperatorPage } from '../src/operator-page.ts';
+import { screenSizes } from '../src/screens.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
 test('driven against a wall, the robot stops before it, says why, and backs out', async ({
@@ -22,21 +23,11 @@ test('driven against a wall, the robot stops before it, says why, and backs out'
   await operator.expectStanding();
   await operator.screenshot(testInfo, 'held');
   await expect(page.locator('#facts')).not.toContainText('in contact');
-  await operator.releaseKeys();
+  await operator.release();
   await expect(bounded).toBeHidden();
 
   const stood = await operator.body();
-  const { keyboard } = page;
-  await operator.hold({
-    async hold() {
-      await keyboard.down(' ');
-      await keyboard.down('s');
-    },
-    async release() {
-      await keyboard.up('s');
-      await keyboard.up(' ');
-    },
-  });
+  await operator.hold(operator.scriptGrip('back'));
   await operator.expectMovedFrom(stood, 0.2);
   await operator.release();
   await operator.expectStanding();

@@ -40,12 +40,12 @@ async function expectDriveAgain(operator: OperatorPage): Promise<void> {
   await operator.expectFrames(15);
   const stands = await operator.body();
   expect(Math.hypot(stands.x - stood.x, stands.y - stood.y)).toBeLessThan(0.01);
-  await operator.releaseKeys();
+  await operator.release();
   const began = performance.now();
   await operator.holdForward();
   await operator.expectMovedFrom(stands, 0.05);
   console.log(`  drives again after ${Math.round(performance.now() - began)} ms`);
-  await operator.releaseKeys();
+  await operator.release();
   await operator.expectStanding();
 }
 

@@ -219,7 +219,7 @@ test('in the headset the picture is beside the panel on the wrist', async ({
   await headset.place('left', [-0.12, 1.92, -0.45]);
   const drawnAbove = async (name: string) => {
     await operator.expectFrames(20);
-    const picture = await operator.screenshot(testInfo, name);
+    const picture = await operator.picture(testInfo, name);
     const [facts] = await readPicture(page, picture, [{ left: 0, top: 0, width: 0.5, height: 0.15 }]);
     return facts?.drawnShare ?? Number.NaN;
   };

@@ -71,14 +71,14 @@ test('flat: the view moves before the robot can be seen to, and P and ?predict=0
     await operator.expectFrames(3);
     await operator.screenshot(testInfo, 'ghost-from-behind');
     await page.keyboard.press('v');
-    await operator.releaseKeys();
+    await operator.release();
     await operator.expectStanding();
     await operator.expectFrames(10);
 
     const predicted = await watchMotion(page);
     await operator.holdForward();
     const { viewMs, bodyMs } = await predicted();
-    await operator.releaseKeys();
+    await operator.release();
     await operator.expectStanding();
     expect(bodyMs).toBeGreaterThan(LOOP_MS * 0.9);
     // A few frames of a page that draws in software.
@@ -91,7 +91,7 @@ test('flat: the view moves before the robot can be seen to, and P and ?predict=0
     const followed = await watchMotion(page);
     await operator.holdForward();
     const without = await followed();
-    await operator.releaseKeys();
+    await operator.release();
     await operator.expectStanding();
     expect(without.viewMs).toBeGreaterThan(LOOP_MS * 0.9);
 
@@ -109,7 +109,7 @@ test('flat: the view moves before the robot can be seen to, and P and ?predict=0
     await expect.poll(async () => (await operator.state()).view.state).toBe('predicted');
     await page.keyboard.press('x');
     await expect(page.locator('#facts')).toContainText('As reported: the robot is held');
-    await operator.releaseKeys();
+    await operator.release();
     await operator.releaseEstop();
 
     const plain = await OperatorPage.open(page, stack, { robot: lightRobot.id, predict: '0' });

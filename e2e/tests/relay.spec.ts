@@ -24,7 +24,7 @@ test('through a TURN relay only: points and commands arrive, and a restarted rel
     const start = await operator.body();
     await operator.holdForward();
     await operator.expectMovedFrom(start, 0.3);
-    await operator.releaseKeys();
+    await operator.release();
     await operator.expectStanding();
 
     // There is no other path, and the relay has forgotten both peers.
@@ -35,7 +35,7 @@ test('through a TURN relay only: points and commands arrive, and a restarted rel
     const stood = await operator.body();
     await operator.holdForward();
     await operator.expectMovedFrom(stood, 0.1);
-    await operator.releaseKeys();
+    await operator.release();
     expect((await operator.state()).sessionsOpened).toBe(1);
   } finally {
     await turn.stop();

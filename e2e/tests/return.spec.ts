@@ -2,6 +2,7 @@
 import { EmulatedLink, type LocalStack } from '@farpoint/local-stack';
 import type { Page } from '@playwright/test';
 import { OperatorPage } from '../src/operator-page.ts';
+import { screenSizes } from '../src/screens.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 
 const RETURNS = [
@@ -54,21 +55,19 @@ test('a robot that came back while its link was away says so, stands, and waits 
     await operator.expectFrames(10);
     const later = await operator.body();
     expect(Math.hypot(later.x - stands.x, later.y - stands.y)).toBeLessThan(0.01);
-    for (const width of [360, 3840, 1280]) {
-      await page.setViewportSize({ width, height: width === 360 ? 740 : Math.round(width * 0.5625) });
+    for (const { width, height } of screenSizes) {
+      await page.setViewportSize({ width, height });
       await expect(words).toBeInViewport({ ratio: 1 });
       await operator.screenshot(testInfo, `came-back-${width}`);
     }
 
     // A fresh hand drives it, and then it is past.
-    await operator.releaseKeys();
+    await operator.release();
     await operator.expectState('drive', 'idle');
     // Backwards: ahead may be what held it before.
-    await page.keyboard.down('Space');
-    await page.keyboard.down('KeyS');
+    await operator.hold(operator.scriptGrip('back'));
     await operator.expectMovedFrom(stands, 0.1);
-    await page.keyboard.up('KeyS');
-    await page.keyboard.up('Space');
+    await operator.release();
     await expect(words).toBeHidden();
   } finally {
     await link.stop();
@@ -83,7 +82,7 @@ test('STOP that is pressed while the robot drives back stops it when the link is
   const link = await EmulatedLink.start(stack, { args: ['--rate-mbps', '20', '--rtt-ms', '30'] });
   try {
     const { operator } = await driveAway(page, stack, link);
-    await operator.releaseKeys();
+    await operator.release();
     link.tell({ type: 'blackhole', direction: 'both', active: true });
     await expect(page.getByText(/Connection lost for \d+ s/).first()).toBeVisible();
     await expect.poll(() => metresBack(stack), { message: 'metres back' }).toBeGreaterThan(0.1);

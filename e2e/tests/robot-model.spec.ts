@@ -1,6 +1,7 @@
 /** The robot's model: seen from outside with its joints where they are, never from the robot's own eyes. */
 import { Headset, headsetViewport } from '../src/headset.ts';
-import { OperatorPage, screenSizes } from '../src/operator-page.ts';
+import { OperatorPage } from '../src/operator-page.ts';
+import { LAPTOP, screenSizes } from '../src/screens.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 
 const robot = { ...lightRobot, args: [...lightRobot.args, '--sim-size', '160'] };
@@ -34,7 +35,7 @@ test('it is seen from behind and from above, its wheels turn, and it can be hidd
       await operator.screenshot(testInfo, `${view}-${size.width}`);
     }
   }
-  await page.setViewportSize(screenSizes[1]);
+  await page.setViewportSize(LAPTOP);
   await page.keyboard.press('t');
   const before = (await model(operator)).positions;
   await page.evaluate(() => window.farpoint.drive({ forward: 1, left: 0 }, 600));

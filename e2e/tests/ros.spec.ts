@@ -34,6 +34,6 @@ test('a robot in a ROS 1 graph: its cloud, its readings, and driving it', async 
       return nodes[1]?.heard.at(-1)?.x ?? 0;
     })
     .toBeGreaterThan(0.2);
-  await operator.releaseKeys();
+  await operator.release();
   await expect.poll(() => nodes[1]?.heard.at(-1)?.x).toBe(0);
 });

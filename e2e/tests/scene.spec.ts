@@ -3,7 +3,8 @@ import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Page, TestInfo } from '@playwright/test';
 import { lidarYard, writeLidarYard } from '../src/lidar-yard.ts';
-import { OperatorPage, screenSizes } from '../src/operator-page.ts';
+import { OperatorPage } from '../src/operator-page.ts';
+import { screenSizes } from '../src/screens.ts';
 import { cloudsFolder, expect, simulatedRobot, test } from '../src/stack-test.ts';
 
 const STREAM = ['--mode', 'points64', '--fps', '5', '--bitrate-mbps', '40', '--lambda', '0'];

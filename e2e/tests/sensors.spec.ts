@@ -1,4 +1,5 @@
 import { OperatorPage } from '../src/operator-page.ts';
+import { savesPictures, screenSizes } from '../src/screens.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
 const LIDAR_ROBOT = { ...simulatedRobot, args: [...simulatedRobot.args, '--sim-lidars', '1'] };
@@ -17,7 +18,7 @@ test('a camera and a LiDAR in one session: both drawn, each switched off and on 
     ['Camera', true],
     ['LiDAR', true],
   ]);
-  await page.screenshot({ path: testInfo.outputPath('two-sensors.png') });
+  if (savesPictures) await page.screenshot({ path: testInfo.outputPath('two-sensors.png') });
 
   await page.getByRole('button', { name: 'LiDAR' }).click();
   await expect.poll(drawn).toEqual([true, false]);
@@ -32,18 +33,18 @@ test('a camera and a LiDAR in one session: both drawn, each switched off and on 
   const start = await operator.body();
   await operator.holdForward();
   await operator.expectMovedFrom(start, 0.2);
-  await operator.releaseKeys();
+  await operator.release();
   await operator.expectStanding();
   await page.getByRole('button', { name: 'Camera' }).click();
   await expect.poll(drawn).toEqual([true, true]);
 });
 
-for (const width of [360, 1280, 3840]) {
+for (const { width, height } of screenSizes) {
   test(`the sensors' switches are on a screen ${width} pixels wide`, async ({
     page,
     startStack,
   }, testInfo) => {
-    await page.setViewportSize({ width, height: width === 360 ? 740 : Math.round((width * 9) / 16) });
+    await page.setViewportSize({ width, height });
     const stack = await startStack({ robots: [LIDAR_ROBOT] });
     const operator = await OperatorPage.open(page, stack, { robot: LIDAR_ROBOT.id });
     await operator.expectPoints();
@@ -53,6 +54,6 @@ for (const width of [360, 1280, 3840]) {
       // Nothing covers it.
       await button.click({ trial: true });
     }
-    await page.screenshot({ path: testInfo.outputPath(`sensors-${width}.png`) });
+    if (savesPictures) await page.screenshot({ path: testInfo.outputPath(`sensors-${width}.png`) });
   });
 }

@@ -65,7 +65,7 @@ test('who signs in drives, without a click more, and still after the page was lo
   await operator.expectPoints(100);
   await operator.holdForward();
   await operator.expectState('holder', 'you');
-  await operator.releaseKeys();
+  await operator.release();
   expect(await page.evaluate(() => sessionStorage.length)).toBe(0);
 
   await page.reload();

@@ -1,5 +1,6 @@
 import { EmulatedLink } from '@farpoint/local-stack';
 import { OperatorPage } from '../src/operator-page.ts';
+import { screenSizes } from '../src/screens.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
 const NOT_YET = 'STOP not yet confirmed';
@@ -22,8 +23,8 @@ test('STOP that is pressed while the network is away stops the robot at its retu
     await expect(page.getByText(/Connection lost for \d+ s/).first()).toBeVisible();
     await page.locator('#estop').click();
     await expect(state).toHaveText(NOT_YET);
-    for (const width of [360, 3840, 1280]) {
-      await page.setViewportSize({ width, height: width === 360 ? 740 : Math.round(width * 0.5625) });
+    for (const { width, height } of screenSizes) {
+      await page.setViewportSize({ width, height });
       await expect(state).toBeInViewport({ ratio: 1 });
       await operator.screenshot(testInfo, `not-confirmed-${width}`);
     }

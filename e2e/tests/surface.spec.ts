@@ -26,7 +26,7 @@ const robot = {
 
 /** Share of the picture's middle where nothing is drawn. */
 async function holes(page: Page, operator: OperatorPage, testInfo: TestInfo, name: string): Promise<number> {
-  const picture = await operator.screenshot(testInfo, name);
+  const picture = await operator.picture(testInfo, name);
   const [share] = await sharesNear(page, picture, MIDDLE, [BACKGROUND], 3);
   return share as number;
 }
@@ -78,7 +78,7 @@ test('lit colours: the floor, seen at a slant, is darker than what faces the eye
       await mode.selectOption(chosen);
       await operator.expectFrames(2);
       await expect(page.locator('#link')).toHaveText('Live');
-      const facts = await readPicture(page, await operator.screenshot(testInfo, `${name}-${chosen}`), parts);
+      const facts = await readPicture(page, await operator.picture(testInfo, `${name}-${chosen}`), parts);
       taken.push(facts.map(({ lightness }) => lightness));
     }
     const [captured, lit] = taken as [number[], number[]];
@@ -145,7 +145,7 @@ test.describe('in the headset', () => {
     await operator.expectState('vr', true);
     await operator.expectFrames(5);
     expect(await operator.probe()).toMatchObject({ surface: true });
-    const picture = await operator.screenshot(testInfo, 'surface-both-eyes');
+    const picture = await operator.picture(testInfo, 'surface-both-eyes');
     for (const eye of await readPicture(page, picture, [leftEye, rightEye])) {
       expect(eye.drawnShare).toBeGreaterThan(0.2);
       expect(eye.colours).toBeGreaterThan(15);

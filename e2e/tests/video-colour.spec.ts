@@ -32,7 +32,7 @@ const expectState = (operator: OperatorPage, state: string) =>
   expect.poll(async () => (await colour(operator))?.state).toBe(state);
 
 async function whiteShare(page: Page, operator: OperatorPage, testInfo: TestInfo, name: string) {
-  const picture = await operator.screenshot(testInfo, name);
+  const picture = await operator.picture(testInfo, name);
   const [share] = await sharesNear(page, picture, MIDDLE, [WHITE], 30);
   return share as number;
 }
@@ -77,11 +77,11 @@ test('the simulated depth camera’s own picture lies where the packets’ colou
   await operator.expectPoints(8000);
   await page.getByRole('button', { name: 'Colours', exact: true }).click();
   await expect.poll(async () => (await colour(operator))?.share).toBeGreaterThan(0.3);
-  const painted = await operator.screenshot(testInfo, 'own-video');
+  const painted = await operator.picture(testInfo, 'own-video');
   await page.getByRole('button', { name: 'Video', exact: true }).click();
   await expectState(operator, 'switched-off');
   await operator.expectFrames(1);
-  const own = await operator.screenshot(testInfo, 'packets-own-colours');
+  const own = await operator.picture(testInfo, 'packets-own-colours');
   // People walk by, and the packets' colours are coarse. A picture in a wrong place would differ everywhere.
   const difference = await meanDifference(page, painted, own, MIDDLE);
   expect(difference).toBeLessThan(40);
@@ -99,7 +99,7 @@ test.describe('in the headset', () => {
     await operator.expectState('vr', true);
     await expectState(operator, 'painted');
     const whiteOfBoth = async () => {
-      const picture = await operator.screenshot(testInfo, 'painted-both-eyes');
+      const picture = await operator.picture(testInfo, 'painted-both-eyes');
       const shares: number[] = [];
       for (const eye of [leftEye, rightEye])
         shares.push(...(await sharesNear(page, picture, eye, [WHITE], 30)));

@@ -2,6 +2,7 @@
 import type { Page } from '@playwright/test';
 import { expectNothingCovered } from '../src/nothing-covered.ts';
 import { OperatorPage } from '../src/operator-page.ts';
+import { savesPictures, screenSizes } from '../src/screens.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 import { hasVideo, type TestCamera, testCamera, videoRobot } from '../src/video-robot.ts';
 
@@ -158,7 +159,7 @@ test('one key lets a camera fill the screen and puts the cloud into its panel; d
   const start = await operator.body();
   await operator.holdForward();
   await operator.expectMovedFrom(start, 0.2);
-  await operator.releaseKeys();
+  await operator.release();
   await page.getByRole('button', { name: 'STOP' }).click();
   await operator.expectState('estop', true);
   await expectNothingCovered(page);
@@ -251,19 +252,19 @@ test.describe('on a phone', () => {
   });
 });
 
-for (const width of [360, 1280, 3840]) {
+for (const { width, height } of screenSizes) {
   test(`what became of the frames, and what comes first on a slow link, on a screen ${width} pixels wide`, async ({
     page,
     startStack,
   }, testInfo) => {
-    await page.setViewportSize({ width, height: width === 360 ? 740 : Math.round((width * 9) / 16) });
+    await page.setViewportSize({ width, height });
     await open(page, startStack);
     await expect.poll(() => stateOf(page, 'Front')).toBe('live');
     await page.locator('.video-report button').click();
     const choice = page.getByLabel('What comes first on a slow link');
     await choice.selectOption('cameras first');
     await expect(choice).toBeInViewport({ ratio: 1 });
-    await page.screenshot({ path: testInfo.outputPath(`slow-link-${width}.png`) });
+    if (savesPictures) await page.screenshot({ path: testInfo.outputPath(`slow-link-${width}.png`) });
     await expectNothingCovered(page);
     // Nothing that is chosen is cut off.
     expect(await choice.evaluate((select) => select.scrollWidth <= select.clientWidth)).toBe(true);

@@ -1,6 +1,7 @@
 /** The robot moves only while its driver sees it: a page that draws nothing any more brakes it, and says why. */
 import { freezeFrames, thawFrames } from '../src/frames.ts';
-import { OperatorPage, screenSizes } from '../src/operator-page.ts';
+import { OperatorPage } from '../src/operator-page.ts';
+import { screenSizes } from '../src/screens.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 
 // For a software-rendered page, which is late by itself.
@@ -43,10 +44,10 @@ test('a page that draws nothing any more brakes the robot, until the grip is let
   expect(Math.hypot((await operator.body()).x - stood.x, (await operator.body()).y - stood.y)).toBeLessThan(
     0.01,
   );
-  await operator.releaseKeys();
+  await operator.release();
   await expect(bounded).toBeHidden();
   await operator.holdForward();
   await operator.expectMovedFrom(stood, 0.2);
-  await operator.releaseKeys();
+  await operator.release();
   await operator.expectStanding();
 });

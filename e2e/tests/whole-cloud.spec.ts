@@ -30,7 +30,7 @@ test('the whole cloud arrives, stays where it was captured, and answers a latenc
 
   // The page's controls cover little of it. Three frames fill the first ring of vertices.
   await operator.expectFrames(5);
-  const [facts] = await readPicture(page, await operator.screenshot(testInfo, 'whole'), [
+  const [facts] = await readPicture(page, await operator.picture(testInfo, 'whole'), [
     { left: 0, top: 0, width: 1, height: 1 },
   ]);
   expect(facts?.drawnShare).toBeGreaterThan(0.4);
@@ -76,7 +76,7 @@ test('an operator that reads only points64 gets it, beside one that gets everyth
   await plain.holdForward();
   await expect.poll(async () => (await plain.state()).holder).toBe('you');
   await plain.expectFrames(5);
-  await plain.releaseKeys();
+  await plain.release();
 });
 
 for (const { name, least } of [

@@ -13,16 +13,21 @@ export interface RustResult {
 }
 
 /**
- * The Rust part of the tests. The committed modules match their sources. They build from source, and with the
- * recorded compiler to the same bytes. Format, clippy, unit tests.
+ * The Rust part of the tests. The committed modules match their sources: by their hashes and, unless only those are
+ * asked for, because they build from source, and with the recorded compiler to the same bytes. Format, clippy, unit
+ * tests.
  */
-export async function testRust(say: (line: string) => void): Promise<RustResult> {
+export async function testRust(
+  say: (line: string) => void,
+  { onlyHashes }: { onlyHashes: boolean },
+): Promise<RustResult> {
   const stale = checkFresh();
   if (stale.length > 0) {
     const list = stale.map(({ name, outDir, reason }) => `${outDir}: ${name} is stale (${reason})`);
     return { ok: false, output: [...list, 'run: pnpm build:wasm'].join('\n') };
   }
 
+  if (onlyHashes) return { ok: true, output: '' };
   const skipped: string[] = [];
   try {
     const fault = rebuild(say);

@@ -81,6 +81,14 @@ describe('readSettings', () => {
     expect([read('', { cues: false }).cues, read('cues=1', { cues: false }).cues]).toEqual([false, true]);
   });
 
+  test('waits for the GPU only where a time is measured', () => {
+    expect([read('').measure, read('canvas=320x180').measure, read('measure=1').measure]).toEqual([
+      false,
+      false,
+      true,
+    ]);
+  });
+
   test('ignores invalid robot ids and canvas sizes', () => {
     expect(read('robot=sim-1&canvas=640x360')).toMatchObject({
       robot: 'sim-1',

@@ -44,8 +44,10 @@ export interface Settings {
   robot: string | null;
   /** `relay`: connect through TURN servers only. */
   icePolicy: 'all' | 'relay';
-  /** Fixed size of the canvas in pixels, for benchmarks. */
+  /** Fixed size of the canvas in pixels, for benchmarks and tests. */
   canvas: { width: number; height: number } | null;
+  /** Whether each picture is waited for until the GPU has finished it, so that its time is known. It costs frames. */
+  measure: boolean;
   /** `points64`: refuse the coded formats. */
   mode: 'auto' | 'points64';
   /** Draw only every n-th point, for benchmarks with an emulated GPU; `null`: draw as many as possible. */
@@ -117,6 +119,7 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
     robot: robot !== undefined && robotIdSchema.safeParse(robot).success ? robot : null,
     icePolicy: query.get('ice') === 'relay' ? 'relay' : 'all',
     canvas: parseCanvas(query.get('canvas')),
+    measure: parseSwitch(query.get('measure')) ?? false,
     mode: query.get('mode') === 'points64' ? 'points64' : 'auto',
     drawEvery: parseEvery(query.get('every')),
     surface: parseSwitch(query.get('surface')) ?? null,

@@ -1,4 +1,4 @@
-/** Drive input from a test or a benchmark: `window.farpoint.drive`. */
+/** Drive input from a test or a benchmark: `window.farpoint.drive` and `window.farpoint.hold`. */
 import type { DriveInput, DriveWish } from '@farpoint/operator';
 
 export class ScriptInput implements DriveInput {
@@ -6,4 +6,14 @@ export class ScriptInput implements DriveInput {
   readonly wish: DriveWish = { forward: 0, left: 0 };
   readonly readMs = null;
   held = false;
+
+  hold(wish: Readonly<DriveWish>): void {
+    this.wish.forward = wish.forward;
+    this.wish.left = wish.left;
+    this.held = true;
+  }
+
+  release(): void {
+    this.held = false;
+  }
 }

@@ -178,6 +178,8 @@ export interface FarpointTestApi {
   latencyResults(): readonly LatencyResult[];
   /** Holds the grip and the stick for `ms`; −1…1, forward and left positive. */
   drive(wish: { forward: number; left: number }, ms: number): Promise<void>;
+  /** Holds the grip and the stick, as {@link drive} does, until it is called with `null`, but for a minute at most. */
+  hold(wish: { forward: number; left: number } | null): void;
   /** Limits the stream, bit/s (the `bandwidth` channel). */
   limitBandwidth(bitsPerSecond: number): void;
   /** Divides the link by these weights, until the page does so again. */

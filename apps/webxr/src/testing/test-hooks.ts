@@ -11,11 +11,15 @@ import { PresentationRecord } from './presentation-record.ts';
 import { ScriptInput } from './script-input.ts';
 import type { DrawnProbe, FarpointTestApi, HeadsetProbe, NearProbe } from './test-api.ts';
 
+/** A grip that nobody renews lets go by itself. */
+const LONGEST_HOLD_MS = 60_000;
+
 export function installTestApi(app: App): void {
   const { client, cloud, stage } = app;
   const { link, driver } = client;
   const script = new ScriptInput();
   driver.add(script);
+  let release: ReturnType<typeof setTimeout> | undefined;
   let packets: PacketRecord | null = null;
   let presentations: PresentationRecord | null = null;
   const robotNowMs = () => {
@@ -86,12 +90,19 @@ export function installTestApi(app: App): void {
     latencyTest: () => client.latencyTest(),
     latencyResults: () => client.statistics.results,
     async drive(wish, ms) {
-      script.wish.forward = wish.forward;
-      script.wish.left = wish.left;
-      script.held = true;
+      script.hold(wish);
       driver.tick(performance.now());
       await new Promise((resolve) => setTimeout(resolve, ms));
-      script.held = false;
+      script.release();
+      driver.tick(performance.now());
+    },
+    hold(wish) {
+      clearTimeout(release);
+      script.release();
+      if (wish !== null) {
+        script.hold(wish);
+        release = setTimeout(() => script.release(), LONGEST_HOLD_MS);
+      }
       driver.tick(performance.now());
     },
     limitBandwidth: (bitsPerSecond) => link.limitBandwidth(bitsPerSecond),

@@ -90,7 +90,7 @@ export class FrameLoop {
     remembered.update(stage.viewCamera, cloud.colouring);
     stage.renderer.render(stage.scene, stage.viewCamera);
     // Wait only when a time is being measured: waiting for the GPU costs frames.
-    if (client.latency.wantsTime || settings.canvas !== null) {
+    if (client.latency.wantsTime || settings.measure) {
       this.#completion.wait();
       this.#gate.onCost(performance.now() - beganMs);
     } else if (!inVr) this.#completion.mark();

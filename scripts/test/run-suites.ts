@@ -1,0 +1,151 @@
+/** Runs vitest and Playwright, reads their reports, and runs again what failed. */
+import { mkdirSync, readFileSync, rmSync } from 'node:fs';
+import { join } from 'node:path';
+import { root, run } from '../lib/run.ts';
+import type { Outcome } from './outcome.ts';
+import { readPlaywrightReport } from './playwright-report.ts';
+import type { Quarantined } from './quarantine.ts';
+import { type Judged, judge, SECOND_RUNS, toRunAgain } from './verdict.ts';
+import { readVitestReport } from './vitest-report.ts';
+
+export interface SuiteResult {
+  judged: Judged[];
+  /** What went wrong besides tests; `null` if nothing did. */
+  failure: string | null;
+}
+
+const REPORTS = join(root, '.farpoint', 'reports');
+/** More failures than this are not run again: the run has failed, and these are enough to find out why. */
+const MOST_AGAIN = 6;
+/** A file that takes longer is run again for its failed tests only, which then must not depend on the others. */
+const LONG_FILE_MS = 100_000;
+const LAST_LINES = 20;
+
+/** @returns where the report goes; what was there is removed */
+function reportFile(name: string): string {
+  mkdirSync(REPORTS, { recursive: true });
+  const file = join(REPORTS, `${name}.json`);
+  rmSync(file, { force: true });
+  return file;
+}
+
+function lastLines(output: string): string {
+  return output.trimEnd().split('\n').slice(-LAST_LINES).join('\n');
+}
+
+/** The text of a report, or `null` where the tool ended without one. */
+function reportIn(file: string): string | null {
+  try {
+    return readFileSync(file, 'utf8');
+  } catch {
+    return null;
+  }
+}
+
+export interface VitestOptions {
+  /** One or, with `*`, several of the projects in vitest.config.ts. */
+  project: string;
+  /** Files that do not run. */
+  without?: readonly string[];
+  /** Whether a test that failed is run again, because it depends on processes and real time. */
+  again: boolean;
+  quarantine?: readonly Quarantined[];
+}
+
+export async function runVitest({
+  project,
+  without = [],
+  again,
+  quarantine = [],
+}: VitestOptions): Promise<SuiteResult> {
+  const vitest = async (name: string, args: readonly string[]) => {
+    const file = reportFile(name);
+    const { code, output } = await run(
+      'vitest',
+      ['run', '--project', project, ...args, '--reporter=default', '--reporter=json', `--outputFile=${file}`],
+      { echo: true },
+    );
+    const text = reportIn(file);
+    return { code, output, report: text === null ? null : readVitestReport(text, root) };
+  };
+  const name = project.replace('*', '');
+  const first = await vitest(
+    name,
+    without.flatMap((file) => ['--exclude', file]),
+  );
+  if (first.report === null) return { judged: [], failure: lastLines(first.output) };
+  const { outcomes, fileMs } = first.report;
+  const failed = again ? toRunAgain(outcomes, quarantine).slice(0, MOST_AGAIN) : [];
+  const alone: Outcome[] = [];
+  for (const [file, tests] of Map.groupBy(failed, ({ file }) => file)) {
+    const isLong = (fileMs.get(file) ?? 0) > LONG_FILE_MS && tests.every(({ title }) => title !== '');
+    const only = isLong
+      ? ['-t', tests.map(({ title }) => escaped(title.replaceAll(' > ', ' '))).join('|')]
+      : [];
+    for (let time = 1; time <= SECOND_RUNS; time++) {
+      console.log(`  again, alone (${time} of ${SECOND_RUNS}): ${file}`);
+      const { report } = await vitest(`${name}-again`, [file, ...only]);
+      const ran = report?.outcomes ?? [];
+      const isWanted = (outcome: Outcome) => tests.some(({ title }) => title === outcome.title);
+      alone.push(...ran.filter((outcome) => outcome.file === file && isWanted(outcome)));
+      // A file that loads now: what it could not do before.
+      if (tests.some(({ title }) => title === '') && ran.every(({ status }) => status !== 'failed'))
+        alone.push(
+          ...tests
+            .filter(({ title }) => title === '')
+            .map((test) => ({ ...test, status: 'passed' as const })),
+        );
+    }
+  }
+  const judged = judge(outcomes, alone, quarantine);
+  // Errors outside tests, which no second run excuses.
+  const hasFailed = outcomes.some(({ status }) => status === 'failed');
+  const failure = first.code !== 0 && !hasFailed ? lastLines(first.output) : null;
+  return { judged, failure };
+}
+
+function escaped(text: string): string {
+  return text.replace(/[.*+?^${}()|[\]\\]/g, '\\$&');
+}
+
+export interface PlaywrightOptions {
+  project: 'chromium' | 'firefox';
+  quarantine: readonly Quarantined[];
+}
+
+const E2E_FOLDERS = { chromium: 'e2e/tests', firefox: 'e2e/firefox' } as const;
+
+export async function runPlaywright({ project, quarantine }: PlaywrightOptions): Promise<SuiteResult> {
+  const folder = E2E_FOLDERS[project];
+  const playwright = async (name: string, args: readonly string[], env: Record<string, string> = {}) => {
+    const file = reportFile(name);
+    const { code, output } = await run(
+      'pnpm',
+      [
+        ...['--dir', 'e2e', 'exec', 'playwright', 'test', '--project', project],
+        ...['--reporter', 'list,json', ...args],
+      ],
+      { echo: true, env: { PLAYWRIGHT_JSON_OUTPUT_FILE: file, ...env } },
+    );
+    const text = reportIn(file);
+    return { code, output, report: text === null ? null : readPlaywrightReport(text, folder) };
+  };
+  const first = await playwright(project, []);
+  if (first.report === null) return { judged: [], failure: lastLines(first.output) };
+  const { outcomes, errors } = first.report;
+  const alone: Outcome[] = [];
+  for (const { file, line } of toRunAgain(outcomes, quarantine).slice(0, MOST_AGAIN)) {
+    const place = `${file.slice('e2e/'.length)}:${line ?? ''}`;
+    console.log(`  again, alone, ${SECOND_RUNS} times: ${place}`);
+    const { report } = await playwright(
+      `${project}-again`,
+      [place, `--repeat-each=${SECOND_RUNS}`, '--output', `output/${project}-again-${alone.length}`],
+      { FARPOINT_SECOND_RUN: '1' },
+    );
+    alone.push(...(report?.outcomes ?? []));
+  }
+  const hasFailed = outcomes.some(({ status }) => status === 'failed');
+  const failure =
+    errors.length > 0 ? errors.join('\n') : first.code !== 0 && !hasFailed ? lastLines(first.output) : null;
+  return { judged: judge(outcomes, alone, quarantine), failure };
+}
