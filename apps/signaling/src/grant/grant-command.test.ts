@@ -69,11 +69,22 @@ it('issues a grant for a thumbprint and for a public key in a file', async () =>
   const jkt = await keyThumbprint(publicJwk);
   const trusted = await parseGrantKeys(readFileSync(keys, 'utf8'));
   for (const each of [jkt, file]) {
-    const { out, err } = await run(['issue', ...ada, `--for=${each}`, '--days', '1.5', '--key', key]);
+    const { out, err } = await run(['issue', ...ada, '--for', each, '--days', '1.5', '--key', key]);
     expect(err).toContain('Ada may drive kitchen-*, hall-1 until');
     const grant = await verifyGrant(out.trim(), { keys: trusted, robot: 'hall-1', nowS: NOW / 1000 });
     expect(grant).toMatchObject({ operatorKey: jkt, subject: 'Ada', expiresAtS: NOW / 1000 + 129_600 });
   }
+});
+
+it('issues and revokes grants for a thumbprint and an id that begin with a dash', async () => {
+  const { key, keys } = files();
+  await run(['keygen', ...flagsOf({ key, keys })]);
+  const dashed = `-${'a'.repeat(42)}`;
+  const { out, status } = await run(['issue', ...ada, '--for', dashed, '--key', key]);
+  expect(status).toBe(0);
+  expect(readGrant(out.trim()).claims.cnf.jkt).toBe(dashed);
+  const list = join(folder, 'revocations');
+  expect(await run(['revoke', '--list', list, '--key', key, '--id', '-b_c'])).toMatchObject({ status: 0 });
 });
 
 it('names robots’ keys for the operator', async () => {
@@ -138,6 +149,7 @@ it.each([
   [['issue', ...ada, '--with-key', '--key', '/nowhere/key'], 1, '--key cannot be read'],
   [['issue', ...ada, '--for', '/nowhere/key'], 1, '--for cannot be read'],
   [['issue', '--nmae', 'x'], 2, "'--nmae'"],
+  [['issue', ...ada, '--for', '--days', '1'], 2, "'--for'"],
   [['keygen', '--alg', 'HS256'], 2, '--alg must be one of EdDSA, ES256'],
   [['show'], 2, 'needs one grant'],
   [['show', 'a.b.c'], 1, 'neither a grant nor a ticket'],

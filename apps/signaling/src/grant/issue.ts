@@ -16,6 +16,7 @@ import {
   toOperatorJwk,
 } from '@farpoint/grants';
 import { CommandError, type CommandRim } from './command-rim.ts';
+import { tieDashValues } from './dash-values.ts';
 import { readText } from './key-files.ts';
 
 export const ISSUE_HELP = `farpoint-signaling grant issue --name NAME --robots IDS --role ROLE (--for KEY | --with-key) [options]
@@ -60,7 +61,7 @@ const FLAGS: Partial<Record<string, string>> = {
 
 /** @throws {CommandError} */
 export async function issue(argv: string[], { stdout, stderr, now }: CommandRim): Promise<number> {
-  const { values } = parseArgs({ args: argv, options: OPTIONS });
+  const { values } = parseArgs({ args: tieDashValues(argv, OPTIONS), options: OPTIONS });
   const { name, role, robots, days, issuer } = values;
   if ((values.for === undefined) !== values['with-key'])
     throw new CommandError('needs either --for KEY or --with-key');

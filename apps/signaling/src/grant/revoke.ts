@@ -14,6 +14,7 @@ import {
 } from '@farpoint/grants';
 import { handleSchema } from '@farpoint/protocol';
 import { CommandError, type CommandRim } from './command-rim.ts';
+import { tieDashValues } from './dash-values.ts';
 import { type Draft, openDraft, readIfThere, readText } from './key-files.ts';
 
 export const REVOKE_HELP = `farpoint-signaling grant revoke --list FILE (--id ID | --subject TEXT)… [options]
@@ -39,7 +40,7 @@ const OPTIONS = {
 
 /** @throws {CommandError} */
 export async function revoke(argv: string[], rim: CommandRim): Promise<number> {
-  const { values } = parseArgs({ args: argv, options: OPTIONS });
+  const { values } = parseArgs({ args: tieDashValues(argv, OPTIONS), options: OPTIONS });
   const { list, id: ids, subject: subjects, issuer } = values;
   if (list === undefined) throw new CommandError('needs --list');
   if (ids.length + subjects.length === 0) throw new CommandError('needs --id or --subject');
