@@ -2,7 +2,7 @@
 
 import { EmulatedLink } from '@farpoint/local-stack';
 import type { EstopState } from '@farpoint/protocol';
-import { afterEach, describe, expect, it } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 import { useRobot } from './testing/use-robot.ts';
 
@@ -14,6 +14,19 @@ let link: EmulatedLink | null = null;
 afterEach(async () => {
   await link?.stop();
   link = null;
+});
+
+// A test that failed has left the robot stopped; the next one is not to fail of that.
+beforeEach(async () => {
+  const operator = await robot.connect();
+  const { latched } = await operator.client.message('estop');
+  if (latched) {
+    await operator.client.takeLease();
+    operator.client.releaseEstop();
+    await untilLatched(operator, false);
+    operator.client.sendSession({ type: 'leaseRelease' });
+  }
+  await operator.close();
 });
 
 /** An operator whose every packet goes through a link that can be cut. */
