@@ -63,10 +63,18 @@ const FORWARD = 'w';
 const RELEASE_ESTOP = 'r';
 type Key = typeof DEAD_MAN | typeof FORWARD | typeof RELEASE_ESTOP;
 
-/** Run in the page. */
+/** Run in the page. A hand grips before it pushes: after a stop, a robot does not move for one that does both at once. */
 const SCRIPTED = {
-  forward: () => window.farpoint.hold({ forward: 1, left: 0 }),
-  back: () => window.farpoint.hold({ forward: -1, left: 0 }),
+  forward: async () => {
+    window.farpoint.hold({ forward: 0, left: 0 });
+    await new Promise((resolve) => setTimeout(resolve, 100));
+    window.farpoint.hold({ forward: 1, left: 0 });
+  },
+  back: async () => {
+    window.farpoint.hold({ forward: 0, left: 0 });
+    await new Promise((resolve) => setTimeout(resolve, 100));
+    window.farpoint.hold({ forward: -1, left: 0 });
+  },
 };
 type ScriptedWay = keyof typeof SCRIPTED;
 

@@ -52,6 +52,13 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
     because: 'runs until it is ended, and every test of it',
   },
   'pnpm test --help': { help: true },
+  'pnpm test --all': { help: true, because: 'runs until it is ended, and every test of it' },
+  'pnpm test --pictures': { help: true, because: 'runs until it is ended, and every test of it' },
+  'pnpm mutants': { help: true, because: 'runs until it is ended, and every test of it' },
+  'pnpm mutants grip-never-read-late': {
+    help: true,
+    because: 'runs until it is ended, and every test of it',
+  },
   'pnpm test:pure': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm --filter @farpoint/rtp test': { because: 'runs until it is ended, and every test of it' },
   'npx -y pnpm@12 janus': { help: true, because: 'runs until it is ended, and every test of it' },

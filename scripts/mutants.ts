@@ -1,0 +1,118 @@
+/**
+ * `pnpm mutants [NAME…]`: puts each fault of tests/mutants.yaml into a copy of the last commit, one at a time, and runs the
+ * tests that are to find it. Fails if one is not found. The copy is a git worktree in the folder for temporary files.
+ */
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { parseArgs } from 'node:util';
+import { run } from './lib/run.ts';
+import { readWorkspaceFile } from './lib/workspace-files.ts';
+import { type Mutant, mutate, readMutants } from './test/mutant.ts';
+import type { Outcome } from './test/outcome.ts';
+import { nameOf } from './test/outcome.ts';
+import { readPlaywrightReport } from './test/playwright-report.ts';
+import { durationWords } from './test/summary.ts';
+import { readVitestReport } from './test/vitest-report.ts';
+
+const { values, positionals: names } = parseArgs({
+  allowPositionals: true,
+  options: { help: { type: 'boolean', short: 'h' } },
+});
+const mutants = readMutants(readWorkspaceFile('tests/mutants.yaml'));
+if (values.help) {
+  console.log(`pnpm mutants [NAME…]
+
+Puts each of these faults into a copy of the last commit, one at a time, and runs the tests that are to find it.
+
+${mutants.map(({ name, what }) => `  ${name.padEnd(24)} ${what}`).join('\n')}`);
+  process.exit(0);
+}
+const unknown = names.find((name) => !mutants.some((mutant) => mutant.name === name));
+if (unknown !== undefined) {
+  console.error(`there is no fault ${unknown}; pnpm mutants --help lists them`);
+  process.exit(2);
+}
+
+const scratch = mkdtempSync(join(tmpdir(), 'farpoint-mutants-'));
+const copy = join(scratch, 'farpoint');
+const report = join(scratch, 'report.json');
+const must = async (program: string, ...args: string[]): Promise<void> => {
+  const { code, output } = await run(program, args, program === 'git' ? {} : { cwd: copy });
+  if (code !== 0) throw new Error(`${program} ${args.join(' ')}:\n${output.slice(-2000)}`);
+};
+const chosen = mutants.filter(({ name }) => names.length === 0 || names.includes(name));
+let isGreen = false;
+try {
+  console.log('copying the last commit');
+  await must('git', 'worktree', 'add', '--detach', '--force', copy, 'HEAD');
+  await must('pnpm', 'install', '--frozen-lockfile', '--prefer-offline');
+  const tests = [...new Set(chosen.flatMap(({ foundBy }) => foundBy))];
+  for (const each of tests) {
+    console.log(`without a fault: ${each}`);
+    const failed = await failuresOf(each);
+    if (failed.length > 0) throw new Error(`${each} fails without a fault: ${failed[0]}`);
+  }
+  const found: boolean[] = [];
+  for (const mutant of chosen) found.push(await isFound(mutant));
+  isGreen = found.every((each) => each);
+  console.log(`\n${found.filter((each) => each).length} of ${found.length} faults are found`);
+} catch (error) {
+  console.error(error instanceof Error ? error.message : error);
+} finally {
+  await run('git', ['worktree', 'remove', '--force', copy]);
+  rmSync(scratch, { recursive: true, force: true });
+}
+process.exit(isGreen ? 0 : 1);
+
+async function isFound(mutant: Mutant): Promise<boolean> {
+  const file = join(copy, mutant.file);
+  const text = readFileSync(file, 'utf8');
+  const began = performance.now();
+  writeFileSync(file, mutate(mutant, text));
+  try {
+    for (const tests of mutant.foundBy) {
+      const failed = await failuresOf(tests);
+      if (failed.length === 0) continue;
+      const took = durationWords(performance.now() - began);
+      console.log(`✓ ${mutant.name}: found by ${failed.length} of ${tests} (${took}), first ${failed[0]}`);
+      return true;
+    }
+    console.log(`✗ ${mutant.name}: not found by ${mutant.foundBy.join(', ')}`);
+    return false;
+  } finally {
+    writeFileSync(file, text);
+  }
+}
+
+/** @returns names of the tests that fail @throws {Error} if the tests could not be run */
+async function failuresOf(tests: string): Promise<string[]> {
+  rmSync(report, { force: true });
+  if (tests.startsWith('e2e/')) {
+    await must('node', 'scripts/build.ts');
+    const args = [
+      '--dir',
+      'e2e',
+      'exec',
+      'playwright',
+      'test',
+      '--project',
+      'chromium',
+      '--reporter',
+      'json',
+    ];
+    await run('pnpm', [...args, tests.slice('e2e/'.length)], {
+      cwd: copy,
+      env: { PLAYWRIGHT_JSON_OUTPUT_FILE: report },
+    });
+    return failed(readPlaywrightReport(readFileSync(report, 'utf8'), 'e2e/tests').outcomes);
+  }
+  const project = tests === 'pure' ? ['--project', 'pure'] : ['--project', 'stack*', tests];
+  await run('vitest', ['run', ...project, '--reporter=json', `--outputFile=${report}`], { cwd: copy });
+  return failed(readVitestReport(readFileSync(report, 'utf8'), copy).outcomes);
+}
+
+function failed(outcomes: readonly Outcome[]): string[] {
+  if (outcomes.every(({ status }) => status === 'skipped')) throw new Error('no test ran');
+  return outcomes.filter(({ status }) => status === 'failed').map(nameOf);
+}
