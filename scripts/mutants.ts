@@ -105,7 +105,7 @@ async function failuresOf(tests: string): Promise<string[]> {
       cwd: copy,
       env: { PLAYWRIGHT_JSON_OUTPUT_FILE: report },
     });
-    return failed(readPlaywrightReport(readFileSync(report, 'utf8'), 'e2e/tests').outcomes);
+    return failed(readPlaywrightReport(readFileSync(report, 'utf8'), 'e2e').outcomes);
   }
   const project = tests === 'pure' ? ['--project', 'pure'] : ['--project', 'stack*', tests];
   await run('vitest', ['run', ...project, '--reporter=json', `--outputFile=${report}`], { cwd: copy });

@@ -113,7 +113,7 @@ process.exit(isGreen ? 0 : 1);
 function againWords(step: string, test: Judged): string {
   if (step === 'e2e' || step === 'firefox') {
     const project = step === 'e2e' ? 'chromium' : 'firefox';
-    return `pnpm --dir e2e exec playwright test --project ${project} ${test.file.replace('e2e/', '')}:${test.line ?? ''}`;
+    return `pnpm --dir e2e exec playwright test --project=${project} ${test.file.replace('e2e/', '')}:${test.line ?? ''}`;
   }
   return `pnpm exec vitest run ${nameOf({ ...test, title: '' })}`;
 }

@@ -195,9 +195,13 @@ test('in the headset the display has the highest refresh rate that is offered an
   await page.setViewportSize({ width: 640, height: 960 });
   if (savesPictures) await page.screenshot({ path: test.info().outputPath('settings.png') });
   await page.getByRole('button', { name: 'Save' }).click();
+  // The page loads anew when it has saved them.
+  await expect(async () => {
+    const text = await page.evaluate(() => localStorage.getItem('farpoint.settings'));
+    const { headset: kept } = JSON.parse(text ?? '{}');
+    expect(kept).toMatchObject({ frameRate: 120, turn: 'smooth', foveation: 0.5 });
+  }).toPass();
   await page.waitForFunction(() => window.farpoint?.state().session === 'live');
-  const kept = await page.evaluate(() => JSON.parse(localStorage.getItem('farpoint.settings') ?? '{}'));
-  expect(kept.headset).toMatchObject({ frameRate: 120, turn: 'smooth', foveation: 0.5 });
 });
 
 test('in the headset, left-handed: the left hand drives, and the panel is on the right wrist', async ({

@@ -50,7 +50,7 @@ test('a thing 0.3 m before the robot is seen from its eye and from above, and na
   startStack,
 }, testInfo) => {
   const stack = await startStack({ robots: [robot] });
-  const operator = await OperatorPage.open(page, stack, { robot: robot.id });
+  const operator = await OperatorPage.open(page, stack, { robot: robot.id, canvas: 'full' });
   await operator.expectPoints(300);
   // Before anybody drives.
   await expectNamed(operator, BOX_SIDE_M - FOOTPRINT_M);

@@ -76,7 +76,7 @@ test('flat: the view moves before the robot can be seen to, and P and ?predict=0
     await operator.expectFrames(10);
 
     const predicted = await watchMotion(page);
-    await operator.holdForward();
+    await operator.holdForwardKeys();
     const { viewMs, bodyMs } = await predicted();
     await operator.release();
     await operator.expectStanding();
@@ -89,7 +89,7 @@ test('flat: the view moves before the robot can be seen to, and P and ?predict=0
     await expect(page.locator('#facts')).toContainText('prediction is off');
     await operator.expectFrames(10);
     const followed = await watchMotion(page);
-    await operator.holdForward();
+    await operator.holdForwardKeys();
     const without = await followed();
     await operator.release();
     await operator.expectStanding();

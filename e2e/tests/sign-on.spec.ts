@@ -57,7 +57,9 @@ test('who signs in drives, without a click more, and still after the page was lo
   await obstacle(page).getByRole('button', { name: 'Sign in' }).click();
   await signInAs(page, 'ada');
 
-  expect(new URL(page.url()).search).toBe(`?robot=${lightRobot.id}&mode=points64`);
+  // What the address asked for is still in it, and nothing else.
+  const asked = Object.fromEntries(new URL(page.url()).searchParams);
+  expect(asked).toEqual({ robot: lightRobot.id, canvas: expect.any(String), mode: 'points64' });
   expect(page.url()).not.toContain('#');
   await expect(page.getByText('Signed in: Ada Lovelace may drive: sim-*')).toBeVisible();
   await operator.expectState('session', 'live');
@@ -95,7 +97,7 @@ test('who may not is told so in words, and a grant that nobody asked for is only
   ).toBeVisible();
   expect(page.url()).not.toContain('#');
   await operator.screenshots(page, testInfo, 'not-permitted');
-  expect((await operator.state()).session).toBe('waiting');
+  await operator.expectState('session', 'waiting');
 
   // For this browser's key, and with a state that the page did not make.
   const office = await GrantOffice.open(testInfo.outputPath());

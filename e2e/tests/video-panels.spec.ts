@@ -86,11 +86,16 @@ test('panels are moved by hand and by keys, keep their shape and their place, an
   // With the grip held, the same keys drive.
   const before = await boxOf(page, 'Front');
   const start = await operator.body();
-  await page.keyboard.down('Space');
-  await page.keyboard.down('ArrowUp');
+  await operator.hold({
+    hold: async () => {
+      for (const key of ['Space', 'ArrowUp']) await page.keyboard.down(key);
+    },
+    release: async () => {
+      for (const key of ['ArrowUp', 'Space']) await page.keyboard.up(key);
+    },
+  });
   await operator.expectMovedFrom(start, 0.2);
-  await page.keyboard.up('ArrowUp');
-  await page.keyboard.up('Space');
+  await operator.release();
   expect(await boxOf(page, 'Front')).toEqual(before);
 
   // The one that was touched last is on top.
@@ -106,6 +111,7 @@ test('panels are moved by hand and by keys, keep their shape and their place, an
   await panel(page, 'Front').click({ position: { x: 10, y: 10 } });
   expect(await order('Front')).toBeGreaterThan(await order('Rear'));
 
+  const kept = await boxOf(page, 'Front');
   await page.setViewportSize({ width: 700, height: 480 });
   await expect.poll(async () => (await boxOf(page, 'Rear')).x).toBeLessThan(700);
   for (const { name } of twoCameras) {
@@ -115,12 +121,13 @@ test('panels are moved by hand and by keys, keep their shape and their place, an
   }
   await expectNothingCovered(page);
   await page.setViewportSize({ width: 960, height: 540 });
+  const leftOf = async () => Math.round((await boxOf(page, 'Front'))?.x ?? -1);
+  await expect.poll(leftOf, { message: 'back in its place' }).toBe(Math.round(kept.x));
 
   // The browser keeps it.
-  const kept = await boxOf(page, 'Front');
   await page.reload();
   await operator.expectPoints(300);
-  await expect.poll(async () => Math.round((await boxOf(page, 'Front'))?.x ?? -1)).toBe(Math.round(kept.x));
+  await expect.poll(leftOf).toBe(Math.round(kept.x));
   await page.getByRole('button', { name: 'Reset panels' }).click();
   await expect.poll(async () => (await boxOf(page, 'Front')).x).toBeCloseTo(docked.x, 0);
 

@@ -113,10 +113,10 @@ export interface PlaywrightOptions {
   quarantine: readonly Quarantined[];
 }
 
-const E2E_FOLDERS = { chromium: 'e2e/tests', firefox: 'e2e/firefox' } as const;
+/** Playwright names files relative to its configuration. */
+const FOLDER = 'e2e';
 
 export async function runPlaywright({ project, quarantine }: PlaywrightOptions): Promise<SuiteResult> {
-  const folder = E2E_FOLDERS[project];
   const playwright = async (name: string, args: readonly string[], env: Record<string, string> = {}) => {
     const file = reportFile(name);
     const { code, output } = await run(
@@ -128,14 +128,14 @@ export async function runPlaywright({ project, quarantine }: PlaywrightOptions):
       { echo: true, env: { PLAYWRIGHT_JSON_OUTPUT_FILE: file, ...env } },
     );
     const text = reportIn(file);
-    return { code, output, report: text === null ? null : readPlaywrightReport(text, folder) };
+    return { code, output, report: text === null ? null : readPlaywrightReport(text, FOLDER) };
   };
   const first = await playwright(project, []);
   if (first.report === null) return { judged: [], failure: lastLines(first.output) };
   const { outcomes, errors } = first.report;
   const alone: Outcome[] = [];
   for (const { file, line } of toRunAgain(outcomes, quarantine).slice(0, MOST_AGAIN)) {
-    const place = `${file.slice('e2e/'.length)}:${line ?? ''}`;
+    const place = `${file.slice(`${FOLDER}/`.length)}:${line ?? ''}`;
     console.log(`  again, alone, ${SECOND_RUNS} times: ${place}`);
     const { report } = await playwright(
       `${project}-again`,
