@@ -1,3 +1,4 @@
+import { join } from 'node:path';
 import { chromiumLaunchOptions } from '@farpoint/local-stack';
 import { defineConfig } from '@playwright/test';
 
@@ -17,15 +18,20 @@ for (const [name, value] of [
 ] as const)
   process.env[`FARPOINT_ROBOT_${name}`] ??= value;
 
-/** Whether `pnpm test` runs a failed test again, alone: what it leaves behind is to be understood then. */
-const isSecondRun = (process.env.FARPOINT_SECOND_RUN ?? '') !== '';
+/**
+ * `pnpm test` runs a failed test again, alone, and names the folder for what it leaves behind, by which the failure is to be
+ * understood.
+ */
+const secondRun = process.env.FARPOINT_SECOND_RUN ?? '';
+const isSecondRun = secondRun !== '';
+const outputOf = (project: string): string => join('output', isSecondRun ? secondRun : project);
 
 export default defineConfig({
   projects: [
-    { name: 'chromium', testDir: 'tests', outputDir: 'output/chromium' },
+    { name: 'chromium', testDir: 'tests', outputDir: outputOf('chromium') },
     // Uses only Playwright's runner. Firefox itself is driven through WebDriver BiDi (FirefoxBrowser of
     // @farpoint/local-stack).
-    { name: 'firefox', testDir: 'firefox', outputDir: 'output/firefox' },
+    { name: 'firefox', testDir: 'firefox', outputDir: outputOf('firefox') },
   ],
   // One stack and one software-rendered browser at a time, because two would slow each other down.
   workers: 1,

@@ -1,10 +1,12 @@
 /** Runs vitest and Playwright, reads their reports, and runs again what failed. */
 import { mkdirSync, readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
+import { stripVTControlCharacters } from 'node:util';
 import { root, run } from '../lib/run.ts';
 import type { Outcome } from './outcome.ts';
 import { readPlaywrightReport } from './playwright-report.ts';
 import type { Quarantined } from './quarantine.ts';
+import { MOST_AGAIN, runFilesAgain } from './second-runs.ts';
 import { type Judged, judge, SECOND_RUNS, toRunAgain } from './verdict.ts';
 import { readVitestReport } from './vitest-report.ts';
 
@@ -15,10 +17,6 @@ export interface SuiteResult {
 }
 
 const REPORTS = join(root, '.farpoint', 'reports');
-/** More failures than this are not run again: the run has failed, and these are enough to find out why. */
-const MOST_AGAIN = 6;
-/** A file that takes longer is run again for its failed tests only, which then must not depend on the others. */
-const LONG_FILE_MS = 100_000;
 const LAST_LINES = 20;
 
 /** @returns where the report goes; what was there is removed */
@@ -75,33 +73,31 @@ export async function runVitest({
   );
   if (first.report === null) return { judged: [], failure: lastLines(first.output) };
   const { outcomes, fileMs } = first.report;
-  const failed = again ? toRunAgain(outcomes, quarantine).slice(0, MOST_AGAIN) : [];
-  const alone: Outcome[] = [];
-  for (const [file, tests] of Map.groupBy(failed, ({ file }) => file)) {
-    const isLong = (fileMs.get(file) ?? 0) > LONG_FILE_MS && tests.every(({ title }) => title !== '');
-    const only = isLong
-      ? ['-t', tests.map(({ title }) => escaped(title.replaceAll(' > ', ' '))).join('|')]
-      : [];
-    for (let time = 1; time <= SECOND_RUNS; time++) {
-      console.log(`  again, alone (${time} of ${SECOND_RUNS}): ${file}`);
-      const { report } = await vitest(`${name}-again`, [file, ...only]);
-      const ran = report?.outcomes ?? [];
-      const isWanted = (outcome: Outcome) => tests.some(({ title }) => title === outcome.title);
-      alone.push(...ran.filter((outcome) => outcome.file === file && isWanted(outcome)));
-      // A file that loads now: what it could not do before.
-      if (tests.some(({ title }) => title === '') && ran.every(({ status }) => status !== 'failed'))
-        alone.push(
-          ...tests
-            .filter(({ title }) => title === '')
-            .map((test) => ({ ...test, status: 'passed' as const })),
-        );
-    }
-  }
+  const alone = await runFilesAgain(
+    again ? toRunAgain(outcomes, quarantine) : [],
+    fileMs,
+    async (file, titles) => {
+      console.log(`  again, alone: ${file}`);
+      // vitest joins names by spaces.
+      const names = titles?.map((title) => escaped(title.replaceAll(' > ', ' '))).join('|');
+      const { report } = await vitest(`${name}-again`, [file, ...(names === undefined ? [] : ['-t', names])]);
+      return report?.outcomes ?? [];
+    },
+  );
   const judged = judge(outcomes, alone, quarantine);
-  // Errors outside tests, which no second run excuses.
-  const hasFailed = outcomes.some(({ status }) => status === 'failed');
-  const failure = first.code !== 0 && !hasFailed ? lastLines(first.output) : null;
-  return { judged, failure };
+  return { judged, failure: outsideTests(first.code, first.output, outcomes) };
+}
+
+/** Vitest's report does not have them. */
+const UNHANDLED = /⎯ Unhandled Errors ⎯/;
+
+/** Errors outside tests, which no second run excuses. @returns what is known of them, or `null` if there are none */
+function outsideTests(code: number, output: string, outcomes: readonly Outcome[]): string | null {
+  const isExplained = outcomes.some(({ status }) => status === 'failed');
+  const text = stripVTControlCharacters(output);
+  const at = text.search(UNHANDLED);
+  if (at >= 0) return text.slice(at).split('\n').slice(0, LAST_LINES).join('\n');
+  return code !== 0 && !isExplained ? lastLines(text) : null;
 }
 
 function escaped(text: string): string {
@@ -134,14 +130,13 @@ export async function runPlaywright({ project, quarantine }: PlaywrightOptions):
   if (first.report === null) return { judged: [], failure: lastLines(first.output) };
   const { outcomes, errors } = first.report;
   const alone: Outcome[] = [];
+  let again = 0;
   for (const { file, line } of toRunAgain(outcomes, quarantine).slice(0, MOST_AGAIN)) {
     const place = `${file.slice(`${FOLDER}/`.length)}:${line ?? ''}`;
     console.log(`  again, alone, ${SECOND_RUNS} times: ${place}`);
-    const { report } = await playwright(
-      `${project}-again`,
-      [place, `--repeat-each=${SECOND_RUNS}`, '--output', `output/${project}-again-${alone.length}`],
-      { FARPOINT_SECOND_RUN: '1' },
-    );
+    const { report } = await playwright(`${project}-again`, [place, `--repeat-each=${SECOND_RUNS}`], {
+      FARPOINT_SECOND_RUN: `${project}-again-${++again}`,
+    });
     alone.push(...(report?.outcomes ?? []));
   }
   const hasFailed = outcomes.some(({ status }) => status === 'failed');

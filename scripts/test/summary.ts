@@ -38,7 +38,7 @@ export function summaryOf(
 ): string[] {
   const judged = steps.flatMap((step) => step.judged.map((test) => ({ step: step.name, test })));
   const of = (verdict: Judged['verdict']) => judged.filter(({ test }) => test.verdict === verdict);
-  const lines = [`${steps.map(wordsOf).join('   ')}   ${durationWords(totalMs)}`];
+  const lines = wrapped(steps.map(wordsOf), durationWords(totalMs));
   const failed = of('failed');
   for (const { step, test } of failed.slice(0, MOST_FAILURES)) lines.push(...failureLines(step, test, again));
   if (failed.length > MOST_FAILURES) lines.push(`FAILED  and ${failed.length - MOST_FAILURES} more`);
@@ -68,6 +68,17 @@ export function summaryOf(
     );
   const cut = lines.map((line) => (line.length > WIDTH ? `${line.slice(0, WIDTH - 1)}…` : line));
   return cut.length > MOST_LINES ? [...cut.slice(0, MOST_LINES - 1), '…'] : cut;
+}
+
+/** As many words to a line as there is room for, separated by more than a space. */
+function wrapped(words: readonly string[], first: string): string[] {
+  const lines = [first];
+  for (const word of words) {
+    const longer = `${lines.at(-1)}   ${word}`;
+    if (longer.length <= WIDTH) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  return lines;
 }
 
 function wordsOf({ name, ms, ok, judged, notTested }: StepSummary): string {
