@@ -8,6 +8,8 @@ const STACK = `${ROOMS}/**/*.stack.test.ts`;
  */
 const ALONE = ['packages/dds/**/*.stack.test.ts', 'apps/robot-node/src/fault-table.stack.test.ts'];
 const NOT_OURS = ['**/node_modules/**', '**/dist/**', '**/target/**'];
+/** Files that `pnpm test` leaves out, because they have passed with the same inputs. `--exclude` is not for projects. */
+const PASSED = (process.env.FARPOINT_PASSED_TESTS ?? '').split('\n').filter((file) => file !== '');
 
 export default defineConfig({
   test: {
@@ -35,7 +37,7 @@ export default defineConfig({
         test: {
           name: 'stack',
           include: [STACK],
-          exclude: [...NOT_OURS, ...ALONE],
+          exclude: [...NOT_OURS, ...ALONE, ...PASSED],
           setupFiles: ['scripts/lib/test-setup.ts'],
           // These tests mostly wait for a process or a timer, so one file per core leaves none idle.
           maxWorkers: '100%',
@@ -46,7 +48,7 @@ export default defineConfig({
         test: {
           name: 'stack-alone',
           include: ALONE,
-          exclude: NOT_OURS,
+          exclude: [...NOT_OURS, ...PASSED],
           setupFiles: ['scripts/lib/test-setup.ts'],
           maxWorkers: 1,
           // After the others, not beside them.
