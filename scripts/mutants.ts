@@ -47,6 +47,8 @@ try {
   console.log('copying the last commit');
   await must('git', 'worktree', 'add', '--detach', '--force', copy, 'HEAD');
   await must('pnpm', 'install', '--frozen-lockfile', '--prefer-offline');
+  // It finds that a fault is there, which is not what the fault is to show.
+  rmSync(join(copy, 'scripts/test/mutant.test.ts'));
   const tests = [...new Set(chosen.flatMap(({ foundBy }) => foundBy))];
   for (const each of tests) {
     console.log(`without a fault: ${each}`);
