@@ -32,7 +32,11 @@ async function usage(names: readonly string[]): Promise<string> {
     );
     lines.push(`  ${name.padEnd(12)} ${summary}`);
   }
-  lines.push('', 'Every benchmark takes --json (one JSON object as the last line of output) and --help.');
+  lines.push(
+    '',
+    'Every benchmark takes --json (one JSON object as the last line of output) and --help.',
+    'Chromium draws in software; FARPOINT_GRAPHICS=vulkan or egl in the environment: with a GPU, no display needed.',
+  );
   return lines.join('\n');
 }
 

@@ -1,5 +1,6 @@
 import { chromiumLaunchOptions } from '@farpoint/local-stack';
 import { defineConfig } from '@playwright/test';
+import { LONG, runsLong } from './src/long.ts';
 
 // A software-rendered page shows its robot late: too late for a robot of default limits to move. Tests of those limits set
 // their own.
@@ -20,6 +21,7 @@ export default defineConfig({
     // @farpoint/local-stack).
     { name: 'firefox', testDir: 'firefox', outputDir: 'output/firefox' },
   ],
+  ...(runsLong ? {} : { grepInvert: new RegExp(LONG) }),
   // One stack and one software-rendered browser at a time, because two would slow each other down.
   workers: 1,
   retries: 0,
@@ -30,8 +32,9 @@ export default defineConfig({
   use: {
     launchOptions: chromiumLaunchOptions(),
     viewport: { width: 960, height: 540 },
-    // Without its pictures: taking them is a quarter of what a test costs a software renderer.
-    trace: { mode: 'retain-on-failure', screenshots: false },
+    colorScheme: 'dark',
+    // A trace of each test costs a twentieth of the time. `--trace retain-on-failure` shows where a test failed.
+    trace: 'off',
     screenshot: 'only-on-failure',
     // An action that waits for ever is named as such, not as the test's time-out.
     actionTimeout: 40_000,

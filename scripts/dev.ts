@@ -15,27 +15,36 @@ import {
 } from '@farpoint/local-stack';
 import { portHolder } from '@farpoint/service';
 import { Backoff } from '@farpoint/timing';
+import { devLan } from './lib/dev-lan.ts';
 import { DEV_HELP, type DevOptions, readDevOptions } from './lib/dev-options.ts';
 import { devVideo } from './lib/dev-video.ts';
 
 /** Leaves a robot's usual port, 9400, free for one that is started beside these. */
 const FIRST_ADMIN_PORT = 9410;
 const FIRST_WEB_PORT = 5173;
+const LAN_PORTS = [
+  { name: 'the local network', port: 8443 },
+  { name: 'the page for the certificate', port: 8080 },
+];
 /** Number of last lines shown from a program that failed. */
 const SHOWN_LINES = 8;
 
 const options = optionsOrExit();
 const { ports, moved } = await portsOrExit(options);
-const [signaling, referenceRobot, referenceClient, webPort, ...adminPorts] = ports as [
+const [signaling, referenceRobot, referenceClient, webPort, ...others] = ports as [
   ...[number, number, number, number],
   ...number[],
 ];
+const adminPorts = others.slice(0, options.robots);
+const [lanPort, lanInstallPort] = others.slice(options.robots);
 for (const { wanted, port } of moved) {
   console.log(`port ${wanted.port} is used by ${holderOf(wanted.port)}: ${wanted.name} uses ${port}`);
 }
 
 const onLine = (name: string, line: string): void => {
   if (options.verbose) console.log(`${name.padEnd(10)} ${line}`);
+  // What it says to people, and not to its log: addresses, and codes for pairing.
+  else if (options.lan && name === 'signaling' && !line.startsWith('{')) console.log(line);
 };
 
 let stack: LocalStack | null = null;
@@ -83,15 +92,22 @@ try {
   const { args, without, remove } = await devVideo();
   removeVideo = remove;
   if (without !== null) console.log(without);
+  if (options.lan) console.log('building the page, which the local network gets by HTTPS');
+  const lan =
+    lanPort === undefined || lanInstallPort === undefined
+      ? null
+      : await devLan({ lan: lanPort, install: lanInstallPort });
   const running = await LocalStack.start({
     ports: { signaling, referenceRobot, referenceClient },
+    ...(lan === null ? {} : { webRoot: lan.webRoot, signalingArgs: lan.signalingArgs }),
     robots: adminPorts.map((adminPort, index) => ({
       id: `sim-${index + 1}`,
       name: `Simulated robot ${index + 1}`,
       args: [
-        ...['--source', 'sim', '--sim-seed', String(index + 1), ...args],
+        ...['--source', 'sim', '--sim-seed', String(index + 1), '--sim-commands', ...args],
         // Browsers must recognise the robot the next time, too.
         ...['--robot-key', `${repositoryRoot}/.farpoint/robot-keys/sim-${index + 1}.json`],
+        ...(lan?.robotArgs ?? []),
       ],
       adminPort,
     })),
@@ -160,7 +176,7 @@ function optionsOrExit(): DevOptions {
   }
 }
 
-async function portsOrExit({ port, robots }: DevOptions): Promise<ChosenPorts> {
+async function portsOrExit({ port, robots, lan }: DevOptions): Promise<ChosenPorts> {
   const wanted = [
     { name: 'signaling', port: 3000 },
     { name: 'signaling for robots of the reference system', port: 3001 },
@@ -170,6 +186,7 @@ async function portsOrExit({ port, robots }: DevOptions): Promise<ChosenPorts> {
       name: `the health of robot sim-${index + 1}`,
       port: FIRST_ADMIN_PORT + index,
     })),
+    ...(lan ? LAN_PORTS : []),
   ];
   try {
     return await choosePorts(wanted, isPortFree);

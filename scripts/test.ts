@@ -13,16 +13,18 @@ import * as systemd from '../packages/systemd/src/build.ts';
 import * as udpBatch from '../packages/udp-batch/src/build.ts';
 import * as video from '../packages/video/src/build.ts';
 import { auditDependencies } from './lib/audit-dependencies.ts';
+import { bundledPrograms, bundlePrograms } from './lib/bundle-programs.ts';
 import { ensureChromium } from './lib/ensure-chromium.ts';
 import { ensureCycloneDds, ensureDdsPeers } from './lib/ensure-dds.ts';
 import { ensureFirefox } from './lib/ensure-firefox.ts';
 import { ensureGStreamer } from './lib/ensure-gstreamer.ts';
 import { ensureJanus } from './lib/ensure-janus.ts';
 import { ensureNumpy } from './lib/ensure-numpy.ts';
+import { ensurePrometheus } from './lib/ensure-prometheus.ts';
 import { ensureRos1 } from './lib/ensure-ros1.ts';
 import { ensureTurnServer } from './lib/ensure-turn-server.ts';
-import { failuresOf } from './lib/failures.ts';
-import { root, run } from './lib/run.ts';
+import { failedTests, failuresOf } from './lib/failures.ts';
+import { compileCache, root, run } from './lib/run.ts';
 import { addTallies, emptyTally, type Tally, tallyCargo, tallyPlaywright, tallyVitest } from './lib/tally.ts';
 import { testRust } from './lib/test-rust.ts';
 import { writeBill } from './lib/write-bill.ts';
@@ -44,6 +46,10 @@ interface Step {
   what: string;
   run: () => Promise<StepResult>;
 }
+
+/** What takes long and seldom fails alone. */
+const LONG_PARTS =
+  'builds the WASM from its sources, and runs the long tests in browsers (a quarter of an hour more)';
 
 const say = (line: string): void => console.log(`  ${line}`);
 
@@ -114,10 +120,19 @@ const steps: Step[] = [
   },
   {
     name: 'rust',
-    what: 'Rust: committed WASM is fresh, rebuilds from source, format, clippy, tests',
+    what: 'Rust: committed WASM is fresh, format, clippy, tests',
     run: async () => {
-      const result = await testRust(say);
+      const result = await testRust(say, { rebuild: values.all });
       return { ...result, tally: tallyCargo(result.output) };
+    },
+  },
+  {
+    name: 'programs',
+    what: 'programs in one file each, which the tests start hundreds of times (esbuild)',
+    run: async () => {
+      await bundlePrograms(bundledPrograms);
+      process.env.FARPOINT_PROGRAMS = bundledPrograms;
+      return { ok: true };
     },
   },
   {
@@ -126,6 +141,7 @@ const steps: Step[] = [
     run: async () => {
       await ensureRos1(say);
       await ensureJanus(say);
+      await ensurePrometheus(say);
       return runVitest('stack*');
     },
   },
@@ -153,12 +169,17 @@ const steps: Step[] = [
 ];
 
 const { values } = parseArgs({
-  options: { only: { type: 'string' }, help: { type: 'boolean', short: 'h' } },
+  options: {
+    only: { type: 'string' },
+    all: { type: 'boolean', default: false },
+    help: { type: 'boolean', short: 'h' },
+  },
 });
 
 if (values.help) {
-  console.log('pnpm test [--only STEP[,STEP…]]\n');
-  for (const step of steps) console.log(`  ${step.name.padEnd(7)} ${step.what}`);
+  console.log('pnpm test [--only STEP[,STEP…]] [--all]\n');
+  for (const step of steps) console.log(`  ${step.name.padEnd(8)} ${step.what}`);
+  console.log(`\n  --all    also ${LONG_PARTS}`);
   process.exit(0);
 }
 
@@ -171,8 +192,11 @@ if (unknown !== undefined) {
   process.exit(2);
 }
 
+process.env.NODE_COMPILE_CACHE ??= compileCache;
+if (values.all) Object.assign(process.env, { FARPOINT_LONG_TESTS: '1', FARPOINT_SCREENSHOTS: '1' });
 let total = emptyTally;
 const faults: string[] = [];
+const failedNames: string[] = [];
 const chosen = steps.filter((step) => only === undefined || only.includes(step.name));
 for (const [index, step] of chosen.entries()) {
   console.log(`[${index + 1}/${chosen.length}] ${step.what}`);
@@ -183,8 +207,9 @@ for (const [index, step] of chosen.entries()) {
   if (!result.ok) {
     if (result.output !== undefined && !result.echoed) console.log(result.output);
     // Said again below: a reader of a long log looks at its end first.
-    const failures = result.output === undefined ? '' : `\n${failuresOf(result.output)}`;
-    faults.push(`${step.name}: failed${failures}`);
+    const { output = '' } = result;
+    faults.push(`${step.name}: failed\n${failuresOf(output)}`);
+    failedNames.push(...failedTests(output));
     console.log(`  ✗ failed after ${seconds} s`);
   } else if (result.unreachable !== undefined) {
     console.log(`  – skipped: ${result.unreachable}`);
@@ -196,9 +221,11 @@ for (const [index, step] of chosen.entries()) {
   }
 }
 
+if (!values.all && only === undefined) console.log(`\nleft out: pnpm test --all also ${LONG_PARTS}`);
 // A step that fails without a failing test (a lint, a build) counts as one failure.
 const failed = Math.max(total.failed, faults.length);
 for (const fault of faults) console.log(`\n${fault}`);
+if (failedNames.length > 0) console.log(`\nfailed tests:\n  ${failedNames.join('\n  ')}`);
 if (only?.join() === 'pure' && faults.length === 0) {
   console.log(
     'next: pnpm test --only lint,types,stack, then pnpm test for everything; one package: see CONTRIBUTING.md',

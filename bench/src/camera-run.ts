@@ -2,14 +2,14 @@
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import type { Page } from '@playwright/test';
 import type { BenchCamera } from './camera-list.ts';
 import { type AskedShares, type SharePair, sharesSeen } from './camera-shares.ts';
 import { commandDelays } from './command-delay.ts';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
+import { driveInCircles } from './drive-in-circles.ts';
 import { type LatencySeries, latencySeries } from './latency-series.ts';
 import { queueQuantiles } from './link-analysis.ts';
-import { clockOffsetOf, monotonicMs, readRobotSamples, readUplink, scrape } from './link-run.ts';
+import { clockOffsetOf, monotonicMs, readUplink, scrape } from './link-run.ts';
 import { startLiveStack } from './live-stack.ts';
 import { type PresentationFigures, presentationFigures } from './presentation-figures.ts';
 import { type Distribution, distribution } from './stats.ts';
@@ -77,15 +77,17 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
   const { cameras, trace, seconds } = setup;
   const folder = mkdtempSync(join(tmpdir(), 'farpoint-cameras-'));
   const file = (name: string) => join(folder, name);
-  const [config, link, stats, commands] = ['c.yaml', 'link.jsonl', 'stats.jsonl', 'commands.csv'].map(
-    file,
-  ) as [string, string, string, string];
+  const [config, link, commands] = ['c.yaml', 'link.jsonl', 'commands.csv'].map(file) as [
+    string,
+    string,
+    string,
+  ];
   writeFileSync(config, JSON.stringify({ robot: { videos: cameraOptions(setup), ...soundOptions(setup) } }));
   const live = await startLiveStack({
     robot: {
       id: ROBOT,
       name: 'Robot with cameras',
-      args: ['--config', config, '--stats', stats, '--command-log', commands, ...cloudArgs(setup)],
+      args: ['--config', config, '--command-log', commands, ...cloudArgs(setup)],
     },
     canvas: setup.canvas,
     query: `barcode=1&sync=${setup.synchronised ? 1 : 0}&video=${setup.receiver ?? ''}`,
@@ -102,11 +104,11 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
     await wait(setup.points === null ? LONG_WARM_UP_MS : WARM_UP_MS);
     const { pid } = stack.robot(ROBOT);
     const counters = async () => ({
-      skipped: await byCamera(stack.robotAdminUrl(ROBOT), 'frames_skipped', cameras.length),
-      bytes: await byCamera(stack.robotAdminUrl(ROBOT), 'bytes', cameras.length),
-      bytesSent: readRobotSamples(stats).at(-1)?.bytesSent ?? 0,
-      keyFrames: await byCamera(stack.robotAdminUrl(ROBOT), 'key_frames', cameras.length),
-      soundPackets: setup.sound ? await soundPackets(stack.robotAdminUrl(ROBOT)) : 0,
+      skipped: await byCamera(stack.robotAdminUrl(ROBOT), 'frames_skipped_total', cameras.length),
+      videoBytes: await byCamera(stack.robotAdminUrl(ROBOT), 'bytes_sent', cameras.length),
+      cloudBytes: await metric(stack.robotAdminUrl(ROBOT), 'cloud_bytes_sent'),
+      keyFrames: await byCamera(stack.robotAdminUrl(ROBOT), 'key_frames_total', cameras.length),
+      soundPackets: setup.sound ? await metric(stack.robotAdminUrl(ROBOT), 'sound_packets_total') : 0,
       cpu: cpuSecondsOfTree(pid),
       browserCpu: cpuSecondsOfTree(live.browserPid),
       atMs: monotonicMs(),
@@ -117,7 +119,7 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
       window.farpoint.recordPresentations(capacity);
     }, MOST_PRESENTATIONS);
     const before = await counters();
-    await drive(page, seconds);
+    await page.evaluate(driveInCircles, { ms: seconds * 1000, forward: 0.3 });
     const after = await counters();
     const { rows, figures } = await page.evaluate(() => ({
       rows: window.farpoint.recordedPresentations(),
@@ -134,7 +136,7 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
       before.atMs,
       after.atMs,
     ]);
-    const bytes = after.bytes.map((each, i) => each - (before.bytes[i] ?? 0));
+    const videoBytes = after.videoBytes.map((each, i) => each - (before.videoBytes[i] ?? 0));
     return {
       ...presentationFigures(
         rows,
@@ -152,7 +154,7 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
       browserCpu: coresBetween(before.browserCpu, after.browserCpu, after.atMs - before.atMs),
       receiver: figures.receiver,
       keyFrames: after.keyFrames.reduce((sum, each, i) => sum + each - (before.keyFrames[i] ?? 0), 0),
-      shares: asked === null ? null : sharesSeen(asked, after.bytesSent - before.bytesSent, bytes),
+      shares: asked === null ? null : sharesSeen(asked, after.cloudBytes - before.cloudBytes, videoBytes),
       soundPacketsPerS: setup.sound ? (after.soundPackets - before.soundPackets) / seconds : null,
       series: latencySeries(rows, cameras.length),
     };
@@ -190,28 +192,14 @@ function linkSpec(trace: string, statsFile: string) {
   };
 }
 
-/** Drives in circles, and lets go now and then, as an operator does. */
-async function drive(page: Page, seconds: number): Promise<void> {
-  await page.evaluate(async (ms) => {
-    const { farpoint } = window;
-    const end = performance.now() + ms;
-    while (performance.now() < end) {
-      const { session, holder } = farpoint.state();
-      if (session === 'live' && holder === 'nobody') farpoint.requestLease();
-      await farpoint.drive({ forward: 0.3, left: 0.5 }, 900);
-      await new Promise((resolve) => setTimeout(resolve, 100));
-    }
-  }, seconds * 1000);
-}
-
-async function soundPackets(adminUrl: string): Promise<number> {
+async function metric(adminUrl: string, name: string): Promise<number> {
   const text = await (await fetch(`${adminUrl}/metrics`)).text();
-  return Number(/^farpoint_robot_sound_packets_total (\d+)$/m.exec(text)?.[1]);
+  return Number(new RegExp(`^farpoint_robot_${name} (\\d+)$`, 'm').exec(text)?.[1]);
 }
 
 /** A counter of the robot's videos, by camera. */
 async function byCamera(adminUrl: string, name: string, cameras: number): Promise<number[]> {
-  const counts = await scrape(adminUrl, `farpoint_robot_video_${name}_total`, 'camera');
+  const counts = await scrape(adminUrl, `farpoint_robot_video_${name}`, 'camera');
   return Array.from({ length: cameras }, (_, i) => counts[cameraName(i)] ?? 0);
 }
 

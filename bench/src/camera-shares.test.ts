@@ -9,7 +9,7 @@ describe('shares of the link', () => {
   });
 
   it('are compared with what was sent', () => {
-    expect(sharesSeen({ cloud: 2, videos: [1, 1] }, 4280, [1000, 1000])).toEqual([
+    expect(sharesSeen({ cloud: 2, videos: [1, 1] }, 2000, [1000, 1000])).toEqual([
       { stream: 'clouds', asked: 0.5, seen: 0.5 },
       { stream: 'camera 1', asked: 0.25, seen: 0.25 },
       { stream: 'camera 2', asked: 0.25, seen: 0.25 },

@@ -13,9 +13,6 @@ export interface SharePair {
   seen: number;
 }
 
-/** What RTP, SRTP, UDP and IP headers add to a video's bytes, as a factor. */
-const VIDEO_OVERHEAD = 1.07;
-
 /** @throws {Error} naming what is wrong */
 export function parseShares(text: string, cameras: number): AskedShares {
   const match = /^(\d{1,3}):(\d{1,3}(?:,\d{1,3})*)$/.exec(text);
@@ -26,23 +23,22 @@ export function parseShares(text: string, cameras: number): AskedShares {
 }
 
 /**
- * @param bytesSent of all streams together, on the wire
- * @param videoBytes of the encoded pictures, by camera
+ * @param cloudBytes of the clouds, on the wire
+ * @param videoBytes of the videos, on the wire, by camera
  */
 export function sharesSeen(
   asked: AskedShares,
-  bytesSent: number,
+  cloudBytes: number,
   videoBytes: readonly number[],
 ): SharePair[] {
   const weights = asked.cloud + asked.videos.reduce((sum, weight) => sum + weight, 0);
-  const onWire = videoBytes.map((bytes) => bytes * VIDEO_OVERHEAD);
-  const cloud = bytesSent - onWire.reduce((sum, bytes) => sum + bytes, 0);
+  const bytesSent = videoBytes.reduce((sum, bytes) => sum + bytes, cloudBytes);
   const pair = (stream: string, weight: number, bytes: number): SharePair => ({
     ...{ stream, asked: Number((weight / weights).toFixed(3)) },
     seen: Number((bytes / Math.max(bytesSent, 1)).toFixed(3)),
   });
   return [
-    pair('clouds', asked.cloud, cloud),
-    ...asked.videos.map((weight, i) => pair(`camera ${i + 1}`, weight, onWire[i] ?? 0)),
+    pair('clouds', asked.cloud, cloudBytes),
+    ...asked.videos.map((weight, i) => pair(`camera ${i + 1}`, weight, videoBytes[i] ?? 0)),
   ];
 }

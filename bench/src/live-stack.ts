@@ -11,10 +11,11 @@ import {
 } from '@farpoint/local-stack';
 import type {} from '@farpoint/webxr/test-api';
 import { type Browser, type BrowserServer, chromium, type Page } from '@playwright/test';
+import { rendererName } from './renderer-name.ts';
 
 export interface LiveStackOptions {
   robot: RobotSpec;
-  /** Size of the page's canvas in pixels. It is small, because there is no GPU and only the stream is measured. */
+  /** Size of the page's canvas in pixels. It is small where no GPU is needed: only the stream is measured. */
   canvas: string;
   /** Additional parameters of the page's address. */
   query?: string;
@@ -85,6 +86,7 @@ export async function startLiveStack(options: LiveStackOptions): Promise<LiveSta
       return page;
     };
     const page = await openPage(robot.id);
+    log(`drawn with ${await rendererName(page)}`);
     return { stack, link, page, openPage, browserPid: server.process().pid as number, close };
   } catch (error) {
     await close();

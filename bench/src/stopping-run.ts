@@ -146,7 +146,7 @@ export function stoppingRun(settings: StoppingSettings, ramps: RampLimits = RAMP
     while (captureMs <= nowMs) {
       if (!(cause === 'camera' && happened)) {
         pictures.push(captureMs);
-        robot.guard.view.sent(nowMs);
+        robot.guard.view.supplied(nowMs);
       }
       captureMs += intervalMs;
     }

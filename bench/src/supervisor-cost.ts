@@ -80,7 +80,7 @@ export function supervised(times: number[]): (obstacles: MotionGuard) => MotionG
         };
         const seenUs = stampUsOf(nowMs - SEEN_MS);
         const begin = performance.now();
-        view.sent(nowMs);
+        view.supplied(nowMs);
         guard.onCommand('driver', { ...command, seenUs }, nowMs);
         motion.velocityAt(nowMs);
         times.push(performance.now() - begin);

@@ -8,14 +8,15 @@ import { encode } from 'fast-png';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
 import { type Distribution, distribution, rounded } from './stats.ts';
 import { compareColours, meanOf } from './view/colour-comparison.ts';
+import { compareLive } from './view/live-comparison.ts';
 import { differenceOf, type Picture, type PictureDifference } from './view/picture-difference.ts';
 import { type DriveOptions, EYES, SimulatedDrive } from './view/simulated-drive.ts';
 import { ViewBrowser } from './view/view-browser.ts';
 
 const USAGE = `pnpm bench view [--rate-mbps 8] [--loss 0.01] [--fps 10] [--seconds 20] [--size 320] [--seed 1]
                [--pictures DIR] [--json]
-       pnpm bench view --video [--video-mbps 1.5] [--colour-quality 31] [--rate-mbps 8] [--loss 0.01] [--fps 10]
-               [--seconds 20] [--json]
+       pnpm bench view --video [--live] [--video-mbps 1.5] [--rate-mbps 8] [--loss 0.01] [--fps 10] [--seconds 20]
+               [--json]
 
 Kernel benchmark: a simulated robot drives among furniture and walking people, and its packets, as a link of this rate
 and loss delivers them, are decoded and drawn in a headless Chromium without a GPU. From the tenth second on, once a
@@ -28,7 +29,13 @@ second's pictures, one PNG file for each eye: truth, memory, surface, discs, ref
 --video compares what paints the surface at the same total rate: the packets' own colours, or the depth camera's
 picture as a video, encoded by GStreamer, while packets have coarse colours and depth gets the rest. whole is the
 share of frames in which every point was sent. Lost packets of the video are taken to be sent again. Needs GStreamer and
-\`pnpm build:native video\`.`;
+\`pnpm build:native video\`.
+
+--video --live lets the real robot program and the real page find their rates, over an emulated link: without a video; with
+one that is only shown; with one that paints while packets keep their colours; and with one that paints while packets may have
+coarse ones. painted is the share of clouds that had their picture before the next cloud came, claimed the share of the time
+for which the page told the robot so. --fps is the depth camera's rate, 20
+unless given. wholePerS is how often a cloud comes of which every point was coded.`;
 
 /** What is compared: how the robot codes its clouds, and how they are drawn. */
 const MODES = [
@@ -58,14 +65,14 @@ export const bench: Bench = {
       options: {
         'rate-mbps': { type: 'string', default: '8' },
         loss: { type: 'string', default: '0.01' },
-        fps: { type: 'string', default: '10' },
+        fps: { type: 'string' },
         seconds: { type: 'string', default: '20' },
         size: { type: 'string', default: '320' },
         seed: { type: 'string', default: '1' },
         pictures: { type: 'string' },
         video: { type: 'boolean' },
         'video-mbps': { type: 'string', default: '1.5' },
-        'colour-quality': { type: 'string', default: '31' },
+        live: { type: 'boolean' },
         json: { type: 'boolean' },
         help: { type: 'boolean' },
       },
@@ -74,15 +81,16 @@ export const bench: Bench = {
     const options: DriveOptions = {
       rateMbps: numberOption('rate-mbps', values['rate-mbps'], 0.1),
       loss: numberOption('loss', values.loss),
-      framesPerSecond: numberOption('fps', values.fps, 1),
+      framesPerSecond: numberOption('fps', values.fps ?? (values.live ? '20' : '10'), 1),
       seed: numberOption('seed', values.seed),
       size: numberOption('size', values.size, 32),
     };
     const seconds = numberOption('seconds', values.seconds, FROM_S + 1);
     if (values.video) {
       const videoMbps = numberOption('video-mbps', values['video-mbps'], 0.1);
-      const quality = numberOption('colour-quality', values['colour-quality']);
-      return compareColours({ ...options, videoMbps, quality, seconds, json: values.json === true });
+      const json = values.json === true;
+      const compared = { ...options, videoMbps, seconds, json };
+      return values.live ? compareLive(compared) : compareColours(compared);
     }
     const browser = await ViewBrowser.open();
     const results: Record<string, ModeResult> = {};

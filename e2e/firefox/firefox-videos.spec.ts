@@ -1,14 +1,14 @@
 /** Cameras' videos in an unmodified Firefox, which receives and decodes them itself. */
 import { expect, test } from '../src/firefox-test.ts';
 import { type BrowserPage, OperatorPage } from '../src/operator-page.ts';
-import { simulatedRobot } from '../src/stack-test.ts';
+import { LONG, simulatedRobot } from '../src/stack-test.ts';
 import { hasVideo, testCamera, videoRobot } from '../src/video-robot.ts';
 
 test.skip(!hasVideo, 'needs GStreamer and `pnpm build:native video`');
 
 const light = {
   ...simulatedRobot,
-  args: [...simulatedRobot.args.slice(0, -1), '600', '--sim-size', '64', '--fps', '10'],
+  args: [...simulatedRobot.args, '--max-points', '600', '--sim-size', '64', '--fps', '10'],
 };
 const small = { width: 320, height: 240, framesPerS: 15, kbitPerS: 400 };
 const videosOf = (page: Pick<BrowserPage, 'evaluate'>) => page.evaluate(() => window.farpoint.videos());
@@ -51,42 +51,44 @@ test('shows VP8 live and in step; one that it cannot decode says why', async ({
   await firefoxPage.waitForFunction(() => document.querySelector('#camera-stage canvas') !== null);
   await operator.expectFrames(5);
   expect((await operator.stats()).videos.undated).toBe(undated);
-  await operator.screenshot(testInfo, 'firefox-videos');
+  await operator.look(testInfo, 'firefox-videos');
 });
 
-test('with `auto`, a Firefox without H.264 sees VP8 like everyone, until it has left', async ({
-  page,
-  firefoxPage,
-  startStack,
-}, testInfo) => {
-  const decodes = await firefoxPage.evaluate(() =>
-    (RTCRtpReceiver.getCapabilities('video')?.codecs ?? []).map(({ mimeType }) => mimeType.toLowerCase()),
-  );
-  test.skip(decodes.includes('video/h264'), 'this Firefox has fetched its H.264 plugin');
-  const cameras = [testCamera('Front', 'auto', { ...small, source: source('pinwheel') })];
-  const stack = await startStack({ robots: [videoRobot(light, cameras)] });
-  const options = { robot: light.id, canvas: '160x90' };
-  const chromium = await OperatorPage.open(page, stack, options);
-  await chromium.expectPoints(300);
-  const seen = async (of: Pick<BrowserPage, 'evaluate'>) => {
-    const [video] = await videosOf(of);
-    return { codec: video?.codec, frames: video?.frames ?? 0, fault: video?.fault ?? null };
-  };
-  const seesMore = async (of: Pick<BrowserPage, 'evaluate'>, codec: string) => {
-    await expect.poll(async () => (await seen(of)).codec, { timeout: 30_000 }).toBe(codec);
-    const { frames } = await seen(of);
-    await expect.poll(async () => (await seen(of)).frames, { timeout: 30_000 }).toBeGreaterThan(frames + 30);
-    expect((await seen(of)).fault).toBeNull();
-  };
-  await seesMore(page, 'H264');
+test(
+  'with `auto`, a Firefox without H.264 sees VP8 like everyone, until it has left',
+  { tag: LONG },
+  async ({ page, firefoxPage, startStack }, testInfo) => {
+    const decodes = await firefoxPage.evaluate(() =>
+      (RTCRtpReceiver.getCapabilities('video')?.codecs ?? []).map(({ mimeType }) => mimeType.toLowerCase()),
+    );
+    test.skip(decodes.includes('video/h264'), 'this Firefox has fetched its H.264 plugin');
+    const cameras = [testCamera('Front', 'auto', { ...small, source: source('pinwheel') })];
+    const stack = await startStack({ robots: [videoRobot(light, cameras)] });
+    const options = { robot: light.id, canvas: '160x90' };
+    const chromium = await OperatorPage.open(page, stack, options);
+    await chromium.expectPoints(300);
+    const seen = async (of: Pick<BrowserPage, 'evaluate'>) => {
+      const [video] = await videosOf(of);
+      return { codec: video?.codec, frames: video?.frames ?? 0, fault: video?.fault ?? null };
+    };
+    const seesMore = async (of: Pick<BrowserPage, 'evaluate'>, codec: string) => {
+      await expect.poll(async () => (await seen(of)).codec, { timeout: 30_000 }).toBe(codec);
+      const { frames } = await seen(of);
+      await expect
+        .poll(async () => (await seen(of)).frames, { timeout: 30_000 })
+        .toBeGreaterThan(frames + 30);
+      expect((await seen(of)).fault).toBeNull();
+    };
+    await seesMore(page, 'H264');
 
-  const firefox = await OperatorPage.open(firefoxPage, stack, options);
-  await firefox.expectPoints(300);
-  await seesMore(firefoxPage, 'VP8');
-  await seesMore(page, 'VP8');
-  await firefox.screenshot(testInfo, 'firefox-auto');
-  await chromium.screenshot(testInfo, 'chromium-beside-firefox');
+    const firefox = await OperatorPage.open(firefoxPage, stack, options);
+    await firefox.expectPoints(300);
+    await seesMore(firefoxPage, 'VP8');
+    await seesMore(page, 'VP8');
+    await firefox.look(testInfo, 'firefox-auto');
+    await chromium.look(testInfo, 'chromium-beside-firefox');
 
-  await firefoxPage.goto('about:blank');
-  await seesMore(page, 'H264');
-});
+    await firefoxPage.goto('about:blank');
+    await seesMore(page, 'H264');
+  },
+);

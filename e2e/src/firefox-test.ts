@@ -22,4 +22,4 @@ export const test = base.extend<{ firefoxPage: Page }, { firefox: FirefoxBrowser
   },
 });
 
-export { expect } from '@playwright/test';
+export { expect } from './expect.ts';

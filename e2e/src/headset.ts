@@ -1,7 +1,7 @@
 import { createRequire } from 'node:module';
 import type { Page } from '@playwright/test';
 import { freezeFrames, thawFrames } from './frames.ts';
-import type { Grip } from './operator-page.ts';
+import type { Grip, OperatorPage } from './operator-page.ts';
 
 const require = createRequire(import.meta.url);
 
@@ -20,6 +20,7 @@ interface EmulatedDevice {
           gamepad?: { hapticActuators: { pulse(strength: number, ms: number): Promise<boolean> }[] };
         };
         position: { set(x: number, y: number, z: number): void };
+        quaternion: { set(x: number, y: number, z: number, w: number): void };
       }
     | undefined
   >;
@@ -46,6 +47,12 @@ declare global {
 export const headsetViewport = { width: 480, height: 270 };
 
 export type Hand = 'left' | 'right';
+
+/** Enters VR from the page, as who wears the headset does. */
+export async function enterVr(page: Page, operator: OperatorPage): Promise<void> {
+  await page.getByRole('button', { name: /VR/ }).click();
+  await operator.expectState('vr', true);
+}
 
 /** A Meta Quest 3 emulated in the page. Put it on before the page loads. */
 export class Headset {
@@ -79,6 +86,20 @@ export class Headset {
       hand,
       at,
     ] as const);
+  }
+
+  /** Points with a controller. @param down radians below the horizon, straight ahead */
+  async aim(hand: Hand, down: number): Promise<void> {
+    await this.#page.evaluate(
+      ([hand, down]) =>
+        window.emulatedHeadset.controllers[hand]?.quaternion.set(
+          -Math.sin(down / 2),
+          0,
+          0,
+          Math.cos(down / 2),
+        ),
+      [hand, down] as const,
+    );
   }
 
   /**

@@ -1,8 +1,9 @@
 import type { Locator } from '@playwright/test';
-import { expect } from '@playwright/test';
+import { expect } from './expect.ts';
 
 /**
- * Expects that each of the elements is entirely on the screen, and that none covers another.
+ * Expects that each of the elements is entirely on the screen, and that none covers another. An
+ * element that has gone by the time its place is read (a notice that fades, say) covers nothing.
  *
  * @returns their ids
  */
@@ -11,10 +12,12 @@ export async function expectOnScreenAndApart(
   screen: { width: number; height: number },
 ): Promise<string[]> {
   const boxes = await elements.evaluateAll((found) =>
-    found.map((element) => {
-      const { left, top, right, bottom } = element.getBoundingClientRect();
-      return { name: element.id, left, top, right, bottom };
-    }),
+    found
+      .filter((element) => element.checkVisibility())
+      .map((element) => {
+        const { left, top, right, bottom } = element.getBoundingClientRect();
+        return { name: element.id, left, top, right, bottom };
+      }),
   );
   for (const [i, box] of boxes.entries()) {
     expect(box.right, box.name).toBeLessThanOrEqual(screen.width);

@@ -1,4 +1,5 @@
-import { expect, type Page } from '@playwright/test';
+import type { Page } from '@playwright/test';
+import { expect } from './expect.ts';
 
 /** Expects that no panel covers the bar, the emergency stop or anything else that the hands use. */
 export async function expectNothingCovered(page: Page): Promise<void> {

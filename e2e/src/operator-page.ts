@@ -1,16 +1,24 @@
 import type { LocalStack } from '@farpoint/local-stack';
 import type { DrawnProbe, PageState, PageStats } from '@farpoint/webxr/test-api';
-import { expect, type Page, type TestInfo } from '@playwright/test';
+import type { Page, TestInfo } from '@playwright/test';
+import { expect } from './expect.ts';
+import { savesScreenshots, screenSizes, shownOrLate } from './screens.ts';
+
+export { screenSizes } from './screens.ts';
 
 export interface OpenOptions {
   robot?: string;
+  /** What the operator calls itself. */
+  name?: string;
   token?: string;
   /** Where the page finds signaling; default: where it was loaded from. */
   signaling?: string;
   /** `relay`: through TURN servers only. */
   ice?: 'relay';
-  /** Fixed size of the canvas, `WIDTHxHEIGHT`. A small one leaves more processor time for the rest. */
+  /** Fixed size of the canvas, `WIDTHxHEIGHT`. The page then waits for each picture, as benchmarks need. */
   canvas?: string;
+  /** Share of the screen's resolution that is drawn; by default half of it, which leaves a software renderer time. */
+  resolution?: string;
   /** Refuse coded clouds. */
   mode?: 'points64';
   /** Draw only every n-th point of coded clouds. */
@@ -19,6 +27,8 @@ export interface OpenOptions {
   surface?: '0' | '1';
   /** `0`: surfaces have the packets' colours, not those of their camera's video. */
   paint?: '0';
+  /** `1`: the robot may code colours coarsely while the video paints. */
+  coarse?: '1';
   /** `1`: remember what was seen, which a page with a software renderer does not by default. */
   memory?: '0' | '1';
   /** Take the stream from this bridge. */
@@ -28,6 +38,10 @@ export interface OpenOptions {
   /** `0`: videos are shown as they come, not in step. */
   sync?: '0';
   cues?: '0';
+  /** `1`: the last 30 seconds are kept, to be saved as a clip. */
+  clips?: '1';
+  /** `1`: the first drive is shown, which the testing build does not do by itself. */
+  tour?: '1';
   /** `0`: the view is not led by commands. */
   predict?: '0';
   /** How videos are received; by default what suits the browser best. */
@@ -37,6 +51,7 @@ export interface OpenOptions {
 /** What both Playwright's pages and Puppeteer's in Firefox support. */
 export interface BrowserPage {
   goto(url: string): Promise<unknown>;
+  reload(): Promise<unknown>;
   waitForFunction(holds: () => boolean): Promise<unknown>;
   evaluate<T>(work: () => T | Promise<T>): Promise<T>;
   screenshot(options: { path: string }): Promise<Uint8Array>;
@@ -49,17 +64,11 @@ interface BrowserKeyboard {
   up(key: Key): Promise<void>;
 }
 
-/** At which every screen should be looked at. */
-export const screenSizes = [
-  { width: 360, height: 740 },
-  { width: 1280, height: 720 },
-  { width: 3840, height: 2160 },
-] as const;
-
 const DEAD_MAN = ' ';
 const FORWARD = 'w';
+const LEFT = 'a';
 const RELEASE_ESTOP = 'r';
-type Key = typeof DEAD_MAN | typeof FORWARD | typeof RELEASE_ESTOP;
+type Key = typeof DEAD_MAN | typeof FORWARD | typeof LEFT | typeof RELEASE_ESTOP;
 
 /** A dead-man grip in a test's hand. */
 export interface Grip {
@@ -78,21 +87,27 @@ export class OperatorPage {
 
   static async open(page: BrowserPage, stack: LocalStack, options: OpenOptions = {}): Promise<OperatorPage> {
     const url = new URL(stack.webUrl);
+    url.searchParams.set('resolution', '0.5');
     if (options.robot !== undefined) url.searchParams.set('robot', options.robot);
     for (const name of [
+      'name',
       'token',
       'signaling',
       'ice',
       'bridge',
       'canvas',
+      'resolution',
       'mode',
       'every',
       'surface',
       'memory',
       'paint',
+      'coarse',
       'barcode',
       'sync',
       'cues',
+      'clips',
+      'tour',
       'predict',
       'video',
     ] as const) {
@@ -102,6 +117,17 @@ export class OperatorPage {
     await page.goto(url.href);
     await page.waitForFunction(() => window.farpoint !== undefined);
     return new OperatorPage(page);
+  }
+
+  /** A page that the test has opened by itself. */
+  static of(page: BrowserPage): OperatorPage {
+    return new OperatorPage(page);
+  }
+
+  /** Loads the page again, as its user does. */
+  async reload(): Promise<void> {
+    await this.page.reload();
+    await this.page.waitForFunction(() => window.farpoint !== undefined);
   }
 
   state(): Promise<PageState> {
@@ -178,14 +204,23 @@ export class OperatorPage {
 
   /** Holds the dead-man key and drives forward until {@link releaseKeys}. The first grip requests the lease. */
   async holdForward(): Promise<void> {
+    await this.#holdKeys(FORWARD);
+  }
+
+  /** On the spot, to the left: also where something stands in front of the robot. */
+  async holdTurn(): Promise<void> {
+    await this.#holdKeys(LEFT);
+  }
+
+  async #holdKeys(direction: Key): Promise<void> {
     const { keyboard } = this.page;
     await this.hold({
       async hold() {
         await keyboard.down(DEAD_MAN);
-        await keyboard.down(FORWARD);
+        await keyboard.down(direction);
       },
       async release() {
-        await keyboard.up(FORWARD);
+        await keyboard.up(direction);
         await keyboard.up(DEAD_MAN);
       },
     });
@@ -227,13 +262,21 @@ export class OperatorPage {
 
   /** Holds the key that releases the emergency stop until the robot has released it. */
   async releaseEstop(): Promise<void> {
-    await this.page.keyboard.down(RELEASE_ESTOP);
-    await this.expectState('estop', false);
-    await this.page.keyboard.up(RELEASE_ESTOP);
+    const { keyboard } = this.page;
+    // A page that pauses within a hold wants it anew.
+    await expect(async () => {
+      await keyboard.down(RELEASE_ESTOP);
+      try {
+        await expect.poll(async () => (await this.state()).estop, { timeout: 5000 }).toBe(false);
+      } finally {
+        await keyboard.up(RELEASE_ESTOP);
+      }
+    }).toPass({ timeout: 30_000 });
   }
 
-  /** Saves screenshots of the page as a phone, a laptop and a large screen show it. */
+  /** Saves screenshots for people of the page as a phone, a laptop and a large screen show it. See {@link look}. */
   async screenshots(page: Page, testInfo: TestInfo, name: string): Promise<void> {
+    if (!savesScreenshots) return;
     const before = page.viewportSize();
     for (const size of screenSizes) {
       await page.setViewportSize(size);
@@ -242,7 +285,13 @@ export class OperatorPage {
     if (before !== null) await page.setViewportSize(before);
   }
 
-  /** Saves a screenshot of the page with the test's output. */
+  /** Saves a screenshot for people, if they want any; otherwise only waits until what it would show is drawn. */
+  async look(testInfo: TestInfo, name: string): Promise<void> {
+    if (savesScreenshots) await this.screenshot(testInfo, name);
+    else await this.page.evaluate(shownOrLate);
+  }
+
+  /** Takes a screenshot for the test, and saves it with its output. */
   async screenshot(testInfo: TestInfo, name: string): Promise<Buffer> {
     return Buffer.from(await this.page.screenshot({ path: testInfo.outputPath(`${name}.png`) }));
   }

@@ -164,16 +164,36 @@ async function readShares(input: {
 
 /** Mean difference of two pictures of the same size in a part of both, over all channels, 0–255. */
 export async function meanDifference(page: Page, a: Buffer, b: Buffer, part: Part): Promise<number> {
+  return (await differences(page, a, b, part)).mean;
+}
+
+/**
+ * By how much redder a part of a picture is than the same part of another, −255 to 255: red against green and blue.
+ * Noise, which is as often brighter as darker, does not count.
+ */
+export async function redder(page: Page, than: Buffer, picture: Buffer, part: Part): Promise<number> {
+  const { shift } = await differences(page, than, picture, part);
+  return shift[0] - (shift[1] + shift[2]) / 2;
+}
+
+interface Differences {
+  /** Of the absolute differences, over all channels. */
+  mean: number;
+  /** From the first picture to the second, for each channel. */
+  shift: Rgb;
+}
+
+async function differences(page: Page, a: Buffer, b: Buffer, part: Part): Promise<Differences> {
   const reader = await page.context().newPage();
   try {
     const pngs = [a, b].map((png) => png.toString('base64'));
-    return await reader.evaluate(readMeanDifference, { pngs, part });
+    return await reader.evaluate(readDifferences, { pngs, part });
   } finally {
     await reader.close();
   }
 }
 
-async function readMeanDifference({ pngs, part }: { pngs: string[]; part: Part }): Promise<number> {
+async function readDifferences({ pngs, part }: { pngs: string[]; part: Part }): Promise<Differences> {
   const read = async (base64: string): Promise<Uint8ClampedArray> => {
     const blob = await (await fetch(`data:image/png;base64,${base64}`)).blob();
     const bitmap = await createImageBitmap(blob);
@@ -188,7 +208,15 @@ async function readMeanDifference({ pngs, part }: { pngs: string[]; part: Part }
     ).data;
   };
   const [a, b] = [await read(pngs[0] as string), await read(pngs[1] as string)];
+  const pixels = a.length / 4;
+  const sums = [0, 0, 0] as [number, number, number];
   let sum = 0;
-  for (let i = 0; i < a.length; i++) if (i % 4 !== 3) sum += Math.abs((a[i] as number) - (b[i] as number));
-  return sum / ((a.length / 4) * 3);
+  for (let i = 0; i < a.length; i++) {
+    const channel = i % 4;
+    if (channel === 3) continue;
+    const change = (b[i] as number) - (a[i] as number);
+    sums[channel as 0 | 1 | 2] += change;
+    sum += Math.abs(change);
+  }
+  return { mean: sum / (pixels * 3), shift: [sums[0] / pixels, sums[1] / pixels, sums[2] / pixels] };
 }

@@ -4,6 +4,7 @@ import { LocalStack, repositoryRoot, type StackSpec } from '@farpoint/local-stac
 import { type Ros1Node, Ros1Peers } from '@farpoint/ros/testing/ros1';
 import { test as base } from '@playwright/test';
 import { OperatorPage } from './operator-page.ts';
+import { DISPLAY_HZ, slowDisplay } from './slow-display.ts';
 
 /** The web app, built with `window.farpoint`. `pnpm build` makes it. */
 export const webRoot = join(repositoryRoot, 'apps', 'webxr', 'dist-testing');
@@ -32,37 +33,33 @@ export interface Ros1Graph {
   sink?: 'ros1' | 'source';
 }
 
+const simulatorArgs = ['--source', 'sim', '--sim-seed', '1', '--mode', 'points64'];
+
+/** Two cores capture, code, decode and draw its clouds with time to spare. */
 export const simulatedRobot = {
   id: 'sim-1',
   name: 'Simulated robot 1',
-  args: ['--source', 'sim', '--sim-seed', '1', '--mode', 'points64', '--max-points', '15000'],
+  args: [...simulatorArgs, '--max-points', '6000', '--sim-size', '160', '--fps', '10'],
 };
 
 /** Its clouds are few and small: they leave the processor to videos or sound. */
 export const lightRobot = {
   ...simulatedRobot,
-  args: [...simulatedRobot.args.slice(0, -1), '600', '--sim-size', '64', '--fps', '10'],
+  args: [...simulatorArgs, '--max-points', '600', '--sim-size', '64', '--fps', '10'],
 };
 
 /** Two robots, light enough to stream one after the other. */
 export const twoRobots = [1, 2].map((n) => ({
   id: `sim-${n}`,
   name: `Simulated robot ${n}`,
-  args: [
-    '--source',
-    'sim',
-    '--sim-seed',
-    String(n),
-    '--mode',
-    'points64',
-    '--max-points',
-    '6000',
-    '--fps',
-    '15',
-  ],
+  args: [...simulatedRobot.args, '--sim-seed', String(n)],
 }));
 
 export const test = base.extend<StackFixtures>({
+  context: async ({ context }, use) => {
+    await context.addInitScript(slowDisplay, DISPLAY_HZ);
+    await use(context);
+  },
   startStack: async ({ browserName: _ }, use, testInfo) => {
     if (!existsSync(join(webRoot, 'index.html')))
       throw new Error('the web app is not built: run `pnpm build`');
@@ -122,4 +119,5 @@ export const test = base.extend<StackFixtures>({
   },
 });
 
-export { expect } from '@playwright/test';
+export { expect } from './expect.ts';
+export { LONG } from './long.ts';

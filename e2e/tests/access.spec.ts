@@ -42,7 +42,7 @@ test('an operator without a grant is told what to do; a grant for this browserâ€
   const { office, stack } = await guarded(startStack, testInfo);
   const operator = await OperatorPage.open(page, stack, { robot: lightRobot.id });
   await expect(obstacle(page)).toContainText('admits only operators with a grant');
-  await operator.screenshot(testInfo, 'not-granted');
+  await operator.look(testInfo, 'not-granted');
   // It asks nobody again by itself.
   expect((await operator.state()).session).toBe('waiting');
 
@@ -60,7 +60,7 @@ test('an operator without a grant is told what to do; a grant for this browserâ€
 
   await text.fill(await office.issue({ name: 'Ada Lovelace', role: 'drive', forKey }));
   await expect(dialog(page).getByText(/^Ada Lovelace may drive: \*, until/)).toBeVisible();
-  await operator.screenshot(testInfo, 'grant-read');
+  await operator.look(testInfo, 'grant-read');
   await dialog(page).getByRole('button', { name: 'Add grant' }).click();
   await operator.expectState('session', 'live');
   await close(page);
@@ -71,8 +71,7 @@ test('an operator without a grant is told what to do; a grant for this browserâ€
   await operator.releaseKeys();
 
   // The key and the grant outlive the page, and no script can read the key.
-  await page.reload();
-  await page.waitForFunction(() => window.farpoint !== undefined);
+  await operator.reload();
   await operator.expectState('session', 'live');
   const stored = await page.evaluate(
     () =>
@@ -196,11 +195,11 @@ test('a supervisor sees who is here, and ends the session of a driver who drives
   await expect(page.getByText('2 are here: Grace Hopper drives')).toBeVisible();
   await page.getByText('2 are here').click();
   await expect(page.getByText('Sue (you, supervisor)')).toBeVisible();
-  await supervisor.screenshot(testInfo, 'people');
+  await supervisor.look(testInfo, 'people');
   await page.getByRole('button', { name: 'End the session of Grace Hopperâ€¦' }).click();
   const confirm = page.getByRole('dialog', { name: 'End the session of Grace Hopper?' });
   await confirm.getByLabel('Also refuse this operatorâ€™s grant').check();
-  await supervisor.screenshot(testInfo, 'end-session');
+  await supervisor.look(testInfo, 'end-session');
   await confirm.getByRole('button', { name: 'End session' }).click();
   await expect(page.getByText('Only you are here')).toBeVisible();
   await supervisor.expectState('holder', 'nobody');

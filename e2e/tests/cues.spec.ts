@@ -1,6 +1,6 @@
 /** The operator hears and feels that the robot does less than it is told, wherever they look. */
 import type { Page } from '@playwright/test';
-import { Headset, headsetViewport } from '../src/headset.ts';
+import { enterVr, Headset, headsetViewport } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 
@@ -64,8 +64,7 @@ test('in the headset, the controllers vibrate when the robot is stopped', async 
   const headset = await Headset.wear(page);
   const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
   await operator.expectPoints(300);
-  await page.getByRole('button', { name: /VR/ }).click();
-  await operator.expectState('vr', true);
+  await enterVr(page, operator);
   await operator.expectPoints(300);
   await page.evaluate(() => {
     const { controllers } = window.emulatedHeadset;

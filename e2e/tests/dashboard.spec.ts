@@ -6,7 +6,7 @@ import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
 const ROBOT = {
   ...simulatedRobot,
-  args: [...simulatedRobot.args.slice(0, -1), '4000', '--fps', '15', '--sim-charge', '15'],
+  args: [...simulatedRobot.args, '--max-points', '4000', '--fps', '15', '--sim-charge', '15'],
 };
 const ALARMS = [
   { of: 'charge', low: { warn: 20, error: 10 }, hysteresis: 2, text: 'The battery is low' },
@@ -61,7 +61,7 @@ test('values, curves, diagnostics and alarms of a robot, live', async ({ page, s
     .toBe(2);
   await expect(dashboard(page).locator('.alarms li').first()).toContainText('The robot is fast (0.3');
   await expect(tile(page, 'Speed, m/s').locator('.now')).toHaveText(/^(0\.[3-9]\d|1\.00) m\/s$/);
-  await operator.screenshot(testInfo, 'driving');
+  await operator.look(testInfo, 'driving');
   await operator.releaseKeys();
   await expect(dashboard(page).locator('.alarms li')).toHaveCount(1);
   // The window still has the drive.
@@ -71,7 +71,7 @@ test('values, curves, diagnostics and alarms of a robot, live', async ({ page, s
   await tile(page, 'Speed').scrollIntoViewIfNeeded();
   await expect(tile(page, 'Speed').locator('.number')).toHaveText('0.00 m/s');
   await expect(tile(page, 'Position').locator('.number')).not.toHaveText(position ?? '');
-  await operator.screenshot(testInfo, 'stopped');
+  await operator.look(testInfo, 'stopped');
 
   await page.keyboard.press('KeyB');
   await expect(dashboard(page)).toBeHidden();
@@ -103,12 +103,12 @@ test('values of a robot that is gone are stale and say how old they are; they re
 
   await stack.robot(ROBOT.id).kill();
   await expect(curve.locator('.now')).toHaveText(/\(\d+(\.\d)? s old\)$/);
-  await operator.screenshot(testInfo, 'stale-curve');
+  await operator.look(testInfo, 'stale-curve');
   await speed.scrollIntoViewIfNeeded();
   await expect(speed.locator('.value')).toHaveAttribute('data-stale', 'true');
   await expect(speed.locator('.below')).toHaveText(/^stale: [\d.]+ m?s old$/);
   await expect(dashboard(page).locator('.state')).toHaveText(/^No data from the robot for \d/);
-  await operator.screenshot(testInfo, 'stale');
+  await operator.look(testInfo, 'stale');
 
   await stack.restartRobot(ROBOT.id);
   await operator.expectState('session', 'live');
@@ -133,14 +133,13 @@ test('the layout is kept over a reload, and what cannot be read is the default',
   await page.getByRole('button', { name: 'Change the size: Speed', exact: true }).click();
   await page.getByRole('button', { name: '+ Turning, °/s' }).click();
   await page.getByLabel('How far back curves reach').selectOption('10 min');
-  await operator.screenshot(testInfo, 'arranging');
+  await operator.look(testInfo, 'arranging');
   const arranged = await titles(page);
   expect(arranged.slice(0, 2)).toEqual(['Battery', 'Speed']);
   expect(arranged).not.toContain('Heading');
 
   const reopen = async () => {
-    await page.reload();
-    await page.waitForFunction(() => window.farpoint !== undefined);
+    await operator.reload();
     await operator.expectPoints();
     await openDashboard(page);
     await expect(tile(page, 'Right motor, °C')).toBeVisible();
@@ -178,7 +177,7 @@ test('a map with tiles, where they are configured and the robot knows its place 
   const stack = await startStack({ robots: [robot] });
   const operator = await OperatorPage.open(page, stack, { robot: robot.id });
   await openDashboard(page);
-  const satellite = tile(page, 'Map').getByRole('button', { name: 'Where the position comes from' });
+  const satellite = tile(page, 'Map').getByRole('button', { name: /^(Odometry|Satellite)$/ });
   await satellite.click();
   await expect(satellite).toHaveText('Satellite');
   await expect(tile(page, 'Position').locator('.number')).toHaveText(/^48\.1374\d\d°, 11\.5756\d\d°$/);
@@ -200,24 +199,29 @@ test('a map with tiles, where they are configured and the robot knows its place 
     asked.every((path) => /^\/tiles\/19\/2790\d\d\/1819\d\d\.svg$/.test(path)),
     asked[0],
   ).toBe(true);
-  await operator.screenshot(testInfo, 'tiles');
+  await operator.look(testInfo, 'tiles');
 });
 
-for (const width of [360, 1280, 3840]) {
-  test(`leaves room for driving on a screen ${width} pixels wide`, async ({ page, startStack }, testInfo) => {
+test('leaves room for driving on every screen', async ({ page, startStack }, testInfo) => {
+  const stack = await startStack({ robots: [ROBOT] });
+  const operator = await OperatorPage.open(page, stack, { robot: ROBOT.id });
+  await operator.expectPoints();
+  await expect(page.locator('#alarm')).toBeVisible();
+  const stop = page.getByRole('button', { name: 'STOP' });
+  // Where the dashboard comes to lie over the picture, and where it has just room beside it, too.
+  for (const width of [360, 960, 1030, 1280, 3840]) {
     const screen = { width, height: width === 360 ? 740 : Math.round((width * 9) / 16) };
     await page.setViewportSize(screen);
-    const stack = await startStack({ robots: [ROBOT] });
-    const operator = await OperatorPage.open(page, stack, { robot: ROBOT.id });
-    await operator.expectPoints();
-    await expect(page.locator('#alarm')).toBeVisible();
-    await operator.screenshot(testInfo, `closed-${width}`);
+    await operator.expectFrames(2);
+    await operator.look(testInfo, `closed-${width}`);
     await page.locator('#dashboard-open').click();
     await expect(tile(page, 'Speed').locator('.number')).toHaveText('0.00 m/s');
     await operator.expectFrames(5);
-    await operator.screenshot(testInfo, `open-${width}`);
+    await operator.look(testInfo, `open-${width}`);
     const names = await expectOnScreenAndApart(
-      page.locator('#dashboard, #bar button:visible, #drive button:visible, #joystick:visible'),
+      page.locator(
+        '#dashboard, #bar button:visible, #drive button:visible, #joystick:visible, #near:visible, #clouds .heads button:visible',
+      ),
       screen,
     );
     expect(names.length).toBeGreaterThan(4);
@@ -225,8 +229,12 @@ for (const width of [360, 1280, 3840]) {
     expect(await dashboard(page).evaluate((each) => each.scrollWidth - each.clientWidth)).toBe(0);
     await dashboard(page).evaluate((each) => each.scrollTo(0, each.scrollHeight));
     await expect(dashboard(page).locator('.tile').last()).toBeInViewport();
-    await operator.screenshot(testInfo, `scrolled-${width}`);
-    await page.getByRole('button', { name: 'STOP' }).click();
-    await operator.expectState('estop', true);
-  });
-}
+    await operator.look(testInfo, `scrolled-${width}`);
+    await stop.click({ trial: true });
+    await page.locator('#dashboard-open').click();
+    await expect(dashboard(page)).toBeHidden();
+  }
+  await page.locator('#dashboard-open').click();
+  await stop.click();
+  await operator.expectState('estop', true);
+});

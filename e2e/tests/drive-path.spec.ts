@@ -25,13 +25,13 @@ test('the way of the present command and its end are on the floor, and turn red 
       .toBe(true);
   // At 1 m/s: what is gone while the loop is blind, and 0.25 m of braking at 2 m/s².
   await drives(({ stopM, tone }) => tone !== 'held' && stopM > 0.25 && stopM < 1);
-  await operator.screenshot(testInfo, 'first-person');
+  await operator.look(testInfo, 'first-person');
   await page.keyboard.press('t');
   await drives(({ tone }) => tone !== 'held');
-  await operator.screenshot(testInfo, 'above');
+  await operator.look(testInfo, 'above');
   await page.keyboard.press('t');
   await drives(({ tone }) => tone === 'held');
-  await operator.screenshot(testInfo, 'held');
+  await operator.look(testInfo, 'held');
   await operator.releaseKeys();
   await expect.poll(path).toBe(null);
 });
@@ -49,6 +49,6 @@ test('a robot of a configured outline shows that, and not a usual robot', async 
   await operator.expectFrames(5);
   for (const { width, height } of screenSizes) {
     await page.setViewportSize({ width, height });
-    await operator.screenshot(testInfo, `outline-${width}`);
+    await operator.look(testInfo, `outline-${width}`);
   }
 });

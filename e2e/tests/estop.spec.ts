@@ -1,7 +1,7 @@
 import type { Page } from '@playwright/test';
-import { Headset } from '../src/headset.ts';
+import { enterVr, Headset } from '../src/headset.ts';
 import { expectOnScreenAndApart } from '../src/layout.ts';
-import { OperatorPage } from '../src/operator-page.ts';
+import { OperatorPage, screenSizes } from '../src/operator-page.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
 /** Each change of the robot's emergency stop, as recorded in its journal. */
@@ -55,7 +55,7 @@ test('STOP only latches, however it is pressed and however often; a hold of one 
   await expect(release).toBeHidden();
   // Without a latched stop there is nothing to release.
   await page.keyboard.down('KeyR');
-  await operator.expectFrames(40);
+  await operator.expectFrames(18);
   await page.keyboard.up('KeyR');
 
   // Space on the focused button stops. It neither clicks the button nor acts as the grip.
@@ -85,7 +85,7 @@ test('STOP only latches, however it is pressed and however often; a hold of one 
   for (const press of presses) {
     await press();
     // Longer than a second: a slow press does not release either.
-    await operator.expectFrames(35);
+    await operator.expectFrames(18);
     expect(await operator.state()).toMatchObject({ estop: true, drive: 'estop' });
   }
   expect(changes(lines)).toEqual([true]);
@@ -95,10 +95,10 @@ test('STOP only latches, however it is pressed and however often; a hold of one 
     await holdInPart(page, 'key', 'up', progress);
     await holdInPart(page, 'pointer', 'up', progress);
     await holdInPart(page, 'pointer', 'slide', progress);
-    await operator.expectFrames(40);
+    await operator.expectFrames(18);
   }
   await holdInPart(page, 'key', 'stop', 0.5);
-  await operator.expectFrames(60);
+  await operator.expectFrames(30);
   await page.keyboard.down('KeyR');
   await page.keyboard.up('KeyR');
   await release.click();
@@ -106,7 +106,9 @@ test('STOP only latches, however it is pressed and however often; a hold of one 
   expect(changes(lines)).toEqual([true]);
 
   // Held by key, by Enter on the control, and by pointer.
-  await operator.releaseEstop();
+  await page.keyboard.down('KeyR');
+  await operator.expectState('estop', false);
+  await page.keyboard.up('KeyR');
   expect(changes(lines)).toEqual([true, false]);
   await page.keyboard.press('KeyX');
   await expect(release).toBeVisible();
@@ -144,7 +146,7 @@ test('pressing STOP just after somebody else has pressed it stops, too', async (
   await page.bringToFront();
   await page.keyboard.press('KeyX');
   await page.locator('#estop').click();
-  await one.expectFrames(40);
+  await one.expectFrames(18);
   expect(changes(lines)).toEqual([true]);
 });
 
@@ -178,15 +180,14 @@ test('on a gamepad and in the headset: B stops, another button held releases', a
     await press(1, true);
     await operator.expectState('estop', true);
     await press(1, false);
-    await operator.expectFrames(35);
+    await operator.expectFrames(18);
   }
   expect(changes(lines)).toEqual([true]);
   await press(3, true);
   await operator.expectState('estop', false);
   await press(3, false);
 
-  await page.getByRole('button', { name: /VR/ }).click();
-  await operator.expectState('vr', true);
+  await enterVr(page, operator);
   await operator.expectPoints();
   for (let i = 0; i < 2; i++) {
     await headset.button('right', 'b-button', 1);
@@ -197,7 +198,7 @@ test('on a gamepad and in the headset: B stops, another button held releases', a
   // A fist: grip and trigger together.
   await headset.button('right', 'squeeze', 1);
   await headset.button('right', 'trigger', 1);
-  await operator.expectFrames(40);
+  await operator.expectFrames(18);
   await headset.button('right', 'trigger', 0);
   await operator.expectFrames(10);
   await headset.button('right', 'squeeze', 0);
@@ -205,39 +206,44 @@ test('on a gamepad and in the headset: B stops, another button held releases', a
   expect(changes(lines)).toEqual([true, false, true]);
   await headset.place('left', [-0.05, 1.5, -0.4]);
   await headset.button('right', 'trigger', 1);
-  await operator.screenshot(testInfo, 'holding-in-the-headset');
+  await operator.look(testInfo, 'holding-in-the-headset');
   await operator.expectState('estop', false);
   await headset.button('right', 'trigger', 0);
   expect(changes(lines)).toEqual([true, false, true, false]);
 });
 
-for (const [width, height] of [
-  [360, 740],
-  [1280, 720],
-  [3840, 2160],
-] as const) {
-  test(`while latched, every control is on a screen ${width} pixels wide and none covers another`, async ({
-    browser,
-    startStack,
-  }, testInfo) => {
-    const stack = await startStack();
-    const context = await browser.newContext({ viewport: { width, height }, hasTouch: width < 400 });
-    const page = await context.newPage();
-    try {
-      const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
-      await operator.expectPoints();
-      await page.locator('#estop').click();
-      await operator.expectState('estop', true);
-      await operator.screenshot(testInfo, `latched-${width}`);
-      const names = await expectOnScreenAndApart(
-        page.locator(
-          '#bar button:visible, #drive button:visible, #joystick:visible, #facts, #notice:visible',
-        ),
-        { width, height },
-      );
-      expect(names).toEqual(expect.arrayContaining(['estop', 'estop-release']));
-    } finally {
-      await context.close();
-    }
+test('while latched, every control is on every screen and none covers another', async ({
+  openRobot,
+  page,
+}, testInfo) => {
+  const { operator } = await openRobot();
+  await page.locator('#estop').click();
+  await operator.expectState('estop', true);
+  for (const size of screenSizes) {
+    await page.setViewportSize(size);
+    await operator.expectFrames(2);
+    await operator.look(testInfo, `latched-${size.width}`);
+    const names = await expectOnScreenAndApart(
+      page.locator('#bar button:visible, #drive button:visible, #joystick:visible, #facts, #notice:visible'),
+      size,
+    );
+    expect(names).toEqual(expect.arrayContaining(['estop', 'estop-release']));
+  }
+});
+
+test('its key works although the text field of a dialog that has just been closed has the focus', async ({
+  openRobot,
+  page,
+}) => {
+  const { operator } = await openRobot();
+  await page.getByRole('button', { name: 'Settings' }).click();
+  await page.getByLabel('Your name').focus();
+  await page.evaluate(() => {
+    const field = document.querySelector('#settings input[name=name]');
+    (document.getElementById('settings') as HTMLDialogElement).close();
+    // In the same task: the browser takes the focus away with the next display frame.
+    if (document.activeElement !== field) throw new Error('the field has lost the focus');
+    field?.dispatchEvent(new KeyboardEvent('keydown', { code: 'KeyX', bubbles: true, cancelable: true }));
   });
-}
+  await operator.expectState('estop', true);
+});

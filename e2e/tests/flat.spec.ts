@@ -24,7 +24,7 @@ test('on a flat screen: choose the robot, see its world, drive it with the keybo
   await operator.expectMovedFrom(start, 0.5);
   await operator.releaseKeys();
   await operator.expectStanding();
-  await operator.screenshot(testInfo, 'after-driving');
+  await operator.look(testInfo, 'after-driving');
 
   // Forward means along its initial heading.
   const end = await operator.body();

@@ -1,11 +1,11 @@
 /** What the robot would hit and where its floor is missing is tinted, in every view; nothing else is. */
 import type { Page, TestInfo } from '@playwright/test';
 import { writeGreyRoom } from '../src/grey-room.ts';
-import { Headset, headsetViewport } from '../src/headset.ts';
+import { enterVr, Headset, headsetViewport } from '../src/headset.ts';
 import { expectOnScreenAndApart } from '../src/layout.ts';
 import { OperatorPage, screenSizes } from '../src/operator-page.ts';
-import { leftEye, meanDifference, type Part, type Rgb, rightEye, sharesNear } from '../src/picture.ts';
-import { expect, test } from '../src/stack-test.ts';
+import { leftEye, type Part, type Rgb, redder, rightEye, sharesNear } from '../src/picture.ts';
+import { expect, LONG, test } from '../src/stack-test.ts';
 
 /** What the legend may not cover, and what may not cover it. */
 const CONTROLS =
@@ -69,17 +69,20 @@ test('what would be hit and missing floor are tinted, from the eye and from abov
   for (const size of screenSizes) {
     await page.setViewportSize(size);
     await operator.expectFrames(2);
-    await operator.screenshot(testInfo, `eye-${size.width}`);
+    await operator.look(testInfo, `eye-${size.width}`);
     await expectOnScreenAndApart(page.locator(CONTROLS), size);
   }
-  await page.setViewportSize({ width: 960, height: 540 });
+  const small = { width: 960, height: 540 };
+  await page.setViewportSize(small);
+  await operator.look(testInfo, 'eye-960');
+  await expectOnScreenAndApart(page.locator(CONTROLS), small);
 
   // In the colours of a quantity, too.
   await page.locator('#colours-open').click();
   await expect(page.locator('#hazards')).toHaveText('Tinted');
   await page.getByLabel('Colours of Cloud').selectOption('height');
   await operator.expectFrames(2);
-  await operator.screenshot(testInfo, 'height');
+  await operator.look(testInfo, 'height');
   await page.getByLabel('Colours of Cloud').selectOption('captured');
   await page.locator('#colours-open').click();
 
@@ -91,14 +94,13 @@ test('what would be hit and missing floor are tinted, from the eye and from abov
   for (const size of screenSizes) {
     await page.setViewportSize(size);
     await operator.expectFrames(2);
-    await operator.screenshot(testInfo, `above-${size.width}`);
+    await operator.look(testInfo, `above-${size.width}`);
   }
   await page.setViewportSize({ width: 960, height: 540 });
   await page.keyboard.press('t');
 
   // Kept for the next visit, until it is switched off.
-  await page.reload();
-  await page.waitForFunction(() => window.farpoint !== undefined);
+  await operator.reload();
   await expect(legend).toContainText('would hit');
   await expect.poll(async () => (await tints(page, left)).hit).toBeGreaterThan(0.02);
   await page.keyboard.press('h');
@@ -119,43 +121,52 @@ test('the heights are the robot’s own: a taller one hits the beam', async ({
   await expect.poll(async () => (await tints(page, above)).hit).toBeGreaterThan(0.02);
   // The pit is a step that it takes.
   expect((await tints(page, whole)).drop).toBeLessThan(0.001);
-  await operator.screenshot(testInfo, 'tall');
+  await operator.look(testInfo, 'tall');
 });
 
-test('surfaces are tinted as well, where they are not floor', async ({ page, startStack }, testInfo) => {
-  const robot = {
-    id: 'surface',
-    name: 'Surface',
-    args: ['--source', 'sim', '--sim-seed', '1', '--fps', '5', '--start-mbps', '20', '--bitrate-mbps', '30'],
-  };
-  const stack = await startStack({ robots: [robot] });
-  const operator = await OperatorPage.open(page, stack, {
-    ...{ robot: robot.id, canvas: '320x240', surface: '1', every: '4', memory: '1' },
-  });
-  await operator.expectPoints(30_000);
-  expect(await operator.probe()).toMatchObject({ surface: true });
-  const pillar: Part = { left: 0.52, top: 0.5, width: 0.045, height: 0.1 };
-  const floor: Part = { left: 0.4, top: 0.66, width: 0.2, height: 0.06 };
-  // People may walk through the picture.
-  await expect
-    .poll(
-      async () => {
-        const plain = await operator.screenshot(testInfo, 'surface-plain');
-        await page.keyboard.press('h');
-        await expect(page.locator('.legend.hazards')).toBeVisible();
-        await operator.expectFrames(2);
-        const tinted = await operator.screenshot(testInfo, 'surface-tinted');
-        await page.keyboard.press('h');
-        await operator.expectFrames(2);
-        const changes = await Promise.all(
-          [pillar, floor].map((part) => meanDifference(page, plain, tinted, part)),
-        );
-        return (changes[0] as number) > 25 && (changes[1] as number) < 10;
-      },
-      { message: 'the pillar is tinted and the floor is not' },
-    )
-    .toBe(true);
-});
+test(
+  'surfaces are tinted as well, where they are not floor',
+  { tag: LONG },
+  async ({ page, startStack }, testInfo) => {
+    const robot = {
+      id: 'surface',
+      name: 'Surface',
+      args: [
+        ...['--source', 'sim', '--sim-seed', '1', '--sim-size', '192', '--fps', '5'],
+        // A rate that falls on a busy machine would take the picture's quality, and its floor would differ from itself.
+        ...['--rate-control', 'fixed', '--bitrate-mbps', '20'],
+      ],
+    };
+    const stack = await startStack({ robots: [robot] });
+    const operator = await OperatorPage.open(page, stack, {
+      ...{ robot: robot.id, canvas: '320x240', surface: '1', every: '1', memory: '1' },
+    });
+    await operator.expectPoints(20_000);
+    expect(await operator.probe()).toMatchObject({ surface: true });
+    const pillar: Part = { left: 0.52, top: 0.5, width: 0.045, height: 0.1 };
+    const floor: Part = { left: 0.4, top: 0.66, width: 0.2, height: 0.06 };
+    // People may walk through the picture.
+    await expect
+      .poll(
+        async () => {
+          const plain = await operator.screenshot(testInfo, 'surface-plain');
+          await page.keyboard.press('h');
+          await expect(page.locator('.legend.hazards')).toBeVisible();
+          await operator.expectFrames(2);
+          const tinted = await operator.screenshot(testInfo, 'surface-tinted');
+          await page.keyboard.press('h');
+          await operator.expectFrames(2);
+          // The points of a floor differ a little in each cloud, but not towards red.
+          const [ofPillar, ofFloor] = await Promise.all(
+            [pillar, floor].map((part) => redder(page, plain, tinted, part)),
+          );
+          return (ofPillar as number) > 40 && Math.abs(ofFloor as number) < 20;
+        },
+        { message: 'the pillar is tinted and the floor is not' },
+      )
+      .toBe(true);
+  },
+);
 
 test.describe('in the headset', () => {
   test.use({ viewport: headsetViewport });
@@ -170,18 +181,17 @@ test.describe('in the headset', () => {
     const operator = await OperatorPage.open(page, stack, { robot: robot.id, every: '1' });
     await operator.expectPoints(15_000);
     await page.keyboard.press('h');
-    await page.getByRole('button', { name: /VR/ }).click();
-    await operator.expectState('vr', true);
+    await enterVr(page, operator);
     for (const eye of [leftEye, rightEye]) {
       await expect.poll(async () => (await tints(page, eye)).hit).toBeGreaterThan(0.005);
       await expect.poll(async () => (await tints(page, eye)).drop).toBeGreaterThan(0.002);
     }
-    await operator.screenshot(testInfo, 'headset');
+    await operator.look(testInfo, 'headset');
     await headset.place('left', [-0.05, 1.55, -0.35]);
     const wrist = async () =>
       (await page.evaluate(() => window.farpoint.wrist() ?? [])).map(({ text }) => text).join('\n');
     await expect.poll(wrist).toContain('Red: would hit  violet: drop');
     await operator.expectFrames(3);
-    await operator.screenshot(testInfo, 'wrist');
+    await operator.look(testInfo, 'wrist');
   });
 });

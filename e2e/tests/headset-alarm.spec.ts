@@ -1,6 +1,6 @@
 import { writeFileSync } from 'node:fs';
 import { EmulatedLink } from '@farpoint/local-stack';
-import { Headset, headsetViewport } from '../src/headset.ts';
+import { enterVr, Headset, headsetViewport } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 
@@ -31,14 +31,13 @@ test('in the headset: an alarm is on the wrist, and is of the past when the robo
     const operator = await OperatorPage.open(page, stack, { robot: lightRobot.id });
     await operator.expectPoints(300);
     expect(await page.evaluate(() => window.farpoint.wrist())).toBeNull();
-    await page.getByRole('button', { name: /VR/ }).click();
-    await operator.expectState('vr', true);
+    await enterVr(page, operator);
     await headset.place('left', [-0.05, 1.55, -0.35]);
     const alarms = () =>
       page.evaluate(() => (window.farpoint.wrist() ?? []).filter(({ text }) => text.startsWith('⚠')));
     await expect.poll(alarms).toEqual([{ text: LOW, tone: 'bad' }]);
     await operator.expectFrames(5);
-    await operator.screenshot(testInfo, 'wrist-alarm');
+    await operator.look(testInfo, 'wrist-alarm');
 
     // A second one is counted, and is not the first: it is only a warning.
     const start = await operator.body();
@@ -55,7 +54,7 @@ test('in the headset: an alarm is on the wrist, and is of the past when the robo
     await expect
       .poll(async () => (await alarms()).map(({ text }) => text.replace(/\d+ s ago/, 'N s ago')))
       .toEqual([`${LOW}, N s ago`]);
-    await operator.screenshot(testInfo, 'wrist-alarm-stale');
+    await operator.look(testInfo, 'wrist-alarm-stale');
     link.tell({ type: 'blackhole', direction: 'both', active: false });
     await expect.poll(alarms).toEqual([{ text: LOW, tone: 'bad' }]);
   } finally {

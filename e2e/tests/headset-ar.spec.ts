@@ -6,7 +6,7 @@ import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
 test.use({ viewport: headsetViewport });
 
-const robot = { ...simulatedRobot, args: [...simulatedRobot.args.slice(0, -1), '6000', '--fps', '15'] };
+const robot = { ...simulatedRobot, args: [...simulatedRobot.args, '--max-points', '6000', '--fps', '15'] };
 
 test('in AR the model stands in the operator’s room, or the world around them at true scale; it drives as in VR', async ({
   page,
@@ -36,7 +36,7 @@ test('in AR the model stands in the operator’s room, or the world around them 
   await headset.press('left', 'x-button');
   expect(await shown()).toMatchObject({ view: 'first-person' });
   await headset.frames(3);
-  await operator.screenshot(testInfo, 'ar-true-scale');
+  await operator.look(testInfo, 'ar-true-scale');
 
   // Back in VR, the view is the one from before.
   // The emulated headset's picture lies over the page.

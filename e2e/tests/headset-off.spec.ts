@@ -1,5 +1,5 @@
 /** The headset is taken off with the grip held: nobody looks, so the robot stops, and others may drive. */
-import { Headset, headsetViewport } from '../src/headset.ts';
+import { enterVr, Headset, headsetViewport } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 
@@ -13,8 +13,7 @@ test('taken off with the grip held: the robot stops, is free for others, and wai
   const headset = await Headset.wear(page);
   const operator = await OperatorPage.open(page, stack, { robot: 'sim-1' });
   await operator.expectPoints(300);
-  await page.getByRole('button', { name: /VR/ }).click();
-  await operator.expectState('vr', true);
+  await enterVr(page, operator);
   await operator.expectPoints(300);
   await headset.thumbstick('right', 0, -1);
   await operator.hold(headset.grip('right'));

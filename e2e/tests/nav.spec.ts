@@ -1,6 +1,6 @@
 /** What the robot's own navigator has planned and its map are on the floor, while they hold. */
 import { EmulatedLink } from '@farpoint/local-stack';
-import { Headset, headsetViewport } from '../src/headset.ts';
+import { enterVr, Headset, headsetViewport } from '../src/headset.ts';
 import { OperatorPage, screenSizes } from '../src/operator-page.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 
@@ -42,7 +42,7 @@ test('path and map are on the floor, from behind and from above, and can be hidd
     for (const size of screenSizes) {
       await page.setViewportSize(size);
       await operator.expectFrames(3);
-      await operator.screenshot(testInfo, `${view}-${size.width}`);
+      await operator.look(testInfo, `${view}-${size.width}`);
     }
   }
   await page.setViewportSize(screenSizes[1]);
@@ -68,7 +68,7 @@ test('what no longer holds is not drawn, and its age is told', async ({ page, st
     link.tell({ type: 'blackhole', direction: 'both', active: true });
     await expect(page.locator('#facts')).toContainText(/Path.*\d+ s old: not drawn/);
     expect((await navigation(operator)).pathPoints).toBe(0);
-    await operator.screenshot(testInfo, 'stale');
+    await operator.look(testInfo, 'stale');
     link.tell({ type: 'blackhole', direction: 'both', active: false });
     await expectDrawn(operator);
   } finally {
@@ -92,10 +92,9 @@ test.describe('in the headset', () => {
     await Headset.wear(page);
     const operator = await OperatorPage.open(page, stack, { robot: robot.id });
     await operator.expectPoints(300);
-    await page.getByRole('button', { name: /VR/ }).click();
-    await operator.expectState('vr', true);
+    await enterVr(page, operator);
     await expectDrawn(operator);
     await operator.expectFrames(5);
-    await operator.screenshot(testInfo, 'headset');
+    await operator.look(testInfo, 'headset');
   });
 });

@@ -20,7 +20,7 @@ test('driven against a wall, the robot stops before it, says why, and backs out'
     )
     .toBe('Held: something is in the way');
   await operator.expectStanding();
-  await operator.screenshot(testInfo, 'held');
+  await operator.look(testInfo, 'held');
   await expect(page.locator('#facts')).not.toContainText('in contact');
   await operator.releaseKeys();
   await expect(bounded).toBeHidden();
@@ -52,6 +52,6 @@ test('a robot that does not look says so all the time', async ({ page, startStac
   for (const { width, height } of screenSizes) {
     await page.setViewportSize({ width, height });
     await expect(guard).toBeInViewport({ ratio: 1 });
-    await operator.screenshot(testInfo, `off-${width}`);
+    await operator.look(testInfo, `off-${width}`);
   }
 });

@@ -1,5 +1,6 @@
 import { globSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { gzipSync } from 'node:zlib';
 import { repositoryRoot } from '@farpoint/local-stack';
 import { expect, test } from '@playwright/test';
 
@@ -32,4 +33,13 @@ test('the page has the small build of the schema library, with a single language
   expect(ofZod).toContain('mini/schemas.js');
   expect(ofZod.filter((module) => module.startsWith('classic/'))).toEqual([]);
   expect(ofZod.filter((module) => module.startsWith('locales/'))).toEqual(['locales/en.js']);
+});
+
+test('the page is small: its scripts, with all that the headset needs, are at most 350 kB compressed', () => {
+  const folder = join(repositoryRoot, 'apps/webxr/dist');
+  const page = readFileSync(join(folder, 'index.html'), 'utf8');
+  const named = [...page.matchAll(/(?:src|href)="\.\/(assets\/[^"]+\.js)"/g)].map(([, file]) => file ?? '');
+  expect(named).not.toEqual([]);
+  const bytes = named.map((file) => gzipSync(readFileSync(join(folder, file)), { level: 9 }).length);
+  expect(bytes.reduce((sum, each) => sum + each, 0)).toBeLessThan(350_000);
 });

@@ -8,7 +8,7 @@ test('on a phone held upright every control is on the screen and none covers ano
   openRobot,
 }, testInfo) => {
   const { operator } = await openRobot();
-  await operator.screenshot(testInfo, 'phone');
+  await operator.look(testInfo, 'phone');
   const controls = page.locator(
     '#bar button:visible, #bar select:visible, #bar #link, #drive button:visible, #joystick',
   );

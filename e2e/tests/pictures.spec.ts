@@ -3,7 +3,7 @@ import { EmulatedLink } from '@farpoint/local-stack';
 import { openRecording } from '@farpoint/recording';
 import { foxgloveCompressedImageSchema } from '@farpoint/ros';
 import type { Page } from '@playwright/test';
-import { Headset } from '../src/headset.ts';
+import { enterVr, Headset } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
 import { readPicture } from '../src/picture.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
@@ -57,7 +57,11 @@ async function recordedPictures(path: string, topic: string): Promise<Uint8Array
   return files;
 }
 
-const withCamera = { ...simulatedRobot, args: [...simulatedRobot.args, '--pictures-of-cloud'] };
+const SIZE = { width: 200, height: 200 };
+const withCamera = {
+  ...simulatedRobot,
+  args: [...simulatedRobot.args, '--pictures-of-cloud', '--sim-size', String(SIZE.width)],
+};
 
 test('the simulated camera’s picture is shown, live, and can be hidden', async ({
   page,
@@ -68,11 +72,11 @@ test('the simulated camera’s picture is shown, live, and can be hidden', async
   await operator.expectPoints();
   await expect(panel(page, 'Camera').locator('canvas')).toBeVisible();
   await expect.poll(async () => (await camera(page, 'Camera')).pictures).toBeGreaterThan(5);
-  expect(await camera(page, 'Camera')).toMatchObject({ width: 480, height: 480, failures: 0 });
+  expect(await camera(page, 'Camera')).toMatchObject({ ...SIZE, failures: 0 });
   const places = Array.from({ length: 40 }, (_, i) => (i + 0.5) / 40);
   const seen = await colours(page, 'Camera', places);
   expect(new Set(seen.map((colour) => colour.map((value) => value >> 4).join())).size).toBeGreaterThan(5);
-  await operator.screenshot(testInfo, 'picture');
+  await operator.look(testInfo, 'picture');
 
   // The robot's view changes as it turns.
   await page.evaluate(() => window.farpoint.requestLease());
@@ -134,7 +138,7 @@ test('a recording of the robot shows the recorded pictures', async ({ page, star
   const operator = await OperatorPage.open(page, stack, { robot: 'played-1' });
   await operator.expectPoints();
   await expect.poll(async () => (await camera(page, 'Front')).pictures).toBeGreaterThan(3);
-  expect(await camera(page, 'Front')).toMatchObject({ width: 480, height: 480, failures: 0 });
+  expect(await camera(page, 'Front')).toMatchObject({ ...SIZE, failures: 0 });
 
   // The panel shows one of them, exact to the pixel, and later another.
   const rows = (await coloursOfFiles(page, files, places)).map((row) => row.join(' '));
@@ -147,7 +151,7 @@ test('a recording of the robot shows the recorded pictures', async ({ page, star
     })
     .toBeGreaterThan(3);
   await expect(page.locator('#facts dt', { hasText: 'Recorded' }).locator('+ dd')).toContainText('x');
-  await operator.screenshot(testInfo, 'recorded-picture');
+  await operator.look(testInfo, 'recorded-picture');
   // A camera that the recording lacks does not prevent playback.
   await expect(panel(page, 'Rear').locator('.age')).toHaveText('waiting');
 });
@@ -187,14 +191,14 @@ test.describe('on a phone held upright', () => {
     const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
     await operator.expectPoints();
     await expect.poll(async () => (await camera(page, 'Camera')).pictures).toBeGreaterThan(1);
-    await operator.screenshot(testInfo, 'phone-picture');
+    await operator.look(testInfo, 'phone-picture');
     const figure = await panel(page, 'Camera').boundingBox();
     expect(figure).not.toBeNull();
     const { x, y, width, height } = figure!;
     expect(width).toBeGreaterThan(120);
     expect(x).toBeGreaterThanOrEqual(0);
     expect(x + width).toBeLessThanOrEqual(390);
-    for (const id of ['#facts', '#joystick', '#estop', '#latency', '#bar']) {
+    for (const id of ['#facts-fold', '#joystick', '#estop', '#latency', '#bar']) {
       const box = (await page.locator(id).boundingBox())!;
       const apart =
         x + width <= box.x || box.x + box.width <= x || y + height <= box.y || box.y + box.height <= y;
@@ -213,8 +217,7 @@ test('in the headset the picture is beside the panel on the wrist', async ({
   const headset = await Headset.wear(page);
   const operator = await OperatorPage.open(page, stack, { robot: simulatedRobot.id });
   await operator.expectPoints();
-  await page.getByRole('button', { name: /VR/ }).click();
-  await operator.expectState('vr', true);
+  await enterVr(page, operator);
   // Upwards, where there is nothing behind it.
   await headset.place('left', [-0.12, 1.92, -0.45]);
   const drawnAbove = async (name: string) => {
@@ -265,10 +268,10 @@ test('pictures from a ROS 1 graph: raw ones are shrunk, a silent camera is marke
   expect((await camera(page, 'Rear')).pictures).toBe(0);
   await expect(panel(page, 'Rear').locator('.age')).toHaveText('waiting');
   await operator.expectFrames(5);
-  await operator.screenshot(testInfo, 'ros-pictures');
+  await operator.look(testInfo, 'ros-pictures');
 
   await nodes[1]?.kill();
   await expect(panel(page, 'Front')).toHaveAttribute('data-state', 'frozen');
   await expect(panel(page, 'Front').locator('.age')).toHaveText(/^frozen, \d+\.\d s$/);
-  await operator.screenshot(testInfo, 'ros-pictures-stale');
+  await operator.look(testInfo, 'ros-pictures-stale');
 });

@@ -37,5 +37,5 @@ test('the dashboard shows the quantities, alarms and diagnostics of a recording,
   const curve = tile('Left motor (recorded), °C');
   await curve.scrollIntoViewIfNeeded();
   await expect(curve.locator('.now')).toContainText(/^2[2-9]\.\d °C$/);
-  await operator.screenshot(testInfo, 'played');
+  await operator.look(testInfo, 'played');
 });

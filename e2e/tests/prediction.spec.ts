@@ -1,7 +1,7 @@
 /** The view answers the hand at once, although the robot is 150 ms away, and the page says that this is a prediction. */
 import { EmulatedLink } from '@farpoint/local-stack';
 import type { Page } from '@playwright/test';
-import { Headset, headsetViewport } from '../src/headset.ts';
+import { enterVr, Headset, headsetViewport } from '../src/headset.ts';
 import { OperatorPage } from '../src/operator-page.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 
@@ -66,10 +66,10 @@ test('flat: the view moves before the robot can be seen to, and P and ?predict=0
     await operator.expectMovedFrom(start, 0.3);
     await expect(page.locator('#facts')).toContainText(/Predicted \d+ ms ahead/);
     expect((await operator.state()).view.aheadMs).toBeGreaterThan(LOOP_MS / 2);
-    await operator.screenshot(testInfo, 'driving');
+    await operator.look(testInfo, 'driving');
     await page.keyboard.press('v');
     await operator.expectFrames(3);
-    await operator.screenshot(testInfo, 'ghost-from-behind');
+    await operator.look(testInfo, 'ghost-from-behind');
     await page.keyboard.press('v');
     await operator.releaseKeys();
     await operator.expectStanding();
@@ -133,8 +133,7 @@ test('in the headset: the rig moves at once, and the wrist says that it is predi
     const headset = await Headset.wear(page);
     const operator = await OperatorPage.open(page, stack, { robot: lightRobot.id });
     await operator.expectPoints(300);
-    await page.getByRole('button', { name: /VR/ }).click();
-    await operator.expectState('vr', true);
+    await enterVr(page, operator);
     const start = await operator.body();
     await operator.hold(headset.grip('right'));
     await headset.thumbstick('right', 0, -1);
@@ -147,7 +146,7 @@ test('in the headset: the rig moves at once, and the wrist says that it is predi
       .toBe('predicted');
     const lines = await page.evaluate(() => window.farpoint.wrist()?.map(({ text }) => text) ?? []);
     expect(lines.join('\n')).toMatch(/view \+\d+ ms predicted/);
-    await operator.screenshot(testInfo, 'both-eyes');
+    await operator.look(testInfo, 'both-eyes');
     await headset.thumbstick('right', 0, 0);
     await operator.release();
     await operator.expectStanding();

@@ -45,7 +45,7 @@ test('a robot that came back while its link was away says so, stands, and waits 
     link.tell({ type: 'blackhole', direction: 'both', active: false });
 
     await operator.expectState('session', 'live');
-    const words = page.getByText(CAME_BACK).first();
+    const words = page.getByText(CAME_BACK).filter({ visible: true }).first();
     await expect(words).toBeVisible();
     await operator.expectStanding();
     const metres = Number(CAME_BACK.exec((await words.textContent()) ?? '')?.[1]);
@@ -57,18 +57,25 @@ test('a robot that came back while its link was away says so, stands, and waits 
     for (const width of [360, 3840, 1280]) {
       await page.setViewportSize({ width, height: width === 360 ? 740 : Math.round(width * 0.5625) });
       await expect(words).toBeInViewport({ ratio: 1 });
-      await operator.screenshot(testInfo, `came-back-${width}`);
+      await operator.look(testInfo, `came-back-${width}`);
     }
 
     // A fresh hand drives it, and then it is past.
     await operator.releaseKeys();
     await operator.expectState('drive', 'idle');
     // Backwards: ahead may be what held it before.
-    await page.keyboard.down('Space');
-    await page.keyboard.down('KeyS');
+    await operator.hold({
+      async hold() {
+        await page.keyboard.down('Space');
+        await page.keyboard.down('KeyS');
+      },
+      async release() {
+        await page.keyboard.up('KeyS');
+        await page.keyboard.up('Space');
+      },
+    });
     await operator.expectMovedFrom(stands, 0.1);
-    await page.keyboard.up('KeyS');
-    await page.keyboard.up('Space');
+    await operator.release();
     await expect(words).toBeHidden();
   } finally {
     await link.stop();

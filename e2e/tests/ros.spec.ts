@@ -25,7 +25,7 @@ test('a robot in a ROS 1 graph: its cloud, its readings, and driving it', async 
   // Long texts do not hide the picture.
   const panel = await page.locator('#facts').boundingBox();
   expect(panel?.width).toBeLessThan(400);
-  await operator.screenshot(testInfo, 'ros');
+  await operator.look(testInfo, 'ros');
 
   await operator.holdForward();
   await expect

@@ -20,7 +20,7 @@ async function pictures(page: Page, operator: OperatorPage, testInfo: TestInfo, 
   for (const size of screenSizes) {
     await page.setViewportSize(size);
     await operator.expectFrames(2);
-    await operator.screenshot(testInfo, `${name}-${size.width}`);
+    await operator.look(testInfo, `${name}-${size.width}`);
   }
   await page.setViewportSize({ width: 960, height: 540 });
 }
@@ -49,7 +49,7 @@ test('a LiDAR over ground that its robot does not know of: the grid lies on it, 
   await pictures(page, operator, testInfo, 'eye');
   await page.keyboard.press('v');
   await operator.expectFrames(2);
-  await operator.screenshot(testInfo, 'third-person');
+  await operator.look(testInfo, 'third-person');
   await page.keyboard.press('v');
   await page.keyboard.press('t');
   await pictures(page, operator, testInfo, 'above');
@@ -74,10 +74,10 @@ test('a recorded street', async ({ page, startStack }, testInfo) => {
   await expect.poll(async () => (await scene(operator)).gridM, { message: 'the grid' }).toBeLessThan(-0.55);
   expect((await scene(operator)).gridM).toBeGreaterThan(-1);
   expect((await scene(operator)).reachM).toBeGreaterThan(15);
-  await operator.screenshot(testInfo, 'street');
+  await operator.look(testInfo, 'street');
   await page.keyboard.press('t');
   await operator.expectFrames(2);
-  await operator.screenshot(testInfo, 'street-above');
+  await operator.look(testInfo, 'street-above');
 });
 
 test('in a room whose floor is the robot’s own, grid and zoom are as usual', async ({ page, startStack }) => {

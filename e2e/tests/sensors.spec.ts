@@ -1,4 +1,4 @@
-import { OperatorPage } from '../src/operator-page.ts';
+import { OperatorPage, screenSizes } from '../src/operator-page.ts';
 import { expect, simulatedRobot, test } from '../src/stack-test.ts';
 
 const LIDAR_ROBOT = { ...simulatedRobot, args: [...simulatedRobot.args, '--sim-lidars', '1'] };
@@ -17,7 +17,7 @@ test('a camera and a LiDAR in one session: both drawn, each switched off and on 
     ['Camera', true],
     ['LiDAR', true],
   ]);
-  await page.screenshot({ path: testInfo.outputPath('two-sensors.png') });
+  await operator.look(testInfo, 'two-sensors');
 
   await page.getByRole('button', { name: 'LiDAR' }).click();
   await expect.poll(drawn).toEqual([true, false]);
@@ -38,21 +38,21 @@ test('a camera and a LiDAR in one session: both drawn, each switched off and on 
   await expect.poll(drawn).toEqual([true, true]);
 });
 
-for (const width of [360, 1280, 3840]) {
-  test(`the sensors' switches are on a screen ${width} pixels wide`, async ({
-    page,
-    startStack,
-  }, testInfo) => {
-    await page.setViewportSize({ width, height: width === 360 ? 740 : Math.round((width * 9) / 16) });
-    const stack = await startStack({ robots: [LIDAR_ROBOT] });
-    const operator = await OperatorPage.open(page, stack, { robot: LIDAR_ROBOT.id });
-    await operator.expectPoints();
+test('the sensors’ switches are on every screen, and nothing covers them', async ({
+  page,
+  startStack,
+}, testInfo) => {
+  const stack = await startStack({ robots: [LIDAR_ROBOT] });
+  const operator = await OperatorPage.open(page, stack, { robot: LIDAR_ROBOT.id });
+  await operator.expectPoints();
+  for (const size of screenSizes) {
+    await page.setViewportSize(size);
+    await operator.expectFrames(2);
     for (const name of ['Camera', 'LiDAR']) {
       const button = page.getByRole('button', { name, exact: true });
       await expect(button).toBeInViewport({ ratio: 1 });
-      // Nothing covers it.
       await button.click({ trial: true });
     }
-    await page.screenshot({ path: testInfo.outputPath(`sensors-${width}.png`) });
-  });
-}
+    await operator.look(testInfo, `sensors-${size.width}`);
+  }
+});

@@ -57,7 +57,7 @@ test('who signs in drives, without a click more, and still after the page was lo
   await obstacle(page).getByRole('button', { name: 'Sign in' }).click();
   await signInAs(page, 'ada');
 
-  expect(new URL(page.url()).search).toBe(`?robot=${lightRobot.id}&mode=points64`);
+  expect(new URL(page.url()).search).toBe(`?resolution=0.5&robot=${lightRobot.id}&mode=points64`);
   expect(page.url()).not.toContain('#');
   await expect(page.getByText('Signed in: Ada Lovelace may drive: sim-*')).toBeVisible();
   await operator.expectState('session', 'live');
@@ -66,10 +66,10 @@ test('who signs in drives, without a click more, and still after the page was lo
   await operator.holdForward();
   await operator.expectState('holder', 'you');
   await operator.releaseKeys();
-  expect(await page.evaluate(() => sessionStorage.length)).toBe(0);
+  // Nothing of the way to the provider and back is kept.
+  expect(await page.evaluate(() => Object.keys(sessionStorage))).toEqual(['farpoint.events']);
 
-  await page.reload();
-  await page.waitForFunction(() => window.farpoint !== undefined);
+  await operator.reload();
   await operator.expectState('session', 'live');
   await page.getByRole('button', { name: 'Settings' }).click();
   await page.getByRole('button', { name: 'Grants and robots’ keys…' }).click();
@@ -95,7 +95,7 @@ test('who may not is told so in words, and a grant that nobody asked for is only
   ).toBeVisible();
   expect(page.url()).not.toContain('#');
   await operator.screenshots(page, testInfo, 'not-permitted');
-  expect((await operator.state()).session).toBe('waiting');
+  await operator.expectState('session', 'waiting');
 
   // For this browser's key, and with a state that the page did not make.
   const office = await GrantOffice.open(testInfo.outputPath());

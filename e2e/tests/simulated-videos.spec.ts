@@ -40,7 +40,7 @@ test('two simulated cameras show what the robot sees, captured at the same insta
     const before = await fewestFrames(page);
     await expect.poll(() => fewestFrames(page)).toBeGreaterThan(before);
   }
-  await operator.screenshot(testInfo, 'simulated-videos');
+  await operator.look(testInfo, 'simulated-videos');
   const times = samples.map((sample) => sample.videos.map(({ drawnMs }) => drawnMs ?? Number.NaN));
   // Equal to the nanosecond, where both show the same capture; on a busy machine, one of them may be left out.
   const together = times.filter(([left = 0, right = 1]) => Math.abs(left - right) < 0.001);

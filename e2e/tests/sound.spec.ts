@@ -3,7 +3,7 @@ import { toneShare } from '@farpoint/sound/testing';
 import type { Page } from '@playwright/test';
 import { OperatorPage } from '../src/operator-page.ts';
 import { hasSound, soundRobot, toneFile } from '../src/sound-robot.ts';
-import { expect, lightRobot, test } from '../src/stack-test.ts';
+import { expect, LONG, lightRobot, test } from '../src/stack-test.ts';
 
 test.skip(!hasSound, 'needs GStreamer and `pnpm build:native sound`');
 
@@ -63,7 +63,7 @@ test('the robot is heard while Sound is on, and its microphone is off otherwise'
   await expect.poll(async () => (await sound(page)).level).toBeGreaterThan(0.5);
   await expect(page.locator('#sound')).toContainText('Live');
   expect(await metric(stack, 'sound_listeners')).toBe(1);
-  await operator.screenshot(testInfo, 'sound');
+  await operator.look(testInfo, 'sound');
 
   await switchOf(page).click();
   await expect(page.locator('#sound')).toContainText('Off');
@@ -100,7 +100,7 @@ test('the driver’s voice comes out of the robot while M is held, and stops whe
     ).filter((share) => share > 0.7).length;
   };
   await expect.poll(tones).toBeGreaterThan(5);
-  await operator.screenshot(testInfo, 'voice');
+  await operator.look(testInfo, 'voice');
   expect((await sound(page)).heard.text).toBe('Muted while you speak');
   await page.keyboard.up('m');
   await expect.poll(() => said(page)).toBe('off');
@@ -135,7 +135,7 @@ test('the voice stops when the page loses the focus, although the key is still h
   expect((await sound(page)).sending).toBe(false);
 });
 
-test('over a link that loses packets, both are heard', async ({ page, startStack }) => {
+test('over a link that loses packets, both are heard', { tag: LONG }, async ({ page, startStack }) => {
   const robot = soundRobot(lightRobot);
   const stack = await startStack({ robots: [] });
   const link = await EmulatedLink.start(stack, {
@@ -166,10 +166,9 @@ test('over a link that loses packets, both are heard', async ({ page, startStack
   }
 });
 
-test('a robot that is killed is no longer heard and hears nobody; when it is back, it is heard again', async ({
-  page,
-  startStack,
-}) => {
+test('a robot that is killed is no longer heard and hears nobody; when it is back, it is heard again', {
+  tag: LONG,
+}, async ({ page, startStack }) => {
   const robot = soundRobot(lightRobot);
   const stack = await startStack({ robots: [robot.spec] });
   const operator = await open(page, stack);
@@ -195,7 +194,7 @@ test('a microphone that fails says why on the page', async ({ page, startStack }
   await expect(page.locator('#sound')).toContainText('No sound: the microphone');
 });
 
-test('what is heard was captured shortly before', async ({ page, startStack }, testInfo) => {
+test('what is heard was captured shortly before', { tag: LONG }, async ({ page, startStack }, testInfo) => {
   const robot = soundRobot(lightRobot);
   const stack = await startStack({ robots: [robot.spec] });
   const operator = await open(page, stack);

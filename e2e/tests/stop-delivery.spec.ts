@@ -25,7 +25,7 @@ test('STOP that is pressed while the network is away stops the robot at its retu
     for (const width of [360, 3840, 1280]) {
       await page.setViewportSize({ width, height: width === 360 ? 740 : Math.round(width * 0.5625) });
       await expect(state).toBeInViewport({ ratio: 1 });
-      await operator.screenshot(testInfo, `not-confirmed-${width}`);
+      await operator.look(testInfo, `not-confirmed-${width}`);
     }
     link.tell({ type: 'blackhole', direction: 'both', active: false });
     await expect(state).toHaveText('STOP confirmed');

@@ -42,7 +42,7 @@ test('three cameras are shown live and in step, each picture with its own time',
     const before = await fewestFrames(page);
     await expect.poll(() => fewestFrames(page)).toBeGreaterThan(before);
   }
-  await operator.screenshot(testInfo, 'videos');
+  await operator.look(testInfo, 'videos');
   // What the page knows is what is drawn.
   for (const { videos: each } of samples) {
     for (const { knownMs, drawnMs } of each) {

@@ -2,7 +2,7 @@ import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { OperatorPage } from '../src/operator-page.ts';
 import { readPicture } from '../src/picture.ts';
-import { cloudsFolder, expect, test } from '../src/stack-test.ts';
+import { cloudsFolder, expect, LONG, test } from '../src/stack-test.ts';
 
 const SMALL = '320x180';
 
@@ -52,7 +52,7 @@ test('the whole cloud arrives, stays where it was captured, and answers a latenc
   expect(result.points).toBe(result.totalPoints);
 });
 
-test('an operator that reads only points64 gets it, beside one that gets everything', async ({
+test('an operator that reads only points64 gets it, beside one that gets everything', { tag: LONG }, async ({
   page,
   startStack,
 }) => {
@@ -83,7 +83,7 @@ for (const { name, least } of [
   { name: 'kinect-room', least: 150_000 },
   { name: 'lidar-street', least: 60_000 },
 ]) {
-  test(`a real cloud arrives whole: ${name}`, async ({ page, startStack }, testInfo) => {
+  test(`a real cloud arrives whole: ${name}`, { tag: LONG }, async ({ page, startStack }, testInfo) => {
     test.skip(!existsSync(cloudsFolder), `no recordings at ${cloudsFolder}`);
     const source = ['--source', 'pcd', '--path', join(cloudsFolder, `${name}.pcd`)];
     const rates = ['--fps', '5', '--start-mbps', '30', '--bitrate-mbps', '60'];
@@ -91,6 +91,6 @@ for (const { name, least } of [
     const operator = await OperatorPage.open(page, stack, { robot: name });
     await operator.expectPoints(5000);
     await expect.poll(async () => (await operator.stats()).pointsPerFrame).toBeGreaterThan(least);
-    await operator.screenshot(testInfo, name);
+    await operator.look(testInfo, name);
   });
 }

@@ -2,9 +2,9 @@ import { expect, test } from 'vitest';
 import { DevOptionError, readDevOptions } from './dev-options.ts';
 
 test('options have defaults', () => {
-  expect(readDevOptions([])).toEqual({ port: null, robots: 1, verbose: false });
-  expect(readDevOptions(['--robots', '2', '--port=8080', '--verbose'])).toEqual({
-    ...{ port: 8080, robots: 2, verbose: true },
+  expect(readDevOptions([])).toEqual({ port: null, robots: 1, lan: false, verbose: false });
+  expect(readDevOptions(['--robots', '2', '--port=8080', '--lan', '--verbose'])).toEqual({
+    ...{ port: 8080, robots: 2, lan: true, verbose: true },
   });
   expect(readDevOptions(['--help'])).toBeNull();
   expect(readDevOptions(['-h'])).toBeNull();

@@ -6,6 +6,7 @@ export const DEV_HELP = `pnpm dev [options]
 
   --port N     port of the web app; default: 5173 or the next free one
   --robots N   number of simulated robots, 1 to 16 (1)
+  --lan        also serve the local network, by HTTPS and with pairing, for headsets and phones: docs/local-network.md
   --verbose    show the logs of every program
 
 Signaling listens on 3000 (Farpoint), 3001 and 3002 (reference protocol); robots answer /healthz and /metrics from 9410
@@ -16,6 +17,7 @@ restarted.
 const OPTIONS = {
   port: { type: 'string' },
   robots: { type: 'string', default: '1' },
+  lan: { type: 'boolean', default: false },
   verbose: { type: 'boolean', default: false },
   help: { type: 'boolean', short: 'h', default: false },
 } as const;
@@ -25,6 +27,7 @@ export interface DevOptions {
   /** `null`: any free port. */
   port: number | null;
   robots: number;
+  lan: boolean;
   verbose: boolean;
 }
 
@@ -63,6 +66,7 @@ export function readDevOptions(argv: readonly string[]): DevOptions | null {
   return {
     port: values.port === undefined ? null : readCount('--port', values.port, 65_535),
     robots: readCount('--robots', values.robots, 16),
+    lan: values.lan === true,
     verbose: values.verbose === true,
   };
 }

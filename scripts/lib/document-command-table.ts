@@ -45,6 +45,7 @@ const shm: Treatment = { refused: /^could not start: shm: /, also: [...ALONE, ..
 export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   // The local stack, and its programs one by one.
   'npx -y pnpm@12 dev': { help: true, because: 'runs until it is ended, and every test of it' },
+  'pnpm dev --lan': { help: true, because: 'runs until it is ended, and every test of it' },
   'npx -y pnpm@12 test': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm test': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm test --only lint,types,stack': {
@@ -52,6 +53,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
     because: 'runs until it is ended, and every test of it',
   },
   'pnpm test --help': { help: true },
+  'pnpm test --all': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm test:pure': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm --filter @farpoint/rtp test': { because: 'runs until it is ended, and every test of it' },
   'npx -y pnpm@12 janus': { help: true, because: 'runs until it is ended, and every test of it' },
@@ -78,6 +80,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'rostopic pub -r 10 /stop std_msgs/Bool false': { because: 'needs a ROS installation' },
   "ros2 topic pub -r 10 /stop std_msgs/msg/Bool 'data: false'": { because: 'needs a ROS installation' },
   'npx -y pnpm@12 robot --record session.mcap …': robot,
+  'npx -y pnpm@12 robot --record-folder /data/recordings …': robot,
   'npx -y pnpm@12 robot --source recording --path drive.mcap --topic /velodyne_points …': {
     refused: /^could not start: recording: drive\.mcap does not exist$/,
     also: ALONE,
@@ -108,6 +111,8 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'docker buildx imagetools inspect node:24-alpine': { because: 'needs a container engine' },
   'pnpm signaling grant …': { help: true },
   'node signaling.mjs grant keygen': { help: true },
+  'pnpm --filter @farpoint/observability run write': { because: 'writes into the working tree' },
+  'node signaling.mjs --lan --open --pair-key grant-key.json --web-root web': { help: true },
   "node signaling.mjs grant issue --name 'Ada Lovelace' --role drive --robots 'kitchen-*' --days 30 --for THUMBPRINT":
     { help: true },
   "node signaling.mjs grant issue --name Grace --role supervise --robots '*' --days 7 --with-key > grace.ticket":
@@ -227,7 +232,17 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'pnpm bench … --json': { help: true },
   ...Object.fromEntries(
     [
-      ...['mtp', 'link', 'link --mode auto', 'transport', 'sampler', 'pack', 'codec', 'codec --cloud …'],
+      ...[
+        'mtp',
+        'page',
+        'link',
+        'link --mode auto',
+        'transport',
+        'sampler',
+        'pack',
+        'codec',
+        'codec --cloud …',
+      ],
       ...[
         'codec --cloud FILE…',
         'connect',
@@ -259,6 +274,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
         'prediction',
         'view',
         'view --video',
+        'view --video --live',
       ],
     ].map((rest) => [`pnpm bench ${rest}`, MEASURES]),
   ),
@@ -266,6 +282,8 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'npx -y pnpm@12 bench cameras --thesis --over lte.csv': MEASURES,
   'npx -y pnpm@12 bench cameras --cameras 1024x768@30:512,1920x1080@30:2048': MEASURES,
   'npx -y pnpm@12 bench cameras --sound --points all --cloud-fps 15 --over lte.csv': MEASURES,
+  'npx -y pnpm@12 bench cameras --sound --points all --cloud-fps 10 --over lte.csv --content noise --cameras 320x240@15:4096,320x240@15:4096,320x240@15:4096 --shares 2:1,1,1':
+    MEASURES,
   'npx -y pnpm@12 bench link --seconds 30 --plot link.svg': MEASURES,
   'npx -y pnpm@12 bench link --trace FILE.csv --seconds 60 --json': MEASURES,
   'npx -y pnpm@12 bench link --rate-mbps 20 --cross cubic --seconds 40': MEASURES,

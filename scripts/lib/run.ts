@@ -5,6 +5,12 @@ import { fileURLToPath } from 'node:url';
 /** The repository's root folder. */
 export const root = fileURLToPath(new URL('../..', import.meta.url)).replace(/[\\/]$/, '');
 
+/**
+ * Where Node keeps its compiled sources (`NODE_COMPILE_CACHE`): programs that are started hundreds of times then start in
+ * half the time.
+ */
+export const compileCache = join(root, '.farpoint', 'compile-cache');
+
 export interface RunResult {
   /** Exit code; 127 if the program is missing, 128 or more if a signal ended it. */
   code: number;

@@ -248,9 +248,9 @@ export class OrganisedEncoder {
      */
     encode(images: boolean, depth_level: number, mode: number, quality: number, density: number, lambda: number, epsilon: number, near_distance: number): boolean;
     /**
-     * Codes the frame in at most so many bytes. False before `begin`.
+     * Codes the frame in at most so many bytes. `colour`: 0 as suits the depth, 1 coarse, 2 palette. False before `begin`.
      */
-    encode_within(images: boolean, bytes: number, latency_test: boolean, palette: boolean, lambda: number, epsilon: number, near_distance: number): boolean;
+    encode_within(images: boolean, bytes: number, latency_test: boolean, colour: number, lambda: number, epsilon: number, near_distance: number): boolean;
     /**
      * Finds the camera by the frame: 0, or 1 shape, 2 too few points, 3 no camera's focal length, 4 off the grid.
      */

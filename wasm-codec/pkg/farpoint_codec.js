@@ -585,18 +585,18 @@ export class OrganisedEncoder {
         return ret !== 0;
     }
     /**
-     * Codes the frame in at most so many bytes. False before `begin`.
+     * Codes the frame in at most so many bytes. `colour`: 0 as suits the depth, 1 coarse, 2 palette. False before `begin`.
      * @param {boolean} images
      * @param {number} bytes
      * @param {boolean} latency_test
-     * @param {boolean} palette
+     * @param {number} colour
      * @param {number} lambda
      * @param {number} epsilon
      * @param {number} near_distance
      * @returns {boolean}
      */
-    encode_within(images, bytes, latency_test, palette, lambda, epsilon, near_distance) {
-        const ret = wasm.organisedencoder_encode_within(this.__wbg_ptr, images, bytes, latency_test, palette, lambda, epsilon, near_distance);
+    encode_within(images, bytes, latency_test, colour, lambda, epsilon, near_distance) {
+        const ret = wasm.organisedencoder_encode_within(this.__wbg_ptr, images, bytes, latency_test, colour, lambda, epsilon, near_distance);
         return ret !== 0;
     }
     /**

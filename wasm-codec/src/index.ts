@@ -8,6 +8,7 @@ export {
   type ObstacleGridSettings,
   type SeenCells,
 } from './obstacle-grid.ts';
+export type { OrganisedColour } from './organised-colour.ts';
 export {
   OrganisedDecoder,
   type PacketFault,
@@ -18,7 +19,6 @@ export {
 export {
   type GridResult,
   type Misfit,
-  type OrganisedColour,
   OrganisedEncoder,
   type OrganisedOptions,
   type OrganisedReasons,

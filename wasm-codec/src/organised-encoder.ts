@@ -1,6 +1,7 @@
 import { OrganisedEncoder as Binding } from '../pkg/farpoint_codec.js';
 import type { Codec } from './codec.ts';
 import { CodecError } from './errors.ts';
+import { BUDGET_COLOURS, COARSE_COLOUR, COLOUR_MODES, type OrganisedColour } from './organised-colour.ts';
 import { checkSlotLayout, DEFAULT_SLOT_LAYOUT, type SlotLayout } from './slot-layout.ts';
 
 /** A pinhole camera: pixel (u, v) sees along ((u − cx) / fx, (v − cy) / fy, 1). Pixels. */
@@ -23,17 +24,6 @@ export type GridResult =
   /** `pixels`: how far the worst point is from its ray, for `off-grid`. */
   | { fits: false; reason: Misfit; pixels?: number };
 
-/** How colours are coded: not, by a transform with a step of 2 · 2^(quality/5) levels, or by the stream's palette. */
-export type OrganisedColour =
-  | 'none'
-  | 'palette'
-  | {
-      /** 0 (finest) to 31. */
-      quality: number;
-      /** Chroma at half the resolution (default), or at the resolution of luma. */
-      chroma?: 'half' | 'full';
-    };
-
 /** The paper's validity (equations 4 and 5): which tiles are thinned first. */
 export interface Thinning {
   /** Fraction of the nearest pixels to keep, 0 to 1; above 1, the farther ones keep more. Ignored with a budget. */
@@ -51,7 +41,7 @@ export interface OrganisedOptions {
   budgetBytes?: number;
   /** Without a budget: 0 to 7, the depth error is at most 0.0625 · 2^level mm · z². Default 3 (0.5 mm · z²). */
   depthLevel?: number;
-  /** Without a budget: default quality 18. With a budget, only `palette` is used. */
+  /** Without a budget: default quality 18. With a budget, only `palette` and `coarse` are used. */
   colour?: OrganisedColour;
   thinning?: Thinning;
   /** Every point is pure green, and no bits are spent on colour. */
@@ -88,7 +78,6 @@ export interface OrganisedReport {
 const MISFITS: readonly Misfit[] = ['shape', 'too-few-points', 'no-focal-length', 'off-grid'];
 const MAX_SIDE = 4080;
 const REPORT_LENGTH = 20;
-const MODES = ['none', 'half', 'full', 'palette'] as const;
 
 /**
  * Codes organised clouds: frames of a depth camera. Fill {@link frame} (or {@link depth} and {@link colour}), call
@@ -213,12 +202,13 @@ export class OrganisedEncoder implements Disposable {
     if (budgetBytes === undefined) {
       const level = options.depthLevel ?? 3;
       checkRange('depthLevel', level, 0, 7);
-      const quality = typeof colour === 'string' ? 0 : colour.quality;
+      const fixed = colour === 'coarse' ? COARSE_COLOUR : colour;
+      const quality = typeof fixed === 'string' ? 0 : fixed.quality;
       checkRange('quality', quality, 0, 31);
       const density = thinning.density ?? 0;
       checkRange('density', density, 0, 1e6);
-      const chroma = typeof colour === 'string' ? colour : (colour.chroma ?? 'half');
-      const mode = MODES.indexOf(latencyTest ? 'none' : chroma);
+      const chroma = typeof fixed === 'string' ? fixed : (fixed.chroma ?? 'half');
+      const mode = COLOUR_MODES.indexOf(latencyTest ? 'none' : chroma);
       coded = this.#binding.encode(fromImages, level, mode, quality, density, lambda, epsilon, nearDistance);
     } else {
       checkRange('budgetBytes', budgetBytes, 0, 2 ** 31 - 1);
@@ -226,7 +216,7 @@ export class OrganisedEncoder implements Disposable {
         fromImages,
         Math.floor(budgetBytes),
         latencyTest,
-        colour === 'palette',
+        Math.max(BUDGET_COLOURS.indexOf(colour), 0),
         lambda,
         epsilon,
         nearDistance,

@@ -1,5 +1,5 @@
 /** The robot program recording, and then playing the recording: processes, signaling, WebRTC. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { LocalStack } from '@farpoint/local-stack';
@@ -132,6 +132,56 @@ describe('robot process that records', { timeout: 60_000 }, () => {
       // The robot's pose is the recorded one: it moves although nobody drives.
       await client.until(() => (client.telemetry?.twist.linear.x ?? 0) > 0.2);
     });
+  });
+
+  it('begins and ends recordings for who drives, one after another, with bookmarks', async () => {
+    const demanded = join(folder, 'demanded');
+    mkdirSync(demanded);
+    const config = join(folder, 'demanded.yaml');
+    const mark = { id: 'mark', label: 'Mark', holdsLease: false, perSecond: 10, record: 'bookmark' };
+    writeFileSync(config, JSON.stringify({ robot: { commands: [mark] } }));
+    const args = ['--config', config, '--sim-size', '64', '--max-points', '300', '--record-folder', demanded];
+    args.push('--record-sent-fps', '120');
+    const files = () => readdirSync(demanded).sort();
+    await withRobot(RECORDED, args, async ({ client }) => {
+      expect((await client.message('about')).recorded).toBe(false);
+      let request = 0;
+      const call = async (id: string) => {
+        const number = ++request;
+        client.sendSession({ type: 'callCommand', id, request: number, timeMs: performance.now() });
+        return await client.message('commandAnswer', (answer) => answer.request === number);
+      };
+      expect(await call('record')).toMatchObject({ outcome: 'refused', reason: 'not-driver' });
+      await client.takeLease();
+      expect(await call('mark')).toMatchObject({ outcome: 'failed', detail: 'nothing is being recorded' });
+      const begun = await call('record');
+      expect(begun).toMatchObject({ outcome: 'done', detail: expect.stringMatching(/\.mcap$/) });
+      expect((await client.message('about', ({ recorded }) => recorded)).recorded).toBe(true);
+      expect(files()).toEqual([begun.detail]);
+      const frames = client.completeFrames.length;
+      await client.until(() => client.completeFrames.length > frames + 5);
+      expect(await call('mark')).toMatchObject({ outcome: 'done', detail: 'number 1' });
+      expect(await call('record-stop')).toMatchObject({
+        ...{ outcome: 'done', detail: `${begun.detail} is complete` },
+      });
+      await client.message('about', ({ recorded }) => !recorded);
+      // Another, which the robot completes when it ends.
+      // At most one a second. Asked all the time, the robot would drop what comes too often, without an answer.
+      do {
+        const { length } = client.completeFrames;
+        await client.until(() => client.completeFrames.length > length);
+      } while ((await call('record')).outcome !== 'done');
+      await client.until(() => files().length === 2);
+    });
+    for (const [i, name] of files().entries()) {
+      const recording = await openRecording(join(demanded, name));
+      expect(recording.warning).toBeNull();
+      const counts = Object.fromEntries(recording.topics.map(({ name, messages }) => [name, messages]));
+      expect(counts['/farpoint/bookmarks']).toBe(1 - i);
+      expect(counts['/farpoint/telemetry']).toBeGreaterThan(i === 0 ? 1 : -1);
+      if (i === 0) expect(counts['/farpoint/sent']).toBeGreaterThan(2);
+      await recording.close();
+    }
   });
 
   it('refuses to overwrite an existing recording, and says so', async () => {

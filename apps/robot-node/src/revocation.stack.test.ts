@@ -5,6 +5,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { makeSigningKey, parseSigningKey } from '@farpoint/grants';
 import { type GrantedOperator, grantTo } from '@farpoint/grants/testing';
+import { programPath } from '@farpoint/local-stack';
 import type { Operators, Role } from '@farpoint/protocol';
 import { afterAll, describe, expect, it } from 'vitest';
 import { metricOf } from './testing/metric-of.ts';
@@ -39,9 +40,8 @@ const robot = useRobot(
 
 /** As people do it. */
 function revoke(list: string, key: string, ...what: string[]): void {
-  const program = join(import.meta.dirname, '../../signaling/src/main.ts');
   const args = ['grant', 'revoke', '--list', at(list), '--key', at(key), ...what];
-  execFileSync(process.execPath, [program, ...args], { encoding: 'utf8' });
+  execFileSync(process.execPath, [programPath('signaling'), ...args], { encoding: 'utf8' });
 }
 
 let grants = 0;

@@ -8,16 +8,19 @@ import type { MotionLimits } from './drive/motion-limits.ts';
 import type { SinkOptions } from './drive/open-sink.ts';
 import type { StreamMode } from './encode/stream-mode.ts';
 import type { FenceOptions } from './geofence/open-geofence.ts';
+import type { GoalConfiguration } from './goals/goal-configuration.ts';
 import type { ObstacleGuardConfiguration } from './obstacles/guarded-sensors.ts';
 import type { SoundOptions } from './options/sound.ts';
 import type { ConfiguredVideo } from './options/videos.ts';
 import type { PicturePolicy } from './pictures/picture-plan.ts';
 import type { ReturnConfiguration } from './return/return-configuration.ts';
+import type { CommandsConfiguration } from './robot-commands/command-configuration.ts';
 import type { CloudSensorOptions } from './sensors/cloud-sensor.ts';
 import type { SignalingOptions } from './signaling/signaling-client.ts';
+import type { ListStatus } from './signaling/status-reporter.ts';
 import type { RobotStopsOptions } from './stops/open-stops.ts';
 import type { AlarmRule } from './telemetry/alarms/alarm-board.ts';
-import type { LiveOptions, RecordingOptions } from './telemetry/session-recording.ts';
+import type { LiveOptions, RecordingOptions } from './telemetry/session-outputs.ts';
 import type { RateControlOptions } from './transport/make-rate-controller.ts';
 import type { FeedSource } from './video/feed/feed-source.ts';
 
@@ -31,6 +34,8 @@ export interface RobotOptions extends RateControlOptions {
   id: string;
   name: string;
   signaling: Pick<SignalingOptions, 'url' | 'key' | 'token' | 'ca'>;
+  /** What the list of robots shows of it. */
+  listStatus: ListStatus;
   /** File with the keys whose grants admit operators; if undefined, everybody is admitted. */
   grantKeys?: string | undefined;
   /** File with the key by which operators recognise the robot. */
@@ -55,6 +60,8 @@ export interface RobotOptions extends RateControlOptions {
   alarms: readonly AlarmRule[];
   /** The model that operators see, as far as no topic tells it. */
   model?: TopicReading | undefined;
+  /** In which the meshes that a model names are looked for; default: none is read. */
+  meshFolders?: readonly string[] | undefined;
   takePolicy: TakePolicy;
   /** Who may release what an operator has latched. */
   estopRelease: EstopReleasePolicy;
@@ -64,6 +71,10 @@ export interface RobotOptions extends RateControlOptions {
   fence?: FenceOptions | undefined;
   /** How it drives back by itself when it hears no operator; if undefined, never. */
   returns?: ReturnConfiguration | undefined;
+  /** What leads it to the places that its driver names; if undefined, it takes no goals. */
+  goals?: GoalConfiguration | undefined;
+  /** What operators may make it do besides driving; if undefined, nothing. */
+  commands?: CommandsConfiguration | undefined;
   /** The stops at the robot itself. */
   stops: RobotStopsOptions;
   /** Where the robot remembers its emergency stop and revoked grants across restarts. */

@@ -8,6 +8,8 @@ import { openSink } from './drive/open-sink.ts';
 import type { VelocitySink } from './drive/velocity-sink.ts';
 import { guardedSensors, hasOdometry } from './obstacles/guarded-sensors.ts';
 import { type ObstacleStation, openObstacleGuard } from './obstacles/obstacle-station.ts';
+import type { CommandStation } from './robot-commands/command-station.ts';
+import { openCommands } from './robot-commands/open-commands.ts';
 import type { RobotOptions } from './robot-configuration.ts';
 import { CloudSensors } from './sensors/cloud-sensors.ts';
 import { inWorld, videosInWorld } from './sensors/in-world.ts';
@@ -33,6 +35,8 @@ export interface RobotParts {
   audit: RobotAudit;
   /** The cameras that are streamed as video. */
   videos: readonly VideoCamera[];
+  /** What does the operators' commands; `null` if it takes none. */
+  commands: CommandStation | null;
 }
 
 /**
@@ -71,7 +75,8 @@ export async function openParts(options: RobotOptions, log: Logger, audit: Robot
       capture !== null && hasOdometry(capture.source),
       log,
     );
-    return { captures, obstacles, base, sink, recording, videos, grants, robotKey, audit };
+    const commands = openCommands(options.commands, recording, log);
+    return { captures, obstacles, base, sink, recording, videos, grants, robotKey, audit, commands };
   } catch (error) {
     for (const capture of captures) await capture.close();
     await base?.close();

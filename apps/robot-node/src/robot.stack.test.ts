@@ -145,6 +145,7 @@ describe('robot process', { timeout: 30_000 }, () => {
       type: 'session.closed',
       reason: 'robot-full',
       maxOperators: 2,
+      detail: expect.stringMatching(/^(?=.*\(drives\)).*, /),
     });
     expect(await metric('sessions_refused_total')).toBe(refused + 1);
   });

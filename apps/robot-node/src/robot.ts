@@ -31,6 +31,7 @@ import { RobotSound } from './sound/robot-sound.ts';
 import { type RobotStops, startStops } from './stops/robot-stops.ts';
 import { MeasurementLogs } from './telemetry/measurement-logs.ts';
 import { openBoard } from './telemetry/open-board.ts';
+import { recordedClouds } from './telemetry/recorded-clouds.ts';
 import { RobotCounters } from './telemetry/robot-counters.ts';
 import { RobotReports } from './telemetry/robot-reports.ts';
 import type { SessionRecording } from './telemetry/session-recording.ts';
@@ -49,6 +50,7 @@ export class Robot {
   readonly base: BaseThread | null;
   readonly drive: DriveStation;
   readonly obstacles: RobotParts['obstacles'];
+  readonly commands: RobotParts['commands'];
   readonly driving: Drive;
   readonly sink: VelocitySink;
   readonly signaling: SignalingClient;
@@ -81,7 +83,7 @@ export class Robot {
   #failed = false;
 
   private constructor(parts: RobotParts, options: RobotOptions, log: Logger) {
-    const { captures, base, sink, recording, videos, grants, robotKey, audit } = parts;
+    const { captures, base, sink, recording, videos, grants, robotKey, audit, commands } = parts;
     [this.recording, this.sink, this.base, this.#options, this.#log] = [recording, sink, base, options, log];
     const capture = captures[0] as Capture;
     this.#board = openBoard(options, capture, recording, log);
@@ -90,11 +92,11 @@ export class Robot {
     const state = () => this.#state;
     const heard = () => [...this.operators.values(), this.reference?.operator];
     this.driving = openDrive(options, { ...parts, state, heard, count, log });
-    const { station, estop, status, fix } = this.driving;
-    [this.drive, this.obstacles] = [station, parts.obstacles];
+    const { station, estop, goals, status, fix } = this.driving;
+    [this.drive, this.obstacles, this.commands] = [station, parts.obstacles, commands];
     this.#host = new RobotSessionHost({
-      ...{ drive: this.drive, estop, counters: this.counters, recording, audit, log },
-      commandLog: this.#logs.commands,
+      ...{ drive: this.drive, estop, goals, counters: this.counters, recording, audit, log },
+      ...{ commandLog: this.#logs.commands, options, commands },
       operators: () => this.operators,
       sensors: () => this.sensors,
       videos: () => this.cameras.videos,
@@ -122,7 +124,8 @@ export class Robot {
         resume: (request, iceServers) => void this.#paths.resume(request, iceServers),
         connected: (operator) => {
           const { quantities, alarms } = this.#board;
-          const told = { ...options, quantities, alarms: alarms.raised, nowS: Date.now() / 1000 };
+          const { about } = this.#host;
+          const told = { ...options, about, quantities, alarms: alarms.raised, nowS: Date.now() / 1000 };
           welcome(operator, told, this.sensors, this.cameras.videos);
           this.sound.welcome(operator);
           this.sensors.updateBudgets();
@@ -137,8 +140,7 @@ export class Robot {
     const [stages, board] = [new StageTimer(), this.#board];
     const telemetry = new TelemetrySender(this.operators, status, stages, board, this.obstacles);
     const addReading = (reading: TopicReading) => {
-      fix?.take(reading, monotonicMs());
-      board.take(reading, monotonicMs());
+      for (const taker of [fix, board]) taker?.take(reading, monotonicMs());
     };
     for (const each of captures) each.onReading = addReading;
     sink.tellReadings?.(addReading);
@@ -151,8 +153,7 @@ export class Robot {
         targets: () => [...watching(), ...(this.reference?.targets ?? [])],
         ...{ sendLoop: this.#sendLoop, counters: this.counters, frameLog: this.#logs.frames },
         driver: () => station.guard.leaseHolder,
-        onFrame: (frame) => recording?.frame(frame),
-        wantedAnyway: () => recording?.wantsClouds === true,
+        ...recordedClouds(recording),
         stages,
         now: monotonicMs,
         mayCode: options.mode === 'auto',
@@ -207,7 +208,7 @@ export class Robot {
     this.#ticking = setInterval(() => this.#tick(), TICK_MS);
     this.#reports = new RobotReports({
       ...{ operators: this.operators, counters: this.counters, telemetry, board, status, recording, log },
-      ...{ state, statisticsFile: options.statisticsFile, now: monotonicMs },
+      ...{ ...options, state, drive: this.drive, signaling: this.signaling, now: monotonicMs },
     });
   }
 
@@ -252,13 +253,12 @@ export class Robot {
     this.reference?.close();
     const broadcastClosed = this.broadcast?.close();
     this.drive.close();
-    for (const part of [this.sink, this.base]) await part?.close();
+    for (const part of [this.sink, this.base, this.commands]) await part?.close();
     this.#sendLoop.close();
     await this.signaling.close();
     await broadcastClosed;
     const { stops, obstacles, driving, cameras, sound, sensors, recording } = this;
-    for (const part of [stops, obstacles, driving.returns, cameras, sound, sensors, recording])
-      await part?.close();
+    for (const part of [stops, obstacles, driving, cameras, sound, sensors, recording]) await part?.close();
     this.#logs.write();
     await reported;
   }

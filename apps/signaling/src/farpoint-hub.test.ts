@@ -33,7 +33,7 @@ function setup(
     iceServers: (name) => [{ urls: 'turn:turn.example', username: name, credential: 'c' }],
     revocations: () => options.revocations ?? [],
     makeHandle: () => `s${++handles}`,
-    signInUrl: options.signInUrl ?? null,
+    signInUrl: () => options.signInUrl ?? null,
   });
   const robot = (id: string, key = `key-${id}`, more: Json = {}): FakeClient => {
     const client = new FakeClient((peer) => hub.robot(peer));

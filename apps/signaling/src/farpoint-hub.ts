@@ -11,9 +11,10 @@ import {
 import type { AccessList } from './access.ts';
 import { HubConnection, type HubConnectionOptions, type Refuse } from './farpoint-connection.ts';
 import { FarpointSessions, type OperatorEntry, toOperator, toRobot } from './farpoint-sessions.ts';
-import { ListingFeed } from './listing-feed.ts';
+import { ListingFeed, type ListingSource } from './listing-feed.ts';
 import { type Connection, closeCodes, type Peer } from './peer.ts';
 import { type RobotEntry, RobotRegistry } from './robot-registry.ts';
+import { RobotStatuses } from './robot-statuses.ts';
 import type { SessionLimits } from './session-table.ts';
 
 export interface FarpointHubOptions extends HubConnectionOptions {
@@ -26,8 +27,8 @@ export interface FarpointHubOptions extends HubConnectionOptions {
   /** The lists of revoked grants that every robot gets; default none. */
   readonly revocations?: () => Iterable<string>;
   readonly makeHandle: () => string;
-  /** Where operators sign in for a grant. */
-  readonly signInUrl: string | null;
+  /** Where this operator signs in for a grant. */
+  readonly signInUrl: (operator: Peer) => string | null;
 }
 
 /** Introduces robots and operators over Farpoint's own protocol (see `@farpoint/protocol`, signaling/farpoint.ts). */
@@ -36,18 +37,19 @@ export class FarpointHub {
   readonly #registry: RobotRegistry;
   readonly #sessions: FarpointSessions;
   readonly #feed: ListingFeed;
+  readonly #statuses = new RobotStatuses();
+  /** To operators that look at the list of robots. */
+  readonly #statusFeed: ListingFeed;
   #operators = 0;
 
   constructor(options: FarpointHubOptions) {
     this.#options = options;
     this.#registry = new RobotRegistry(options.limits.maxRobots);
     this.#sessions = new FarpointSessions({ ...options, registry: this.#registry });
-    this.#feed = new ListingFeed({
-      clock: options.clock,
-      listing: this.#registry.listing,
-      intervalMs: options.listIntervalMs,
-      bytesPerSecond: options.listBytesPerSecond,
-    });
+    const { clock, listIntervalMs: intervalMs, listBytesPerSecond: bytesPerSecond } = options;
+    const feed = (listing: ListingSource) =>
+      new ListingFeed({ clock, listing, intervalMs, bytesPerSecond: bytesPerSecond / 2 });
+    [this.#feed, this.#statusFeed] = [feed(this.#registry.listing), feed(this.#statuses.listing)];
   }
 
   get counts(): { robots: number; operators: number; sessions: number } {
@@ -56,6 +58,7 @@ export class FarpointHub {
 
   stop(): void {
     this.#feed.stop();
+    this.#statusFeed.stop();
   }
 
   /** Sends all robots a list of revoked grants. */
@@ -88,6 +91,7 @@ export class FarpointHub {
           this.#operators--;
           this.#options.observer.operatorLeft(operator.name);
           this.#feed.remove(operator.peer);
+          this.#statusFeed.remove(operator.peer);
           this.#sessions.endAll(operator, 'operator-left');
         },
       },
@@ -118,6 +122,7 @@ export class FarpointHub {
     const { previous } = joined;
     if (previous !== null) {
       this.#sessions.endAll(previous, 'robot-left');
+      this.#forgetStatus(previous);
       previous.peer.close(closeCodes.policyViolation, 'a newer connection of this robot took over');
     }
     this.#options.observer.robotJoined('robot', entry.id, peer.address, previous !== null, hello.token);
@@ -133,9 +138,19 @@ export class FarpointHub {
     this.#options.observer.robotLeft('robot', robot.id);
     this.#sessions.endAll(robot, 'robot-left');
     this.#feed.changed();
+    this.#forgetStatus(robot);
+  }
+
+  #forgetStatus(robot: RobotEntry): void {
+    if (this.#statuses.forget(robot)) this.#statusFeed.changed();
   }
 
   #robotMessage(robot: RobotEntry, message: RobotToService, refuse: Refuse): string | null {
+    if (message.type === 'robot.status') {
+      this.#statuses.set(robot, message.status);
+      this.#statusFeed.changed();
+      return null;
+    }
     if (message.type !== 'robot.hello') return this.#sessions.fromRobot(robot, message, refuse);
     refuse('malformed', 'only one robot.hello per connection');
     return null;
@@ -153,16 +168,22 @@ export class FarpointHub {
     }
     this.#operators++;
     this.#options.observer.operatorJoined(hello.name, peer.address, hello.token);
+    const signIn = this.#options.signInUrl(peer);
     toOperator(peer, {
       type: 'operator.welcome',
       iceServers: this.#options.iceServers(`operator-${peer.id}`),
-      ...(this.#options.signInUrl === null ? {} : { signIn: this.#options.signInUrl }),
+      ...(signIn === null ? {} : { signIn }),
     });
     this.#feed.add(peer);
     return { name: hello.name, peer };
   }
 
   #operatorMessage(operator: OperatorEntry, message: OperatorToService, refuse: Refuse): string | null {
+    if (message.type === 'statuses.watch') {
+      this.#statusFeed.remove(operator.peer);
+      if (message.on) this.#statusFeed.add(operator.peer);
+      return null;
+    }
     if (message.type !== 'operator.hello') return this.#sessions.fromOperator(operator, message, refuse);
     refuse('malformed', 'only one operator.hello per connection');
     return null;

@@ -30,8 +30,8 @@ export interface FarpointSessionsOptions {
   readonly makeHandle: () => string;
 }
 
-type FromRobot = Exclude<RobotToService, { type: 'robot.hello' }>;
-type FromOperator = Exclude<OperatorToService, { type: 'operator.hello' }>;
+type FromRobot = Exclude<RobotToService, { type: 'robot.hello' } | { type: 'robot.status' }>;
+type FromOperator = Exclude<OperatorToService, { type: 'operator.hello' } | { type: 'statuses.watch' }>;
 type HubSession = Session<RobotEntry, OperatorEntry>;
 type Claim = ResumeClaim<RobotEntry, OperatorEntry>;
 

@@ -1,2 +1,3 @@
 export { defaultOptions, type SignalingOptions } from './options.ts';
-export { type RunningSignaling, type SignalingPorts, type SignalingRim, startSignaling } from './server.ts';
+export { type RunningSignaling, type SignalingRim, startSignaling } from './server.ts';
+export type { SignalingPorts } from './service-ports.ts';

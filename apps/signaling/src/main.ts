@@ -1,8 +1,12 @@
 #!/usr/bin/env node
 /** `farpoint-signaling`: runs the service; `grant` issues grants, `audit` verifies a log. */
+import { randomInt } from 'node:crypto';
+import { hostname, networkInterfaces } from 'node:os';
 import { auditCommand } from '@farpoint/audit';
 import { runProgram } from '@farpoint/service';
 import { grantCommand } from './grant/grant-command.ts';
+import { openLan } from './lan/lan.ts';
+import { lanText } from './lan/lan-text.ts';
 import { openAudit } from './open-audit.ts';
 import { program } from './options.ts';
 import { startSignaling } from './server.ts';
@@ -21,7 +25,17 @@ async function serve(): Promise<void> {
     const { audit, close } = await openAudit(options, log);
     // Last, so that the ends of all sessions are recorded.
     shutdown.onClose('audit log', close);
-    const signaling = await startSignaling(options, { log, health, metrics, audit });
+    const lan = options.lan
+      ? await openLan(options, {
+          ...{ log, say, now: Date.now, random: randomInt },
+          ...{ hostname: hostname(), interfaces: networkInterfaces() },
+        })
+      : null;
+    const signaling = await startSignaling(options, {
+      ...{ log, health, metrics, audit },
+      ...(lan === null ? {} : { lan }),
+    });
+    if (lan !== null) say(lanText(lan));
     shutdown.onClose('signaling', () => signaling.close());
     process.on('SIGHUP', () => {
       try {
@@ -31,4 +45,9 @@ async function serve(): Promise<void> {
       }
     });
   });
+}
+
+/** For whoever looks at the terminal: standard error, like the log, so that standard output stays free. */
+function say(text: string): void {
+  process.stderr.write(`${text}\n`);
 }

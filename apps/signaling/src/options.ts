@@ -2,6 +2,7 @@ import { type IceServer, iceServerSchema, MAX_SIGNALING_BYTES, signInUrlSchema }
 import { defineOption, defineProgram, type OptionValues, schema } from '@farpoint/service';
 import * as z from 'zod';
 import manifest from '../package.json' with { type: 'json' };
+import { lanOptions } from './lan/lan-options.ts';
 
 const iceServers = z.preprocess((value, context) => {
   if (typeof value !== 'string') return value;
@@ -117,6 +118,7 @@ export const program = defineProgram({
       argument: 'FILE',
       help: 'private key (PEM)',
     }),
+    ...lanOptions,
     robotTokens: defineOption({
       schema: schema.optional(schema.text()),
       default: null,

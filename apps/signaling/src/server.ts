@@ -18,7 +18,8 @@ import { checkExposure } from './exposure.ts';
 import { FarpointHub } from './farpoint-hub.ts';
 import { httpHandler, notFound } from './http-handler.ts';
 import { turnCredentials } from './ice-servers.ts';
-import { Listener, type UpgradeDecision } from './listener.ts';
+import type { Lan } from './lan/lan.ts';
+import type { UpgradeDecision } from './listener.ts';
 import { LiveSockets } from './live-sockets.ts';
 import { createObserver } from './metrics.ts';
 import type { Observer, Role } from './observer.ts';
@@ -28,7 +29,7 @@ import type { Connection, Peer } from './peer.ts';
 import { ReferenceHub } from './reference-hub.ts';
 import { RevocationFiles } from './revocation-files.ts';
 import { readFiles, type ServiceFiles } from './service-files.ts';
-import { strictTransport } from './strict-transport.ts';
+import { ServicePorts, type SignalingPorts } from './service-ports.ts';
 
 /** What the program provides to the service; tests may omit it. */
 export interface SignalingRim {
@@ -36,12 +37,8 @@ export interface SignalingRim {
   readonly health?: Health;
   readonly metrics?: Registry;
   readonly audit?: Audit;
-}
-
-export interface SignalingPorts {
-  readonly signaling: number;
-  readonly referenceRobot: number | null;
-  readonly referenceClient: number | null;
+  /** With `--lan`. */
+  readonly lan?: Lan;
 }
 
 export interface RunningSignaling {
@@ -53,9 +50,7 @@ export interface RunningSignaling {
 }
 
 const CANDIDATES_PER_REFERENCE_ROBOT = 128;
-/** Beside an address's WebSockets: requests for the page's files, and WebSockets that are being opened or refused. */
-const SPARE_SOCKETS = 64;
-
+const ALL_INTERFACES = '0.0.0.0';
 /**
  * Starts the service.
  *
@@ -83,7 +78,8 @@ class SignalingService implements RunningSignaling {
   readonly #observer: Observer;
   readonly #audit: Audit;
   #files: ServiceFiles;
-  #listeners: Listener[] = [];
+  readonly #lan: Lan | null;
+  readonly #ports: ServicePorts;
   #closing: Promise<void> | null = null;
 
   constructor(options: SignalingOptions, rim: SignalingRim) {
@@ -91,8 +87,8 @@ class SignalingService implements RunningSignaling {
     this.#log = rim.log ?? silentLogger();
     const metrics = rim.metrics ?? createMetrics();
     const health = rim.health ?? new Health();
-    this.#files = readFiles(options);
-    checkExposure(options, this.#files);
+    this.#lan = rim.lan ?? null;
+    this.#files = this.#readFiles();
     this.#audit = rim.audit ?? noAudit;
     const observer = createObserver(this.#log, metrics, () => this.#counts());
     this.#observer = this.#audit === noAudit ? observer : auditObserver(this.#audit, observer);
@@ -117,7 +113,7 @@ class SignalingService implements RunningSignaling {
       ],
       revocations: () => this.#revocations.lists,
       makeHandle: () => randomBytes(16).toString('base64url'),
-      signInUrl: options.signInUrl,
+      signInUrl: ({ address }) => options.signInUrl ?? this.#lan?.pairingUrl(isLoopbackHost(address)) ?? null,
     });
     this.#revocations = new RevocationFiles({
       paths: options.revocations,
@@ -129,6 +125,9 @@ class SignalingService implements RunningSignaling {
       limits: { ...options, maxCandidatesPerRobot: CANDIDATES_PER_REFERENCE_ROBOT },
     });
     this.#admission = new Admission(options);
+    this.#ports = new ServicePorts(options, (address) =>
+      this.#observer.rejected('operator', 'too-many-sockets', address),
+    );
     const { heartbeatMs, maxBacklogBytes } = options;
     this.#sockets = new LiveSockets({
       heartbeatMs,
@@ -141,44 +140,66 @@ class SignalingService implements RunningSignaling {
       const ok = this.#admission.total < options.maxConnections;
       return { ok, detail: { ...connections, robots, referenceRobots, sessions } };
     });
-    this.#http = httpHandler(createAdminHandler(health, metrics), options);
+    const http = httpHandler(createAdminHandler(health, metrics), options);
+    this.#http = this.#lan?.withPairing(http) ?? http;
   }
 
   get ports(): SignalingPorts {
-    const [signaling, robot, client] = this.#listeners;
-    return {
-      signaling: signaling!.port,
-      referenceRobot: robot?.port ?? null,
-      referenceClient: client?.port ?? null,
-    };
+    return this.#ports.numbers;
   }
 
   async open(): Promise<void> {
-    const { port, reference, referenceRobotPort, referenceClientPort } = this.#options;
+    const { host, port, reference, referenceRobotPort, referenceClientPort, lanPort, lanInstallPort } =
+      this.#options;
+    const lan = this.#lan;
     // First: a robot that registers gets them with its welcome.
     await this.#revocations.start();
+    const { tls } = this.#files;
+    const isLocal = isLoopbackHost(host) && !this.#options.trustProxy;
     try {
-      await this.#listen(port, this.#http, (request, url) => this.#upgrade(request, url));
+      const own = { host, tls };
+      await this.#ports.open('signaling', { ...own, port }, this.#http, (request, url) =>
+        this.#upgrade(request, url, isLocal),
+      );
       if (reference) {
-        await this.#listen(referenceRobotPort, notFound, (request, url) =>
-          this.#upgradeReference(request, url, 'reference-robot'),
+        await this.#ports.open(
+          'referenceRobot',
+          { ...own, port: referenceRobotPort },
+          notFound,
+          (request, url) => this.#upgradeReference(request, url, 'reference-robot', isLocal),
         );
-        await this.#listen(referenceClientPort, notFound, (request, url) =>
-          this.#upgradeReference(request, url, 'reference-client'),
+        await this.#ports.open(
+          'referenceClient',
+          { ...own, port: referenceClientPort },
+          notFound,
+          (request, url) => this.#upgradeReference(request, url, 'reference-client', isLocal),
+        );
+      }
+      if (lan !== null) {
+        const all = { host: ALL_INTERFACES };
+        await this.#ports.open('lan', { ...all, port: lanPort, tls: lan.tls }, this.#http, (request, url) =>
+          this.#upgrade(request, url, false),
+        );
+        await this.#ports.open(
+          'lanInstall',
+          { ...all, port: lanInstallPort, tls: null },
+          lan.install,
+          () => ({
+            status: 404,
+            reason: 'no WebSockets here',
+          }),
         );
       }
     } catch (error) {
       await this.close();
       throw error;
     }
-    this.#log.info({ host: this.#options.host, ...this.ports, tls: this.#files.tls !== null }, 'listening');
+    this.#log.info({ host, ...this.ports, tls: tls !== null }, 'listening');
   }
 
   reload(): void {
-    const files = readFiles(this.#options);
-    checkExposure(this.#options, files);
-    this.#files = files;
-    for (const listener of this.#listeners) if (this.#files.tls !== null) listener.setTls(this.#files.tls);
+    this.#files = this.#readFiles();
+    if (this.#files.tls !== null) this.#ports.setTls(this.#files.tls);
     this.#audit.record({ kind: 'reloaded', details: { what: 'certificate and tokens' } });
     this.#log.info('reloaded certificate and tokens');
   }
@@ -189,46 +210,27 @@ class SignalingService implements RunningSignaling {
   }
 
   async #close(): Promise<void> {
-    const listening = Promise.all(this.#listeners.map((listener) => listener.close()));
+    const listening = this.#ports.close();
     this.#farpoint.stop();
     this.#revocations.close();
     await this.#sockets.shutDown(this.#options.shutdownMs);
     await listening;
   }
 
-  async #listen(
-    port: number,
-    http: RequestListener,
-    decide: (request: IncomingMessage, url: URL) => UpgradeDecision,
-  ): Promise<void> {
-    const { host, maxMessageBytes, maxConnections, maxConnectionsPerAddress, trustProxy, shutdownMs } =
-      this.#options;
-    this.#listeners.push(
-      await Listener.open({
-        host,
-        port,
-        tls: this.#files.tls,
-        // A message slightly above the limit gets an error; one far above it closes the connection.
-        maxPayload: 2 * maxMessageBytes,
-        maxSockets: maxConnections + 256,
-        maxSocketsPerAddress: trustProxy ? null : maxConnectionsPerAddress + SPARE_SOCKETS,
-        onSocketRefused: (address) => this.#observer.rejected('operator', 'too-many-sockets', address),
-        closeTimeoutMs: shutdownMs,
-        http: this.#files.tls === null ? http : strictTransport(http),
-        upgrade: (request) => {
-          const url = URL.parse(request.url ?? '', 'http://service');
-          return url === null ? { status: 400, reason: 'not a URL' } : decide(request, url);
-        },
-      }),
-    );
+  #readFiles(): ServiceFiles {
+    const files = readFiles(this.#options);
+    checkExposure(this.#options, files);
+    if (this.#lan !== null)
+      checkExposure({ ...this.#options, host: ALL_INTERFACES }, { ...files, tls: this.#lan.tls });
+    return files;
   }
 
-  #upgrade(request: IncomingMessage, url: URL): UpgradeDecision {
+  #upgrade(request: IncomingMessage, url: URL, isLocal: boolean): UpgradeDecision {
     switch (url.pathname) {
       case '/robot':
-        return this.#admit(request, 'robot', (peer) => this.#farpoint.robot(peer));
+        return this.#admit(request, 'robot', isLocal, (peer) => this.#farpoint.robot(peer));
       case '/operator':
-        return this.#admit(request, 'operator', (peer) => this.#farpoint.operator(peer));
+        return this.#admit(request, 'operator', isLocal, (peer) => this.#farpoint.operator(peer));
       default:
         this.#observer.rejected('operator', 'unknown-path', url.pathname.slice(0, 100));
         return { status: 404, reason: 'WebSockets are at /robot and /operator' };
@@ -240,23 +242,29 @@ class SignalingService implements RunningSignaling {
     request: IncomingMessage,
     url: URL,
     role: 'reference-robot' | 'reference-client',
+    isLocal: boolean,
   ): UpgradeDecision {
     const access = role === 'reference-robot' ? this.#files.robots : this.#files.operators;
     if (!this.#options.referenceOpen && !access.allows(url.searchParams.get('token') ?? undefined, null)) {
       this.#observer.rejected(role, 'unauthorized', '');
       return { status: 401, reason: 'needs ?token= in the URL' };
     }
-    return this.#admit(request, role, (peer) =>
+    return this.#admit(request, role, isLocal, (peer) =>
       role === 'reference-robot' ? this.#reference.robot(peer) : this.#reference.client(peer),
     );
   }
 
-  #admit(request: IncomingMessage, role: Role, connect: (peer: Peer) => Connection): UpgradeDecision {
-    const { allowedOrigins: allowed, trustProxy, host } = this.#options;
+  /** @param isLocal whether only this machine reaches the port */
+  #admit(
+    request: IncomingMessage,
+    role: Role,
+    isLocal: boolean,
+    connect: (peer: Peer) => Connection,
+  ): UpgradeDecision {
+    const { allowedOrigins: allowed, trustProxy } = this.#options;
     if (this.#closing !== null) return { status: 503, reason: 'shutting down' };
     const { origin = '', host: name } = request.headers;
-    const policy = { allowed, isLocal: isLoopbackHost(host) && !trustProxy };
-    if (!isOriginAllowed(request.headers.origin, name, policy)) {
+    if (!isOriginAllowed(request.headers.origin, name, { allowed, isLocal })) {
       this.#observer.rejected(role, 'origin', origin.slice(0, 100));
       return { status: 403, reason: 'not from this origin: see --allowed-origins' };
     }

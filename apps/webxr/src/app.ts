@@ -9,12 +9,15 @@ import { browserAccess } from './access/stored-access.ts';
 import { giveCues } from './cues/cues.ts';
 import { AwayRelease } from './drive/away-release.ts';
 import { ReleaseHold } from './drive/release-hold.ts';
+import { feedEvents } from './events/feed-events.ts';
+import { keepEvents } from './events/stored-events.ts';
+import { GoalsUi } from './goals/goals-ui.ts';
 import type { HeadsetControls } from './headset/headset-controls.ts';
 import { openHeadset } from './headset/open-headset.ts';
+import type { LiveSettings } from './live-settings.ts';
 import { PanelPlacements } from './panels/panel-placements.ts';
 import { loadPlacements, storePlacements } from './panels/stored-panels.ts';
-import { showRobotModel } from './robot-model/show-robot-model.ts';
-import type { Settings } from './settings.ts';
+import { showCommands } from './robot-commands/commands-panel.ts';
 import { tokenOrigin } from './signaling-tokens.ts';
 import { SoundPlayer } from './sound/sound-player.ts';
 import type { CloudAppearance } from './state/cloud-appearance.ts';
@@ -37,8 +40,7 @@ import { showNearWords } from './ui/near-panel.ts';
 import { type InputPort, OperatorInputs } from './ui/operator-inputs.ts';
 import { showPeople } from './ui/people-panel.ts';
 import { showPicturePanels } from './ui/picture-panels.ts';
-import { showRobotList } from './ui/robot-list.ts';
-import { showRobotSwitcher } from './ui/robot-switcher.ts';
+import { showRobots } from './ui/robots-ui.ts';
 import { showSensorSwitches } from './ui/sensor-switches.ts';
 import { SoundUi } from './ui/sound-ui.ts';
 import { showStatus } from './ui/status-ui.ts';
@@ -52,18 +54,15 @@ import { FrameLoop } from './view/frame-loop.ts';
 import { PredictedView } from './view/predicted-view.ts';
 import { RememberedWorld } from './view/remembered-world.ts';
 import { SensorClouds } from './view/sensor-clouds.ts';
-import { showDrivePath } from './view/show-drive-path.ts';
-import { showNavigation } from './view/show-navigation.ts';
 import { NearFieldDisplay } from './view/show-near-field.ts';
+import { showScene } from './view/show-scene.ts';
 import { Stage } from './view/stage.ts';
 import { VrSession } from './view/vr-session.ts';
-import type { WristPanel } from './view/wrist-panel.ts';
 
-const DRIVE_TICK_MS = 25;
-const STATUS_TICK_MS = 250;
+const [DRIVE_TICK_MS, STATUS_TICK_MS] = [25, 250];
 
 export class App {
-  readonly settings: Settings;
+  readonly settings: LiveSettings;
   readonly state: PageState;
   readonly stage: Stage;
   readonly cloud: CloudView;
@@ -89,22 +88,21 @@ export class App {
   readonly predicted: PredictedView;
   readonly frames: FrameLoop;
   readonly near: NearFieldDisplay;
+  readonly goals: GoalsUi;
   /** Plays the robot's microphone. */
   readonly player = new SoundPlayer();
   readonly #sound: SoundUi;
   readonly #inputs: OperatorInputs;
   readonly #controls: ControlsUi;
   readonly #cloudPanel: CloudPanel;
-  /** The panel on the wrist in VR. */
-  wrist: WristPanel | null = null;
-  #headset: HeadsetControls | null = null;
+  headset: HeadsetControls | null = null;
   readonly #release = new ReleaseHold();
   readonly #left = new AwayRelease();
   readonly #estop: EstopUi;
   readonly #access: AccessUi;
 
   /** @throws {Error} without WebGL 2 */
-  constructor(settings: Settings, transform: TransformSupport, notices: Notices) {
+  constructor(settings: LiveSettings, transform: TransformSupport, notices: Notices) {
     this.settings = settings;
     this.stage = new Stage(elements.stage, settings.canvas, settings.headset);
     const { renderer, world } = this.stage;
@@ -115,6 +113,7 @@ export class App {
       onRelease: (control, held) => this.#estop.hold(control, held),
       onTalk: (control, held) => this.#sound.hold(control, held),
       mayDrive: () => this.state.link.live.value,
+      tell: (text) => notices.tell(text),
     } satisfies InputPort;
     this.#inputs = new OperatorInputs(inputPort, settings.headset.driveHand);
     const { signalingUrl, name, token, icePolicy, bridge, mode } = settings;
@@ -135,16 +134,17 @@ export class App {
     this.state = new PageState({
       ...{ client: this.client, settings, notices, figures: () => this.figures() },
       placements: new PanelPlacements(loadPlacements(), storePlacements),
+      chosenShare: this.#inputs.settings.speed.share,
       ...{ now: () => performance.now(), newCanvas: () => document.createElement('canvas') },
     });
     const { sensors, pointScale } = this.state;
     this.videos = new VideoFeed({
-      ...{ client: this.client, views: this.state.videos, synchronised: settings.synchronised },
+      ...{ client: this.client, views: this.state.videos, settings },
       ...{ receiver, presented: this.presented, now: () => performance.now() },
       onShown: (captureMs) => this.client.seen.onShown(captureMs),
     });
-    this.recorder = new TelemetryRecorder(this.client, () => performance.now());
-    this.hold = new CloudHold(settings.synchronised ? driverHold : noHold);
+    this.recorder = new TelemetryRecorder(this.client, () => performance.now(), this.state.figures);
+    this.hold = new CloudHold((ms) => (settings.synchronised ? driverHold : noHold)(ms));
     const held = new HeldClouds(this.client, this.hold, () => performance.now());
     this.cloud = new CloudView(renderer, held);
     world.add(this.cloud);
@@ -152,7 +152,7 @@ export class App {
     this.clouds = new SensorClouds({ renderer, world, client: held, first: this.cloud, sensors, pointScale });
     this.videoColour = new VideoColour({
       ...{ client: this.client, feed: this.videos, hold: this.hold, views: this.state.videos },
-      ...{ clouds: this.clouds.all, wanted: this.appearance.paint, synchronised: settings.synchronised },
+      ...{ clouds: this.clouds.all, wanted: this.appearance.paint, settings },
     });
     this.vr = new VrSession(renderer, settings.headset);
     this.#access = new AccessUi({
@@ -160,16 +160,18 @@ export class App {
       signIn: new SignIn(tabStorage(), origin),
       tell: ({ text, tone }) => notices.tell(text, tone),
     });
-    this.#estop = new EstopUi(this.client, this.state.robot, this.#release);
+    this.#estop = new EstopUi(this.client, this.state, this.#release);
     const { client, state, stage, cloud, clouds, videos, stats, vr, appearance, recorder, presented } = this;
     this.near = new NearFieldDisplay(client, stage, vr.active);
-    const choose = (robotId: string) => this.choose(robotId);
+    this.goals = new GoalsUi({ client, state, stage });
     const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });
-    const toggleDashboard = () => dashboard.toggle();
     this.#controls = new ControlsUi({
-      ...{ client, state, stage, vr, appearance, estop: this.#estop, choose, toggleDashboard },
-      nextHeadsetView: () => this.#headset?.nextView(),
-      predicted: this.predicted,
+      ...{ client, state, stage, vr, appearance, estop: this.#estop, inputs: this.#inputs },
+      choose: (robotId) => this.choose(robotId),
+      nextHeadsetView: () => this.headset?.nextView(),
+      toggleDashboard: () => dashboard.toggle(),
+      toggleGoTo: () => this.goals.toggle(),
+      ...{ predicted: this.predicted, settings, frames: () => this.frames },
     });
     const memory = { remembered: this.remembered, tell: notices.tell.bind(notices) };
     this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all, memory, robot: state.robot });
@@ -177,7 +179,7 @@ export class App {
       ...{ client, player: this.player, state: state.sound },
       tell: ({ text, tone }) => notices.tell(text, tone),
     });
-    const readHeadset = () => this.#headset?.read();
+    const readHeadset = () => this.headset?.read();
     this.frames = new FrameLoop({
       ...{ settings, client, stage, held, cloud, clouds, videos, stats, vr, readHeadset },
       remembered: this.remembered,
@@ -185,8 +187,10 @@ export class App {
   }
 
   start(): void {
+    keepEvents(this.state.events);
     this.#listen();
     listenToCanvas(elements.stage, this.stage, this.state.notices);
+    this.goals.start();
     this.#controls.start();
     this.#sound.start();
     this.#access.start();
@@ -203,16 +207,15 @@ export class App {
       if (this.#left.tick(this.vr.active.value ? this.vr.hidden : document.hidden, nowMs))
         driver.letGo(nowMs);
       this.client.tick(performance.now());
-      showRobotModel(this.client, this.stage, this.appearance);
-      showDrivePath(this.client, this.stage);
-      showNavigation(this.client, this.stage, this.appearance, nowMs);
-      this.near.tick(nowMs);
+      showScene(this, nowMs);
+      this.goals.tick(nowMs);
+      this.videoColour.tick(nowMs);
+      this.state.watchSilence(performance.now());
     }, DRIVE_TICK_MS);
     setInterval(() => {
       const nowMs = performance.now();
       this.stats.tick(this.cloud, nowMs);
       this.stats.remembered = this.remembered.tick(nowMs);
-      this.videoColour.tick(nowMs);
       this.videos.measure(nowMs);
       this.state.looking.value = this.vr.active.value || !document.hidden;
       this.state.sample();
@@ -244,25 +247,23 @@ export class App {
     state.sample();
     showStatus(state);
     showNearWords(state);
-    showRobotList(state.link, choose);
-    showRobotSwitcher(state.link, choose);
+    showRobots(state.link, this, choose);
     showPeople(state, this.client);
+    showCommands(state.commands);
     showSensorSwitches(state.sensors);
     showPicturePanels(state, { inVr: vr.active, isGripped: () => this.client.driver.stream.held });
     const { appearance, clouds } = this;
-    const inVr = vr.active;
-    const { headset } = stage;
     applyAppearance({
-      ...{ appearance, sensors: state.sensors, rings: state.rings, clouds, stage, inVr },
-      inTabletop: computed(() => headset.view.value === 'tabletop'),
+      ...{ appearance, sensors: state.sensors, rings: state.rings, clouds, stage, inVr: vr.active },
+      inTabletop: computed(() => stage.headset.view.value === 'tabletop'),
       ...{ client: this.client, remembered: this.remembered },
     });
-    const { panel, controls } = openHeadset({
-      ...{ settings: this.settings.headset, stage, vr, inputs: this.#inputs, state, appearance },
+    this.headset = openHeadset({
+      ...{ settings: this.settings, stage, vr, inputs: this.#inputs, state, appearance },
+      ...{ client: this.client, choose, goals: this.goals },
+      act: (action) => this.#controls.act(action, performance.now()),
       releaseProgress: this.#release.progress,
     });
-    this.wrist = panel;
-    this.#headset = controls;
     effect(() => {
       this.cloud.sizeScale = pointScale.value;
     });
@@ -293,6 +294,7 @@ export class App {
       this.clouds.ground = pose.position.z;
     });
     tellNotices(client, this.state.notices);
-    if (this.settings.cues) giveCues(client, this.vr, () => performance.now());
+    feedEvents(this.state, client);
+    giveCues(client, this.vr, this.settings, () => performance.now());
   }
 }

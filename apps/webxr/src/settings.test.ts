@@ -76,9 +76,27 @@ describe('readSettings', () => {
     expect(parseStored('{"synchronised":"no"}', 'wss://x.org').synchronised).toBeUndefined();
   });
 
+  test('shows the first drive when it is told to, or else decides later', () => {
+    expect(['', 'tour=0', 'tour=1'].map((query) => read(query).tour)).toEqual([null, false, true]);
+  });
+
   test('gives cues unless it is told not to', () => {
     expect([read('').cues, read('cues=0').cues]).toEqual([true, false]);
     expect([read('', { cues: false }).cues, read('cues=1', { cues: false }).cues]).toEqual([false, true]);
+  });
+
+  test('keeps clips only if it is told to', () => {
+    expect([read('').clips, read('clips=1').clips]).toEqual([false, true]);
+    expect([read('', { clips: true }).clips, read('clips=0', { clips: true }).clips]).toEqual([true, false]);
+    expect(parseStored('{"clips":true}', 'wss://x.org').clips).toBe(true);
+    expect(parseStored('{"clips":"yes"}', 'wss://x.org').clips).toBeUndefined();
+  });
+
+  test('draws at a share of the screen’s resolution, or at all of it if that is no share', () => {
+    expect(read('resolution=0.5').resolution).toBe(0.5);
+    expect(read('').resolution).toBe(1);
+    for (const share of ['', '0', '0.01', '2', '-1', 'NaN', 'half', 'Infinity'])
+      expect(read(`resolution=${share}`).resolution, share).toBe(1);
   });
 
   test('ignores invalid robot ids and canvas sizes', () => {

@@ -17,6 +17,7 @@ export interface StoredSettings {
   pointScale?: number | undefined;
   synchronised?: boolean | undefined;
   cues?: boolean | undefined;
+  clips?: boolean | undefined;
   /** Address template of a map's tiles, and whose they are. */
   mapTiles?: string | undefined;
   mapAttribution?: string | undefined;
@@ -46,6 +47,8 @@ export interface Settings {
   icePolicy: 'all' | 'relay';
   /** Fixed size of the canvas in pixels, for benchmarks. */
   canvas: { width: number; height: number } | null;
+  /** Share of the screen's own resolution that a flat page draws at most, 0.1…1. */
+  resolution: number;
   /** `points64`: refuse the coded formats. */
   mode: 'auto' | 'points64';
   /** Draw only every n-th point, for benchmarks with an emulated GPU; `null`: draw as many as possible. */
@@ -56,11 +59,17 @@ export interface Settings {
   memory: boolean | null;
   /** Whether surfaces are painted with the video of their camera; `null`: as was chosen before, or yes. */
   paint: boolean | null;
+  /** Whether the robot may code colours coarsely while the video paints. */
+  coarse: boolean;
   pointScale: number;
   /** Whether videos are presented in step: frames wait for what was captured at the same time. */
   synchronised: boolean;
   /** Whether sound and vibration tell that the robot does less than it is told. */
   cues: boolean;
+  /** Whether the last 30 seconds of the scene are kept, to be saved as a clip. */
+  clips: boolean;
+  /** Whether the first drive is shown by itself; `null`: once to each person. */
+  tour: boolean | null;
   /** How the headset shows and is held. */
   headset: HeadsetSettings;
   /** Whether the view is led by the operator's commands. */
@@ -117,14 +126,18 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
     robot: robot !== undefined && robotIdSchema.safeParse(robot).success ? robot : null,
     icePolicy: query.get('ice') === 'relay' ? 'relay' : 'all',
     canvas: parseCanvas(query.get('canvas')),
+    resolution: parseShare(query.get('resolution')) ?? 1,
     mode: query.get('mode') === 'points64' ? 'points64' : 'auto',
     drawEvery: parseEvery(query.get('every')),
     surface: parseSwitch(query.get('surface')) ?? null,
     memory: parseSwitch(query.get('memory')) ?? null,
     paint: parseSwitch(query.get('paint')) ?? null,
+    coarse: parseSwitch(query.get('coarse')) ?? false,
     pointScale: clampScale(stored.pointScale),
     synchronised: parseSwitch(query.get('sync')) ?? stored.synchronised ?? true,
     cues: parseSwitch(query.get('cues')) ?? stored.cues ?? true,
+    clips: parseSwitch(query.get('clips')) ?? stored.clips ?? false,
+    tour: parseSwitch(query.get('tour')) ?? null,
     headset: parseHeadset(stored.headset),
     predict: parseSwitch(query.get('predict')) ?? true,
     mapTiles: mapTilesOf(stored.mapTiles, stored.mapAttribution, page),
@@ -135,6 +148,11 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
 
 function parseSwitch(text: string | null): boolean | undefined {
   return text === '1' ? true : text === '0' ? false : undefined;
+}
+
+function parseShare(text: string | null): number | null {
+  const share = Number(text);
+  return text !== null && share >= 0.1 && share <= 1 ? share : null;
 }
 
 function parseEvery(text: string | null): number | null {
@@ -167,6 +185,7 @@ export function parseStored(text: string | null, ownUrl: string): StoredSettings
     pointScale: typeof record.pointScale === 'number' ? clampScale(record.pointScale) : undefined,
     synchronised: typeof record.synchronised === 'boolean' ? record.synchronised : undefined,
     cues: typeof record.cues === 'boolean' ? record.cues : undefined,
+    clips: typeof record.clips === 'boolean' ? record.clips : undefined,
     headset: record.headset === undefined ? undefined : parseHeadset(record.headset),
     mapTiles: textOf('mapTiles'),
     mapAttribution: textOf('mapAttribution'),

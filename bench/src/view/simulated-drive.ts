@@ -25,7 +25,6 @@ import {
   BYTES_PER_POINT,
   type Codec,
   OrganisedEncoder,
-  type OrganisedReport,
   POINTS_PER_PACKET,
   Points64Encoder,
 } from '@farpoint/wasm-codec';
@@ -39,8 +38,8 @@ export interface DriveOptions {
   seed: number;
   /** Side of the true pictures, pixels. */
   size: number;
-  /** Quality of organised packets' colours, 0 to 31 (coarsest): the rest of the rate is the depth's. Default: as robots code. */
-  colourQuality?: number | undefined;
+  /** Organised packets have coarse colours, as robots code them beside a video that paints: the rest of the rate is the depth's. */
+  coarse?: boolean;
 }
 
 /** Where an eye looks from, on the robot. */
@@ -69,8 +68,6 @@ export interface DriveFrame {
   depthLevel: number;
 }
 
-/** Of the organised codec. */
-const COARSEST_DEPTH = 7;
 const HEADER_BYTES = 16;
 /** By how much a coded frame may exceed its budget. */
 const BUDGET_SLACK = 1.06;
@@ -173,11 +170,11 @@ export class SimulatedDrive {
     encoder.colour.set(new Uint32Array(frame.colour.buffer, frame.colour.byteOffset, frame.depth.length));
     const trailers = (PLACEMENT_BYTES + HEADER_BYTES) * PACKETS;
     const budget = budgetBytes - trailers;
-    const { colourQuality: quality } = this.#options;
-    const { packets, points, reasons, bytes, depthLevel } =
-      quality === undefined
-        ? encoder.encode({ fromImages: true, budgetBytes: budget })
-        : this.#finestDepth(budget, quality);
+    const { coarse = false } = this.#options;
+    const { packets, points, reasons, bytes, depthLevel } = encoder.encode({
+      ...{ fromImages: true, budgetBytes: budget },
+      ...(coarse ? ({ colour: 'coarse' } as const) : {}),
+    });
     this.#whole = reasons.thinned + reasons.dropped === 0 && bytes <= budget * BUDGET_SLACK;
     this.#depthLevel = depthLevel;
     let sequenceOffset = 0;
@@ -187,16 +184,6 @@ export class SimulatedDrive {
       sequenceOffset += sequenceLength;
       return this.#payload(header, encoder.packet(i), 'organised', frame.cameraPose);
     });
-  }
-
-  /** That fits beside colours of this quality. */
-  #finestDepth(budget: number, quality: number): OrganisedReport {
-    const encode = (depthLevel: number) =>
-      this.#organised.encode({ fromImages: true, depthLevel, colour: { quality } });
-    let level = 0;
-    let report = encode(level);
-    while (report.bytes > budget && level < COARSEST_DEPTH) report = encode(++level);
-    return report;
   }
 
   #points64Payloads(frame: CloudFrame, frameNumber: number, budgetBytes: number): ArrayBuffer[] {

@@ -6,6 +6,7 @@ import { extname, join } from 'node:path';
 import { chromiumLaunchOptions, repositoryRoot } from '@farpoint/local-stack';
 import type { Pose } from '@farpoint/protocol';
 import { chromium, type Page } from '@playwright/test';
+import { rendererName } from '../renderer-name.ts';
 import type { ViewOptions } from './page/view-page.ts';
 import type { Picture } from './picture-difference.ts';
 import type { CodedPicture } from './picture-video.ts';
@@ -39,6 +40,7 @@ export class ViewBrowser {
     page.on('pageerror', (error) => console.error(error.message));
     await page.goto(`${ORIGIN}/index.html`);
     await page.waitForFunction(() => window.view !== undefined);
+    console.error(`drawn with ${await rendererName(page)}`);
     return new ViewBrowser(page, async () => {
       await browser.close();
       rmSync(folder, { recursive: true, force: true });

@@ -1,10 +1,13 @@
 import { bridgeAttacks } from './attacks/bridge.ts';
 import { dtlsAttacks } from './attacks/dtls.ts';
 import { fileAttacks } from './attacks/files.ts';
+import { goalAttacks } from './attacks/goals.ts';
 import { grantAttacks } from './attacks/grants.ts';
 import { httpAttacks } from './attacks/http.ts';
 import { iceAttacks } from './attacks/ice.ts';
+import { peopleAttacks } from './attacks/people.ts';
 import { referenceAttacks } from './attacks/reference.ts';
+import { robotCommandAttacks } from './attacks/robot-commands.ts';
 import { sctpAttacks } from './attacks/sctp.ts';
 import { sessionAttacks } from './attacks/session.ts';
 import { signalingAttacks } from './attacks/signaling.ts';
@@ -16,6 +19,9 @@ export const allAttacks = [
   ...srtpAttacks,
   ...sctpAttacks,
   ...sessionAttacks,
+  ...goalAttacks,
+  ...robotCommandAttacks,
+  ...peopleAttacks,
   ...grantAttacks,
   ...signalingAttacks,
   ...referenceAttacks,

@@ -71,7 +71,11 @@ export class Scene {
     writeFileSync(keys, JSON.stringify({ keys: [issuer.publicJwk] }));
     const stack = await LocalStack.start({
       robots: [
-        { id: ROBOT, name: 'Driven robot', args: [...SMALL, '--max-operators', '4'] },
+        {
+          id: ROBOT,
+          name: 'Driven robot',
+          args: [...SMALL, '--max-operators', '4', '--goals', 'sim', '--sim-commands'],
+        },
         { id: GRANTED_ROBOT, name: 'Robot with grants', args: [...SMALL, '--grant-keys', keys] },
       ],
       signalingArgs: ['--revocations', join(folder, 'revoked.jws')],

@@ -11,12 +11,17 @@ export const auditKinds = [
   'session-ended',
   'lease-given',
   'lease-taken', // from another operator, who is in the details
+  'lease-handed-over', // by the operator who is in the details, to one who agreed
   'lease-released',
   'lease-expired', // the driver was silent for too long
   'estop-latched',
   'estop-released',
   'return-began', // a robot without operators drives back by itself
   'return-ended', // with the reason; perhaps before it has begun
+  'goal-taken', // the robot drives to a place that its driver has named
+  'goal-refused', // with the reason
+  'goal-ended', // whether it was reached, or why not
+  'robot-command', // an operator gave one, with what became of it
   'refused',
   // About the log itself:
   'torn-entry', // the program ended while it wrote; the bytes before this entry are what it left

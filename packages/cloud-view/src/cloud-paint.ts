@@ -35,6 +35,13 @@ export interface CloudPaint {
   on: boolean;
   /** How much of the colours pictures give at present, 0–1: that of the newest frame, as a mean over half a second. */
   readonly share: number;
+  /** Frames that a newer one has followed, and how many of those a picture painted by then. */
+  readonly frames: {
+    /** Since the view was made. */
+    readonly followed: number;
+    /** Of these. */
+    readonly painted: number;
+  };
   /**
    * Tells of a frame that has come, if it is drawn only later. Pictures between the frames are then not kept for nothing.
    *

@@ -48,6 +48,8 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
   packets = 0;
   /** Points received in the packets drawn, since the session began. */
   points = 0;
+  /** Whether only some of the newest points were decoded, as {@link RobotClient.drawEvery} asks. Surfaces are thinned later. */
+  isThinned = false;
   /** The camera's field of view, as the side of its picture at a distance of 1 m, metres; 90° before the first frame. */
   imageExtent = 2;
   /** What the points' colours mean, and between which heights points are drawn. */
@@ -72,6 +74,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
       const { newestFrame, newestSlot } = this.window;
       const slot = batch.frameNumber(packet) === newestFrame ? newestSlot : 1 - newestSlot;
       this.#colouring.sample(batch.points, at, batch.pointsOf(packet), slot);
+      this.isThinned = batch.pointsOf(packet) < batch.pointsCame(packet);
       this.#noteDrawn(batch, packet);
     },
     drop: (reason) => this.#drop(reason),
@@ -166,12 +169,10 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
   get hasPoints(): boolean {
     return this.newestFrame !== null;
   }
-
   /** Which of the two poses the newest frame has. */
   get #newestSlot(): number {
     return this.#surface.map.newestFrame === null ? this.window.newestSlot : this.#surface.map.newestSlot & 1;
   }
-
   /** Height of one eye's picture, pixels. */
   get viewportHeight(): number {
     return viewportHeightOf(this.#renderer);

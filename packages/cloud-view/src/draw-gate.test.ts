@@ -28,6 +28,11 @@ describe('DrawGate', () => {
     expect(gate.mayDraw(5, 150)).toBe(true);
   });
 
+  it('says what a picture costs', () => {
+    expect(new DrawGate().costMs).toBe(0);
+    expect(gateWithCost(30).costMs).toBeCloseTo(30, 2);
+  });
+
   it('draws before it knows any cost', () => {
     expect(new DrawGate().mayDraw(null, 0)).toBe(true);
   });

@@ -41,6 +41,11 @@ export class DrawGate {
     this.#lastDrawMs = nowMs;
   }
 
+  /** How long a picture takes the GPU, ms: a running mean. */
+  get costMs(): number {
+    return this.#costMs;
+  }
+
   /** The GPU took this long for a picture, ms. */
   onCost(costMs: number): void {
     this.#costMs += (costMs - this.#costMs) * SMOOTHING;

@@ -26,7 +26,19 @@ const FAST_FOR_MS = 6000;
 /** Wait before the next step up after one that was too much. */
 const PATIENCE_MS = 60_000;
 
-/** Chooses how much is drawn, from the display frame rate that the machine reaches. */
+/**
+ * How many pictures a second the machine could draw. One that waits for whole frames of the robot draws fewer than it could,
+ * and is not slow for that.
+ *
+ * @param drawn pictures drawn over the last second
+ * @param offered display frames over the last second in which a picture was drawn or could have been
+ * @param costMs how long a picture takes the GPU
+ */
+export function possibleFps(drawn: number, offered: number, costMs: number): number {
+  return Math.max(drawn, Math.min(offered, costMs > 0 ? 1000 / costMs : offered));
+}
+
+/** Chooses how much is drawn, from the display frame rate that the machine reaches or could reach. */
 export class DrawingGovernor {
   #step = 0;
   #slowSinceMs: number | null = null;
@@ -42,7 +54,7 @@ export class DrawingGovernor {
   /**
    * Call it about once a second.
    *
-   * @param displayFps display frames per second over the last second
+   * @param displayFps display frames per second over the last second, as {@link possibleFps} gives them
    * @param nowMs `performance.now()`
    * @returns whether {@link step} has changed
    */

@@ -17,7 +17,7 @@ export type { CloudSource, CloudViewOptions } from './cloud-source.ts';
 export { CloudView } from './cloud-view.ts';
 export { COLOUR_STOPS, colourAt, colourStops, type Rgb } from './colour-map.ts';
 export { DrawGate } from './draw-gate.ts';
-export { DrawingGovernor, type DrawingStep } from './drawing-governor.ts';
+export { DrawingGovernor, type DrawingStep, possibleFps } from './drawing-governor.ts';
 export type { DrawnPoints, FramePose } from './drawn-points.ts';
 export { GpuCompletion } from './gpu-completion.ts';
 export { DROP_TINT, type Hazards, HIT_TINT } from './hazards.ts';

@@ -47,6 +47,17 @@ describe('PointColouring', () => {
     expect(colouring.range).toEqual({ min: 2, max: 6 });
   });
 
+  test('sees every ring of a LiDAR, whose points come column by column', () => {
+    const { colouring } = colouringAt(0);
+    const revolution = points(Array.from({ length: 3200 }, (_, i) => [0, 0, 1 + (i % 16)]));
+    for (let frame = 0; frame < 4; frame++) {
+      colouring.beginFrame(0, 3200, frame * 200);
+      colouring.sample(revolution, 0, 3200, 0);
+    }
+    colouring.update(1000);
+    expect(colouring.scene.extent).toBe(16);
+  });
+
   test('a fixed range wins; another mode begins a new range', () => {
     const { colouring, uniforms } = colouringAt(0);
     colouring.mode = 'distance';

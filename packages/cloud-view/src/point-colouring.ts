@@ -69,6 +69,7 @@ export class PointColouring implements CloudColouring {
   #stride = 1;
   /** Points until the next sample. */
   #skip = 0;
+  #random = 1;
 
   constructor(uniforms: PointUniforms) {
     this.#uniforms = uniforms;
@@ -111,7 +112,7 @@ export class PointColouring implements CloudColouring {
     const unit = this.#uniforms.frameUnit.value[slot] as number;
     const position = this.#uniforms.framePosition.value[slot]!;
     const orientation = this.#uniforms.frameOrientation.value[slot]!;
-    for (; this.#skip < count; this.#skip += this.#stride) {
+    for (; this.#skip < count; this.#skip += this.#step()) {
       const at = (first + this.#skip) * 4;
       const [x, y, z] = [points[at] as number, points[at + 1] as number, points[at + 2] as number];
       this.scene.add(position, orientation, x * unit, y * unit, z * unit);
@@ -120,6 +121,15 @@ export class PointColouring implements CloudColouring {
       else this.#auto.add(this.#valueOf(points, at, unit, position.z, orientation));
     }
     this.#skip -= count;
+  }
+
+  /**
+   * From a sample to the next, a stride on average. Equal steps would meet the same few rings of a LiDAR again and again,
+   * because its points come column by column.
+   */
+  #step(): number {
+    this.#random = (Math.imul(this.#random, 1_664_525) + 1_013_904_223) >>> 0;
+    return 1 + Math.floor((this.#random / 0x1_0000_0000) * (2 * this.#stride - 1));
   }
 
   /** Sets the uniforms for a display frame. */

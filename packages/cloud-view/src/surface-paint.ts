@@ -19,6 +19,7 @@ const SHARE_MS = 500;
 export class SurfacePaint implements CloudPaint {
   on = true;
   share = 0;
+  readonly frames = { followed: 0, painted: 0 };
   readonly #renderer: WebGLRenderer;
   readonly #uniforms: PaintUniforms;
   readonly #match = new PictureMatch(1);
@@ -70,6 +71,10 @@ export class SurfacePaint implements CloudPaint {
 
   /** A slot's frame begins. @param instantUs when it was captured, µs modulo 2³² */
   begin(slot: number, instantUs: number): void {
+    if (this.#active) {
+      this.frames.followed++;
+      if (this.on && this.#layerOf(this.#newestSlot) !== null) this.frames.painted++;
+    }
     this.#active = true;
     this.#newestSlot = slot;
     this.#instants[slot] = instantUs;

@@ -1,6 +1,8 @@
 import { freePorts } from './free-port.ts';
 import { ManagedProcess } from './managed-process.ts';
-import { type LocalStack, repositoryRoot } from './stack.ts';
+import { programPath } from './program-path.ts';
+import { repositoryRoot } from './repository-root.ts';
+import type { LocalStack } from './stack.ts';
 
 export interface BridgeSpec {
   /** Free ports if absent. */
@@ -36,7 +38,7 @@ export class BridgeProcess {
       name: 'bridge',
       command: [
         'node',
-        'apps/bridge/src/main.ts',
+        programPath('bridge'),
         ...['--signaling', `ws://127.0.0.1:${stack.ports.referenceClient}`],
         ...['--control-port', String(control)],
         ...['--telemetry-port', String(telemetry)],

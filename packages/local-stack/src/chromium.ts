@@ -1,5 +1,6 @@
 import { existsSync } from 'node:fs';
 import { chromium, type LaunchOptions } from '@playwright/test';
+import { chromiumGraphics, graphicsFlags } from './chromium-graphics.ts';
 import { findProgram } from './find-program.ts';
 
 /** The command that installs a missing browser. */
@@ -25,7 +26,11 @@ export function findChromium(): string | null {
   return findProgram(PROGRAM_NAMES, OTHER_PLACES);
 }
 
-/** Launch options that work as root, without a GPU, and without internet access. */
+/**
+ * Launch options that work as root, without internet access, and without a GPU unless `FARPOINT_GRAPHICS` asks for one.
+ *
+ * @throws {Error} if there is no Chromium, or no such graphics
+ */
 export function chromiumLaunchOptions(): LaunchOptions {
   const executablePath = findChromium();
   if (executablePath === null) {
@@ -35,16 +40,10 @@ export function chromiumLaunchOptions(): LaunchOptions {
     executablePath,
     args: [
       ...(process.getuid?.() === 0 ? ['--no-sandbox'] : []),
-      '--use-gl=angle',
-      '--use-angle=swiftshader',
-      '--enable-unsafe-swiftshader',
-      '--ignore-gpu-blocklist',
+      ...graphicsFlags(chromiumGraphics()),
       '--disable-background-networking',
       '--disable-component-update',
       '--disable-sync',
-      // Software compositing beside software WebGL: the window need not be drawn by the same emulated GPU.
-      '--disable-gpu-compositing',
-      '--disable-gpu-rasterization',
       '--no-first-run',
       // A page in the background of a test must run as fast as one that a person looks at.
       '--disable-background-timer-throttling',

@@ -1,6 +1,8 @@
 import { freePorts } from './free-port.ts';
 import { ManagedProcess } from './managed-process.ts';
-import { type LocalStack, repositoryRoot } from './stack.ts';
+import { programPath } from './program-path.ts';
+import { repositoryRoot } from './repository-root.ts';
+import type { LocalStack } from './stack.ts';
 
 export interface EmulatedLinkSpec {
   /** Flags of the link program, for example `['--rate-mbps', '20', '--rtt-ms', '40']`. */
@@ -38,7 +40,7 @@ export class EmulatedLink {
         name: 'link',
         command: [
           'node',
-          'apps/link-emulator/src/main.ts',
+          programPath('link-emulator'),
           ...['--signaling', stack.signalingUrl],
           ...['--port', String(port)],
           ...['--admin-port', String(adminPort)],

@@ -9,6 +9,8 @@ export * from './free-port.ts';
 export * from './janus-server.ts';
 export * from './keep-running.ts';
 export * from './managed-process.ts';
+export * from './program-path.ts';
+export * from './repository-root.ts';
 export * from './stack.ts';
 export * from './turn-server.ts';
 export * from './virtual-display.ts';

@@ -1,11 +1,10 @@
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
 import { freePorts } from './free-port.ts';
 import { ManagedProcess } from './managed-process.ts';
-
-export const repositoryRoot = fileURLToPath(new URL('../../..', import.meta.url));
+import { programPath } from './program-path.ts';
+import { repositoryRoot } from './repository-root.ts';
 
 /** Loopback TCP ports of one stack. */
 export interface StackPorts {
@@ -61,13 +60,18 @@ export class LocalStack {
     const [signaling, referenceRobot, referenceClient] = (await freePorts(3)) as [number, number, number];
     const stack = new LocalStack(spec, spec.ports ?? { signaling, referenceRobot, referenceClient });
     try {
-      await stack.startSignaling();
-      for (const robot of spec.robots) await stack.startRobot(robot);
+      // Signaling listens long before a robot has loaded.
+      await settleAll([stack.startSignaling(), stack.#startRobots(spec.robots)]);
     } catch (error) {
       await stack.stop();
       throw error;
     }
     return stack;
+  }
+
+  /** One after the other: signaling lists them in the order in which they come. */
+  async #startRobots(robots: readonly RobotSpec[]): Promise<void> {
+    for (const robot of robots) await this.startRobot(robot);
   }
 
   /** Where the web app is, if the service serves it. */
@@ -99,7 +103,7 @@ export class LocalStack {
       name: 'signaling',
       command: [
         'node',
-        'apps/signaling/src/main.ts',
+        programPath('signaling'),
         ...['--host', '127.0.0.1'],
         ...['--port', String(signaling), '--reference'],
         ...['--reference-robot-port', String(referenceRobot)],
@@ -129,7 +133,7 @@ export class LocalStack {
       name: spec.id,
       command: [
         'node',
-        'apps/robot-node/src/main.ts',
+        programPath('robot-node'),
         ...['--signaling', this.signalingUrl],
         ...['--id', spec.id],
         ...['--name', spec.name],
@@ -163,4 +167,10 @@ export class LocalStack {
     if (robot === undefined) throw new Error(`no robot ${id} in this stack`);
     return robot;
   }
+}
+
+/** Waits for all of them, and then fails with the first that failed: nothing is still starting. */
+async function settleAll(started: readonly Promise<void>[]): Promise<void> {
+  for (const outcome of await Promise.allSettled(started))
+    if (outcome.status === 'rejected') throw outcome.reason;
 }

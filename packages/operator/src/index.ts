@@ -13,7 +13,11 @@ export type {
   BodyHeights,
   Broadcast,
   Cameras,
+  ChatLine,
   CloudFormat,
+  CommandBar,
+  CommandOutcome,
+  CommandRefusal,
   CommandRejected,
   CommandRejection,
   DiagnosticLevel,
@@ -21,14 +25,25 @@ export type {
   Diagnostics,
   DriveLimits,
   DriveState,
+  EstopCause,
   EstopState,
+  GoalOffer,
+  GoalPhase,
+  GoalReason,
+  GridMesh,
+  Handover,
+  HandoverEnd,
+  HandoverKind,
   LatencyFrame,
   LeaseState,
   MapTiles,
+  MeshDrawing,
   MicrophoneState,
   ModelLink,
+  ModelMeshes,
   ModelPlace,
   ModelShape,
+  NamedOperator,
   NearField,
   NearKind,
   NearSector,
@@ -40,7 +55,9 @@ export type {
   Quaternion,
   Reading,
   ReadingLevel,
+  RobotAbout,
   RobotBody,
+  RobotCommand,
   RobotListing,
   Role,
   Sample,
@@ -72,6 +89,7 @@ export type { ChangedRobotKey } from './access/session-admission.ts';
 export { type BridgeAddress, parseBridge } from './bridge/bridge-settings.ts';
 export type { RobotClientOptions } from './client/client-options.ts';
 export { ConnectError, type ConnectFailure, type ConnectOptions, connect } from './client/connect.ts';
+export { PeopleRequests } from './client/people-requests.ts';
 export { RobotClient } from './client/robot-client.ts';
 export type { ClientFailure, RobotEvents } from './client/robot-events.ts';
 export {
@@ -86,6 +104,7 @@ export {
 export { DEFAULT_EXTENT } from './cloud/image-extent.ts';
 export type { DropCounts, DropReason } from './cloud/packet-intake.ts';
 export type { IntakeReport } from './cloud/worker-messages.ts';
+export type { CommandResult, RobotCommands } from './commands/robot-commands.ts';
 export { captureMsOfRtp, captureMsOfStamp } from './compositor/capture-instant.ts';
 export type { ItemDropReason } from './compositor/capture-source.ts';
 export {
@@ -98,10 +117,12 @@ export {
 export type { CompositorStats, SourceFigures, SourceState } from './compositor/compositor-statistics.ts';
 export { activeInput, type DriveInput, type PressedButtons } from './drive/drive-input.ts';
 export type { Driver } from './drive/driver.ts';
+export type { GoalDrive, GoalEnd, GoalPlace, GoalStatus } from './drive/goal-drive.ts';
 export { type GripLoss, READING_HOLDS_MS } from './drive/grips.ts';
 export { robotAfter } from './drive/robot-switch.ts';
 export type { SeenView } from './drive/seen-view.ts';
 export { type DriveWish, toTwist } from './drive/velocity-mapping.ts';
+export type { FrameStages } from './latency/frame-stages.ts';
 export { LatencyError, type LatencyProbe, type LatencyReport } from './latency/latency-probe.ts';
 export type { LatencyFailure, LatencyResult } from './latency/latency-test.ts';
 export { type Distribution, SampleWindow } from './latency/sample-window.ts';
@@ -121,6 +142,7 @@ export type { NavigatorPath } from './session/navigator-path.ts';
 export type { NearSurroundings } from './session/near-surroundings.ts';
 export { type AgedReading, Readings } from './session/readings.ts';
 export { RobotModel } from './session/robot-model.ts';
+export { givesYou, type HeardLine, type OpenHandover, RobotPeople } from './session/robot-people.ts';
 export type { RobotSession } from './session/robot-session.ts';
 export type { SessionPhase } from './session/session-keeper.ts';
 export { finalLosses, lossOf, type SessionLoss } from './session/session-loss.ts';

@@ -26,10 +26,28 @@ test('uses the shortest round trip, reports the latest', () => {
   expect([clock.offsetMs, clock.minRttMs, clock.lastRttMs]).toEqual([5000, 40, 340]);
 });
 
+test('takes the quickest way of each direction, also of different probes', () => {
+  const clock = new ClockOffset();
+  probe(clock, 0, 2, 50);
+  expect(clock.offsetMs).toBe(4976);
+  probe(clock, 100, 30, 2);
+  expect(clock.offsetMs).toBe(5000);
+  expect(clock.minRttMs).toBe(32);
+});
+
+test('of probes that contradict each other, because a clock drifts, the shortest counts alone', () => {
+  const clock = new ClockOffset();
+  probe(clock, 0, 20, 20);
+  clock.add({ type: 'clockAnswer', id: 0, sentMs: 500, robotMs: 500 + 5060 }, 530);
+  expect(clock.offsetMs).toBe(5045);
+});
+
 test('only the last probes count', () => {
   const clock = new ClockOffset(2);
   probe(clock, 0, 1, 1);
+  expect(clock.settled).toBe(false);
   probe(clock, 100, 20, 20);
+  expect(clock.settled).toBe(true);
   probe(clock, 200, 30, 30);
   expect(clock.minRttMs).toBe(40);
 });

@@ -1,14 +1,28 @@
 import type { ClockAnswer } from './control.ts';
 import { sequenceDelta32 } from './sequence.ts';
 
+/** The offset is at least and at most this: the robot read its clock after the question and before its answer came. */
+interface Bounds {
+  readonly leastMs: number;
+  readonly mostMs: number;
+}
+
+/** What lies between the bounds of a probe is its round trip. */
+const rttOf = ({ leastMs, mostMs }: Bounds) => mostMs - leastMs;
+const middleOf = ({ leastMs, mostMs }: Bounds) => (leastMs + mostMs) / 2;
+
 /**
  * The operator's estimate of the robot's clock, from probes and answers (NTP's on-wire calculation, RFC 5905 §8, with
- * the robot's turnaround taken as 0). Of the last probes, the one with the shortest round trip is used, because
- * queueing only ever adds delay.
+ * the robot's turnaround taken as 0). Each probe bounds the offset on both sides. Queueing only ever adds delay, so
+ * that the middle of what all of the last probes allow is used: the quickest way there and the quickest way back count,
+ * also where no single probe was quick both ways, as on a busy machine. Clocks that drift may leave nothing that all
+ * allow; then the probe with the shortest round trip counts alone.
  */
 export class ClockOffset {
-  readonly #window: { rttMs: number; offsetMs: number }[] = [];
+  readonly #window: Bounds[] = [];
   readonly #size: number;
+  #offsetMs: number | null = null;
+  #minRttMs: number | null = null;
 
   /** @param size how many probes to choose from */
   constructor(size = 16) {
@@ -16,32 +30,44 @@ export class ClockOffset {
   }
 
   /** @param receivedMs the operator's clock when the answer arrived */
-  add(answer: ClockAnswer, receivedMs: number): void {
-    const rttMs = receivedMs - answer.sentMs;
-    if (rttMs < 0) return;
-    this.#window.push({ rttMs, offsetMs: answer.robotMs - (answer.sentMs + rttMs / 2) });
+  add({ sentMs, robotMs }: ClockAnswer, receivedMs: number): void {
+    if (receivedMs < sentMs) return;
+    this.#window.push({ leastMs: robotMs - receivedMs, mostMs: robotMs - sentMs });
     if (this.#window.length > this.#size) this.#window.shift();
+    this.#estimate();
   }
 
   /** Robot clock minus operator clock, ms; `null` before the first answer. */
   get offsetMs(): number | null {
-    return this.#best()?.offsetMs ?? null;
+    return this.#offsetMs;
   }
 
   /** Shortest round trip among the last probes, ms. */
   get minRttMs(): number | null {
-    return this.#best()?.rttMs ?? null;
+    return this.#minRttMs;
   }
 
   /** Round trip of the latest probe, ms. */
   get lastRttMs(): number | null {
-    return this.#window.at(-1)?.rttMs ?? null;
+    const last = this.#window.at(-1);
+    return last === undefined ? null : rttOf(last);
   }
 
-  #best(): { rttMs: number; offsetMs: number } | undefined {
-    let best = this.#window[0];
-    for (const sample of this.#window) if (best === undefined || sample.rttMs < best.rttMs) best = sample;
-    return best;
+  /** As many answers as are chosen from have come: further ones refine the estimate, but no longer change it much. */
+  get settled(): boolean {
+    return this.#window.length === this.#size;
+  }
+
+  #estimate(): void {
+    let [leastMs, mostMs] = [-Infinity, Infinity];
+    let shortest = this.#window[0] as Bounds;
+    for (const probe of this.#window) {
+      leastMs = Math.max(leastMs, probe.leastMs);
+      mostMs = Math.min(mostMs, probe.mostMs);
+      if (rttOf(probe) < rttOf(shortest)) shortest = probe;
+    }
+    this.#minRttMs = rttOf(shortest);
+    this.#offsetMs = middleOf(leastMs <= mostMs ? { leastMs, mostMs } : shortest);
   }
 }
 

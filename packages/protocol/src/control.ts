@@ -1,10 +1,11 @@
 /**
  * The `control` channel, opened by the operator, unordered and never retransmitted: late messages are worthless.
- * Operator → robot: commands, clock probes, receiver reports and STOP. Robot → operator: answers to probes and to STOP.
+ * Operator → robot: commands, holds of a goal, clock probes, receiver reports and STOP. Robot → operator: answers to probes and to STOP.
  */
 import * as z from 'zod/mini';
 import { type EstopAck, type EstopPress, estopAckSchema, estopPressSchema } from './estop-press.ts';
 import { type Twist, twistSchema } from './geometry.ts';
+import { type GoalHold, goalHoldSchema } from './goal.ts';
 import { handleSchema, uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
 
@@ -56,7 +57,7 @@ export interface ReceiverReport {
   bytesReceived: number;
 }
 
-export type OperatorControlMessage = Command | ClockProbe | ReceiverReport | EstopPress;
+export type OperatorControlMessage = Command | GoalHold | ClockProbe | ReceiverReport | EstopPress;
 export type RobotControlMessage = ClockAnswer | EstopAck;
 
 const timeMsSchema = z.number().check(z.minimum(0), z.maximum(Number.MAX_SAFE_INTEGER));
@@ -91,6 +92,7 @@ export const operatorControlCodec: JsonCodec<OperatorControlMessage> = {
   what: 'operator control message',
   schema: z.discriminatedUnion('type', [
     commandSchema,
+    goalHoldSchema,
     clockProbeSchema,
     receiverReportSchema,
     estopPressSchema,

@@ -14,6 +14,8 @@ import { telemetryCodec } from './telemetry.ts';
 
 const text = readFileSync(new URL('../../../docs/protocol.md', import.meta.url), 'utf8');
 
+const signaling = [robotToServiceCodec, serviceToRobotCodec, operatorToServiceCodec, serviceToOperatorCodec];
+
 /** Which kinds of message the examples under a heading may be. */
 const kinds: Record<string, JsonCodec<unknown>[]> = {
   '`control`, operator → robot': [operatorControlCodec],
@@ -21,7 +23,8 @@ const kinds: Record<string, JsonCodec<unknown>[]> = {
   '`session`, robot → operator': [robotSessionCodec],
   '`session`, operator → robot': [operatorSessionCodec],
   '`telemetry`': [telemetryCodec],
-  Signaling: [robotToServiceCodec, serviceToRobotCodec, operatorToServiceCodec, serviceToOperatorCodec],
+  Signaling: signaling,
+  'What robots say in the list': signaling,
 };
 
 /** Each line that begins with a brace starts a message. */

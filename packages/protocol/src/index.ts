@@ -4,6 +4,7 @@ export * from './barcode-time.ts';
 export * from './broadcast.ts';
 export * from './capture-stamp.ts';
 export * from './channels.ts';
+export { type Chat, type ChatLine, KEPT_CHAT_LINES, MAX_CHAT_LENGTH } from './chat.ts';
 export * from './clock-offset.ts';
 export * from './cloud-format.ts';
 export * from './cloud-media.ts';
@@ -12,8 +13,34 @@ export * from './colour664.ts';
 export * from './control.ts';
 export * from './diagnostics.ts';
 export * from './errors.ts';
+export { type EstopCause, estopHolders, estopReleasers, estopStarts } from './estop-cause.ts';
 export * from './estop-press.ts';
 export * from './geometry.ts';
+export {
+  type GoalCancel,
+  type GoalHold,
+  type GoalOffer,
+  type GoalPhase,
+  type GoalReason,
+  type GoalRequest,
+  type GoalState,
+  goalHasEnded,
+  goalPhases,
+  goalReasons,
+} from './goal.ts';
+export {
+  type DriveAnswer,
+  type DriveAsk,
+  type DriveOffer,
+  type DriveRequest,
+  type DriveWithdraw,
+  HANDOVER_MS,
+  type Handover,
+  type HandoverEnd,
+  type HandoverKind,
+  handoverEnds,
+  handoverKinds,
+} from './handover.ts';
 export * from './identifiers.ts';
 export * from './interventions.ts';
 export * from './json.ts';
@@ -32,6 +59,23 @@ export {
   tileRuns,
   writeTile,
 } from './map-tiles.ts';
+export {
+  decodeModelMeshes,
+  encodeModelMeshes,
+  type GridMesh,
+  MAX_DRAWN_TRIANGLES,
+  MAX_MESH_DRAWINGS,
+  MAX_MESHES,
+  MESH_STEPS,
+  type MeshDrawing,
+  type ModelMeshes,
+} from './mesh-coding.ts';
+export {
+  bytesOfBase64,
+  MAX_MESH_PART_BYTES,
+  MAX_MODEL_MESH_BYTES,
+  type ModelMeshParts,
+} from './model-meshes.ts';
 export * from './motion-state.ts';
 export {
   NEAR_REACH_M,
@@ -45,6 +89,7 @@ export {
   nearKinds,
   nearSectors,
 } from './near-field.ts';
+export { isPeopleRequest, type PeopleRequest } from './people-request.ts';
 export * from './picture-assembler.ts';
 export * from './picture-chunk.ts';
 export * from './picture-file.ts';
@@ -53,13 +98,33 @@ export { MAX_PATH_POINTS, MAX_PLACE_M, type PlannedPath } from './planned-path.t
 export * from './point-packet.ts';
 export * from './points64.ts';
 export * from './pose-algebra.ts';
-export { MAX_LISTED_OPERATORS, type Operators, type PresentOperator } from './present-operators.ts';
+export {
+  MAX_LISTED_OPERATORS,
+  type NamedOperator,
+  type Operators,
+  type PresentOperator,
+} from './present-operators.ts';
 export * from './quantity.ts';
 export * from './reading.ts';
 export * from './reference-bridge.ts';
 export * from './reference-control.ts';
 export * from './return-state.ts';
+export { type RobotAbout, shownSources } from './robot-about.ts';
 export type { BodyHeights, RobotBody } from './robot-body.ts';
+export {
+  COMMAND_DETAIL_LENGTH,
+  COMMAND_ID,
+  type CommandAnswer,
+  type CommandBar,
+  type CommandCall,
+  type CommandOutcome,
+  type CommandRefusal,
+  commandBars,
+  commandOutcomes,
+  commandRefusals,
+  MAX_ROBOT_COMMANDS,
+  type RobotCommand,
+} from './robot-command.ts';
 export {
   type JointPositions,
   MAX_JOINT_POSITION,
@@ -82,6 +147,7 @@ export * from './sign-in.ts';
 export * from './signaling/farpoint.ts';
 export * from './signaling/reference.ts';
 export * from './signaling/robot-list.ts';
+export { applyStatusesChanged, type RobotStatus, type StatusOfRobot } from './signaling/robot-status.ts';
 export * from './sound-media.ts';
 export * from './stream-switch.ts';
 export * from './telemetry.ts';

@@ -5,8 +5,10 @@ import { describe, expect, test } from 'vitest';
 import { broadcastCodec } from './broadcast.ts';
 import { clockAnswerCodec, commandRejections, operatorControlCodec, robotControlCodec } from './control.ts';
 import { ProtocolError } from './errors.ts';
+import { goalReasons } from './goal.ts';
 import { decodeJson, encodeJson, encodeJsonBytes, type JsonCodec, type MessageData } from './json.ts';
 import { referenceControlCodec } from './reference-control.ts';
+import { commandRefusals } from './robot-command.ts';
 import { operatorSessionCodec, robotSessionCodec } from './session-codecs.ts';
 import { faultReasons } from './session-messages.ts';
 import {
@@ -137,7 +139,7 @@ describe.each(codecs)('%s', (file, codec) => {
 });
 
 test.each([
-  ['robot-session', 'reason', [...commandRejections, ...faultReasons]],
+  ['robot-session', 'reason', [...commandRejections, ...faultReasons, ...goalReasons, ...commandRefusals]],
   ['telemetry', 'drive', driveStates],
   ['signaling-service-to-robot', 'code', signalingErrorCodes],
   ['signaling-service-to-robot', 'reason', operatorEndReasons],

@@ -1,14 +1,27 @@
 /** The messages of the `session` channel as JSON: what is read is checked. */
 import * as z from 'zod/mini';
 import { alarmSchema } from './alarm.ts';
+import { chatLineSchema, chatSchema } from './chat.ts';
 import { CLOUD_FORMATS } from './cloud-format.ts';
 import { commandRejections } from './control.ts';
+import { estopCauseSchema } from './estop-cause.ts';
+import { goalCancelSchema, goalOfferSchema, goalRequestSchema, goalStateSchema } from './goal.ts';
+import {
+  driveAnswerSchema,
+  driveAskSchema,
+  driveOfferSchema,
+  driveWithdrawSchema,
+  handoverSchema,
+} from './handover.ts';
 import { displayNameSchema, handleSchema, robotIdSchema, uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
+import { modelMeshesSchema } from './model-meshes.ts';
 import { MAX_CAMERAS } from './picture-chunk.ts';
 import { MAX_SENSORS } from './placement.ts';
 import { operatorsSchema } from './present-operators.ts';
 import { quantitySchema } from './quantity.ts';
+import { robotAboutSchema } from './robot-about.ts';
+import { commandAnswerSchema, commandCallSchema, robotCommandSchema } from './robot-command.ts';
 import { robotModelSchema } from './robot-model.ts';
 import { roles } from './role.ts';
 import { sensorRingsSchema, sensorSchema } from './sensor-rings.ts';
@@ -83,6 +96,7 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
         height: z.int().check(z.positive()),
         framesPerSecond: positive,
       }),
+      goals: z.optional(goalOfferSchema),
       resumeKey: z.optional(handleSchema),
       access: z.optional(
         z.strictObject({ role: z.enum(roles), name: displayNameSchema, expiresInS: secondsSchema }),
@@ -145,12 +159,20 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
         z.strictObject({ state: z.enum(VOICE_STATES), detail: z.optional(soundDetailSchema) }),
       ),
     }),
+    estopCauseSchema,
+    goalStateSchema,
+    robotCommandSchema,
+    commandAnswerSchema,
     sensorRingsSchema,
+    robotAboutSchema,
     robotModelSchema,
+    modelMeshesSchema,
     quantitySchema,
     alarmSchema,
     z.strictObject({ type: z.literal('expires'), inS: secondsSchema }),
     operatorsSchema,
+    handoverSchema,
+    chatLineSchema,
     z.strictObject({
       type: z.literal('fault'),
       message: z.string().check(z.maxLength(512)),
@@ -171,6 +193,14 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
       press: z.optional(uint32Schema),
       of: z.optional(uint32Schema),
     }),
+    goalRequestSchema,
+    goalCancelSchema,
+    commandCallSchema,
+    driveAskSchema,
+    driveOfferSchema,
+    driveAnswerSchema,
+    driveWithdrawSchema,
+    chatSchema,
     z.strictObject({ type: z.literal('stream'), running: z.boolean() }),
     z.strictObject({
       type: z.literal('cloudFormats'),
@@ -188,6 +218,10 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
       type: z.literal('videos'),
       videos: z.array(videoSchema).check(z.maxLength(MAX_VIDEOS)),
       barcode: z.optional(z.boolean()),
+    }),
+    z.strictObject({
+      type: z.literal('painted'),
+      sensors: z.array(sensorSchema).check(z.maxLength(MAX_SENSORS)),
     }),
     z.strictObject({ type: z.literal('listen'), on: z.boolean() }),
     z.strictObject({ type: z.literal('speak'), held: z.boolean() }),

@@ -2,11 +2,18 @@
  * The `session` channel, opened by the robot, ordered and reliable: who drives, what the stream is, what was refused.
  */
 import type { Alarm } from './alarm.ts';
+import type { ChatLine } from './chat.ts';
 import type { CloudFormat } from './cloud-format.ts';
 import type { CommandRejection } from './control.ts';
+import type { EstopCause } from './estop-cause.ts';
+import type { GoalOffer, GoalState } from './goal.ts';
+import type { Handover } from './handover.ts';
+import type { ModelMeshParts } from './model-meshes.ts';
 import type { Operators } from './present-operators.ts';
 import type { Quantity } from './quantity.ts';
+import type { RobotAbout } from './robot-about.ts';
 import type { RobotBody } from './robot-body.ts';
+import type { CommandAnswer, RobotCommand } from './robot-command.ts';
 import type { RobotModelParts } from './robot-model.ts';
 import type { Role } from './role.ts';
 import type { SensorRings } from './sensor-rings.ts';
@@ -65,6 +72,8 @@ export interface Welcome {
     /** Frames captured a second. */
     framesPerSecond: number;
   };
+  /** That the robot drives to places that its driver names. Left out by robots that take no goals. */
+  goals?: GoalOffer | undefined;
   /** Proves to the robot that a `session.resume` comes from this session's operator. Left out: it cannot be resumed. */
   resumeKey?: string | undefined;
   /** What the operator's grant says. Left out by robots that ask for none: then everybody may drive. */
@@ -222,12 +231,18 @@ export interface Sound {
 export const faultReasons = [
   'not-permitted', // the grant's role does not permit it
   'unknown-operator', // no operator has this number now
-  'own-session', // it is the asker's own, which it can leave
+  'own-session', // it is the asker's own, which it can leave, or which drives already
   'rate-limited', // too many such requests
   'no-room', // no more grants can be blocked
   'newer-latch', // the release meant an older latch of the emergency stop, or may have meant one
   'held-at-robot', // a stop at the robot itself is on: the emergency stop is released there
   'not-latcher', // the emergency stop is released by those who latched it
+  'not-driver', // only who drives offers the drive
+  'nobody-drives', // there is nobody to ask: the lease is free
+  'only-watches', // the other operator may not drive
+  'already-open', // the operator has a request or an offer that is not answered yet
+  'not-open', // the request or offer can no longer be answered, or never could by this operator
+  'estop', // the drive is not handed over while the emergency stop is latched
 ] as const;
 /**
  * Why the robot did not do what an operator asked.
@@ -249,6 +264,11 @@ export type RobotSessionMessage =
   | LeaseState
   | CommandRejected
   | EstopState
+  | EstopCause
+  | RobotAbout
+  | GoalState
+  | RobotCommand
+  | CommandAnswer
   | LatencyFrame
   | CloudStream
   | Cameras
@@ -257,10 +277,13 @@ export type RobotSessionMessage =
   | Videos
   | Sound
   | RobotModelParts
+  | ModelMeshParts
   | Quantity
   | Alarm
   | GrantExpires
   | Operators
+  | Handover
+  | ChatLine
   | SessionFault;
 
 export const PROTOCOL_VERSION = 1;

@@ -1,5 +1,8 @@
 /** What an operator sends on the `session` channel; what the robot sends on it is in session-messages.ts. */
 import type { CloudFormat } from './cloud-format.ts';
+import type { GoalCancel, GoalRequest } from './goal.ts';
+import type { PeopleRequest } from './people-request.ts';
+import type { CommandCall } from './robot-command.ts';
 
 /** Requests the lease. `take` asks to take over from another operator; the robot's policy decides. */
 export interface LeaseRequest {
@@ -56,6 +59,19 @@ export interface WantedVideos {
 }
 
 /**
+ * The sensors whose clouds the operator's page paints with their cameras' videos now, by number: the colours in their
+ * packets are hardly seen, and may be coarse. A hint about colours only. It holds for {@link PAINTED_HINT_MS}; the operator
+ * repeats it every second, and says at once when it ends.
+ */
+export interface Painted {
+  type: 'painted';
+  sensors: number[];
+}
+
+/** How long a robot goes by an operator's last {@link Painted}, ms. */
+export const PAINTED_HINT_MS = 3000;
+
+/**
  * How the operator wants its link divided among the streams that want more than it carries. Weights are relative, 1–100.
  * A stream that needs less than its share leaves the rest to the others. Messages and what keeps the robot safe always
  * come first.
@@ -110,13 +126,18 @@ export type OperatorSessionMessage =
   | LeaseRequest
   | LeaseRelease
   | EstopRequest
+  | GoalRequest
+  | GoalCancel
+  | CommandCall
   | StreamRequest
   | CloudFormats
   | Pictures
   | WantedSensors
   | WantedVideos
+  | Painted
   | LinkShares
   | Listen
   | Speak
   | EndSession
+  | PeopleRequest
   | LatencyMeasured;

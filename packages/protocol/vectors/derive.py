@@ -456,6 +456,73 @@ def changed(base, path, value):
     return message
 
 
+# --- Meshes of the model: seven bits a byte, the lowest first; indices as distances from the next new vertex, which follows a 0.
+def unsigned(value):
+    out = b""
+    while value > 0x7F:
+        out += bytes([value & 0x7F | 0x80])
+        value >>= 7
+    return out + bytes([value])
+
+
+def signed(value):
+    return unsigned(2 * value if value >= 0 else -2 * value - 1)
+
+
+def floats(*values):
+    return struct.pack("<%df" % len(values), *values)
+
+
+def mesh_bytes(minimum, step, vertices, triangles):
+    out = unsigned(len(triangles)) + floats(*minimum, step)
+    last, used = [0, 0, 0], 0
+    for index in [i for triangle in triangles for i in triangle]:
+        out += unsigned(used - index)
+        if index == used:
+            out += b"".join(signed(vertices[used][axis] - last[axis]) for axis in range(3))
+            last, used = vertices[used], used + 1
+    return out
+
+
+def drawing_bytes(mesh, link, place, colour):
+    return unsigned(mesh) + unsigned(link) + floats(*place) + unsigned(colour)
+
+
+MESH_VECTORS = []
+CORNERS = [[0, 0, 0], [4095, 0, 0], [0, 2048, 0], [17, 1, 4095]]
+FACES = [[0, 1, 2], [0, 2, 3], [3, 1, 0]]
+GRID = {"min": [-0.5, 0.25, 0.0], "step": 0.0009765625, "vertices": CORNERS, "triangles": FACES}
+AT = [1.0, -2.0, 0.5, 0.0, 0.0, 0.0, 1.0]
+MESH = mesh_bytes(GRID["min"], GRID["step"], CORNERS, FACES)
+DRAWN = drawing_bytes(0, 128, AT, 0xFEDCBA)
+VERSION_1 = b"\x01"
+
+
+def meshes_case(name, data, result=None):
+    MESH_VECTORS.append({"name": name, "hex": data.hex(), **({"fault": True} if result is None else {"meshes": result})})
+
+
+WHOLE = VERSION_1 + unsigned(2) + unsigned(3) + unsigned(0) + unsigned(1) + MESH + unsigned(1) + DRAWN
+meshes_case("a mesh in place of two shapes", WHOLE, {"insteadOf": [3, 4], "meshes": [GRID], "drawings": [{"mesh": 0, "link": 128, "place": AT, "colour": 0xFEDCBA}]})
+meshes_case("nothing", VERSION_1 + bytes(3), {"insteadOf": [], "meshes": [], "drawings": []})
+meshes_case("a mesh that is drawn twice", VERSION_1 + b"\0" + unsigned(1) + MESH + unsigned(2) + DRAWN + drawing_bytes(0, 0, AT, 7),
+            {"insteadOf": [], "meshes": [GRID], "drawings": [{"mesh": 0, "link": 128, "place": AT, "colour": 0xFEDCBA}, {"mesh": 0, "link": 0, "place": AT, "colour": 7}]})
+meshes_case("empty", b"")
+meshes_case("another version", b"\x02" + WHOLE[1:])
+meshes_case("cut off", WHOLE[:-1])
+meshes_case("a byte too long", WHOLE + b"\0")
+meshes_case("more triangles than bytes", VERSION_1 + b"\0" + unsigned(1) + unsigned(20000))
+meshes_case("a number of five bytes", VERSION_1 + b"\x80\x80\x80\x80\x00" + WHOLE[2:])
+meshes_case("a vertex before the first", VERSION_1 + b"\0" + unsigned(1) + unsigned(1) + floats(0, 0, 0, 0.001) + unsigned(1) + bytes(20) + unsigned(0))
+meshes_case("a vertex off the grid", VERSION_1 + b"\0" + unsigned(1) + unsigned(1) + floats(0, 0, 0, 0.001) + unsigned(0) + signed(-1) + bytes(12) + unsigned(0))
+meshes_case("no grid", VERSION_1 + b"\0" + unsigned(1) + mesh_bytes([0, 0, 0], 0, CORNERS, FACES) + unsigned(0))
+meshes_case("a drawing of no mesh", VERSION_1 + b"\0" + unsigned(1) + MESH + unsigned(1) + drawing_bytes(1, 0, AT, 0))
+meshes_case("a drawing that is nowhere", VERSION_1 + b"\0" + unsigned(1) + MESH + unsigned(1) + drawing_bytes(0, 0, [float("nan")] + AT[1:], 0))
+meshes_case("a drawing without a unit quaternion", VERSION_1 + b"\0" + unsigned(1) + MESH + unsigned(1) + drawing_bytes(0, 0, AT[:6] + [0.5], 0))
+meshes_case("a shape that no model has", VERSION_1 + unsigned(1) + unsigned(512) + bytes(2))
+write("model-meshes.json", {"read": MESH_VECTORS})
+
+
 class Messages:
     def __init__(self):
         self.valid, self.invalid = [], []
@@ -520,6 +587,10 @@ control.bad("a key of the prototype", json.dumps(command)[:-1] + ',"__proto__":{
 control.spoil(probe, ("id", -1), ("sentMs", ABSENT), ("robotMs", 1, ""))
 control.spoil(report, ("packetsLost", -1), ("packetsReceived", 0.5), ("bytesReceived", 2 ** 53))
 control.spoil(press, ("press", -1), ("press", ABSENT), ("press", 1.5), ("press", "1"), ("latch", True, ""))
+hold = control.good({"type": "goalHold", "goal": 3, "sequence": 18, "timeMs": 52336.5, "lease": "0f3a9c", "seenUs": 4294967295})
+control.good({"type": "goalHold", "goal": 2 ** 32 - 1, "sequence": 0, "timeMs": 0, "lease": "0f3a9c"}, "goalHold: the largest goal, nothing is seen")
+control.spoil(hold, ("goal", -1), ("goal", ABSENT), ("sequence", 2 ** 32), ("sequence", ABSENT), ("timeMs", -1), ("lease", ""), ("lease", ABSENT),
+              ("seenUs", 0.5), ("twist", 1, ""), ("deadMan", True, ""))
 write("operator-control.json", control.lists())
 
 answer = Messages()
@@ -558,6 +629,16 @@ robot_session.spoil(tall, ("body.heights.clearanceM", -0.01), ("body.heights.cle
                     ("body.heights.widthM", 1, "body.heights"), ("body.heights", None))
 for role in ["watch", "supervise"]:
     robot_session.good(changed(admitted, "access.role", role), "welcome, role: " + role)
+about = robot_session.good({"type": "about", "drives": True, "shows": "sensors", "recorded": False})
+robot_session.good({"type": "about", "drives": True, "shows": "simulation", "recorded": True}, "about a simulated robot")
+robot_session.good({"type": "about", "drives": False, "shows": "files", "recorded": False}, "about a robot that plays files")
+robot_session.spoil(about, ("drives", 1), ("drives", None), ("shows", "camera"), ("recorded", "no"))
+caused = robot_session.good({"type": "estopCause", "latch": 7, "pressedBy": "Ada", "yours": True, "heldBy": ["gpio", "key"], "start": "was-latched", "release": "latcher"})
+for start in "unclean-exit", "unreadable", "unwritable":
+    robot_session.good({"type": "estopCause", "latch": 1, "yours": False, "start": start, "release": "driver"}, "estopCause: " + start)
+robot_session.good({"type": "estopCause", "latch": 2 ** 32 - 1, "pressedBy": "Grace", "yours": False, "release": "supervisor"}, "estopCause: released by supervisors")
+robot_session.good({"type": "estopCause", "latch": 3, "yours": False, "heldBy": ["topic", "shm"], "release": "driver"}, "estopCause: held at the robot")
+robot_session.spoil(caused, ("latch", -1), ("pressedBy", 3), ("yours", "me"), ("heldBy", []), ("heldBy.0", "button"), ("start", "crash"), ("release", "robot"))
 expires = robot_session.good({"type": "expires", "inS": 60})
 present = {"number": 4, "name": "Ada", "role": "drive", "drives": True, "you": True}
 operators = robot_session.good({"type": "operators", "operators": [present, {"number": 7, "name": "Sue", "role": "supervise", "drives": False, "you": False}]})
@@ -566,7 +647,8 @@ robot_session.good({"type": "operators", "operators": [{**present, "number": 2 *
 robot_session.spoil(operators, ("operators", ABSENT), ("operators", [present] * 17), ("operators.0.number", -1), ("operators.0.number", 2 ** 32),
                     ("operators.1.name", ""), ("operators.1.role", "root"), ("operators.1.drives", 1), ("operators.0.you", ABSENT),
                     ("operators.1.session", "s1", "operators.1"), ("more", 0), ("more", 0.5))
-for reason in ["unknown-operator", "own-session", "rate-limited", "no-room", "newer-latch", "held-at-robot", "not-latcher"]:
+for reason in ["unknown-operator", "own-session", "rate-limited", "no-room", "newer-latch", "held-at-robot", "not-latcher", "not-driver", "nobody-drives",
+               "only-watches", "already-open", "not-open", "estop"]:
     robot_session.good({"type": "fault", "message": "", "reason": reason}, "fault: " + reason)
 robot_session.good({"type": "lease", "holder": "other", "driver": "Ada"}, "lease held by another, who is named")
 robot_session.good({"type": "fault", "message": "your grant lets you watch", "reason": "not-permitted"}, "fault: not permitted")
@@ -663,6 +745,53 @@ robot_session.spoil(model, ("number", -1), ("number", 2 ** 32), ("count", 641), 
                     ("parts.0.axis", ABSENT), ("parts.0.name", "wheel", "parts.0"), ("parts.2.link", 129), ("parts.2.link", 0.5), ("parts.2.form", "mesh"),
                     ("parts.2.size", [1, 1]), ("parts.2.size", [1, 1, 0], "parts.2.size.2"), ("parts.2.size", [1, 1, 101], "parts.2.size.2"), ("parts.3.size", [1]),
                     ("parts.4.size", []), ("parts.2.colour", 16777216), ("parts.2.colour", "red"), ("parts.2.mesh", "a.stl", "parts.2"), ("scale", 1, ""))
+meshes = robot_session.good({"type": "modelMeshes", "model": 2, "count": 723, "at": 720, "data": "AQID"})
+robot_session.good({**meshes, "count": 262144, "at": 0, "data": base64.b64encode(bytes(720)).decode()}, "modelMeshes: the longest")
+robot_session.good({**meshes, "count": 721, "data": "AQ=="}, "modelMeshes: the last byte")
+robot_session.spoil(meshes, ("model", -1), ("model", ABSENT), ("count", 0), ("count", 262145), ("count", 722, "data"), ("at", -1), ("at", 721, "data"), ("at", 0.5),
+                    ("data", ""), ("data", "AQI"), ("data", "*QID"), ("data", ABSENT), ("data", "A" * 964), ("data", [1]), ("file", "a.stl", ""))
+offering = robot_session.good({**welcome, "goals": {"mostM": 20}}, "welcome from a robot that takes goals")
+robot_session.spoil(offering, ("goals.mostM", 0), ("goals.mostM", ABSENT), ("goals.mostM", 1000001), ("goals", True), ("goals.topic", "/goal_pose", "goals"))
+going = robot_session.good({"type": "goalState", "id": 3, "state": "driving"})
+for phase in ["accepted", "reached"]:
+    robot_session.good({"type": "goalState", "id": 2 ** 32 - 1, "state": phase}, "goalState: " + phase)
+for reason in ["off", "not-permitted", "not-lease-holder", "repeated", "stale", "rate-limited", "too-far", "outside-fence", "estop", "no-wheels", "no-pose"]:
+    ended = robot_session.good({"type": "goalState", "id": 0, "state": "refused", "reason": reason}, "goalState refused: " + reason)
+for reason in ["asked", "replaced", "stick", "silence", "lease-lost", "navigator-silent", "pose-jump"]:
+    robot_session.good({"type": "goalState", "id": 0, "state": "cancelled", "reason": reason}, "goalState cancelled: " + reason)
+for reason in ["obstacle", "fence", "view", "no-progress"]:
+    robot_session.good({"type": "goalState", "id": 0, "state": "blocked", "reason": reason}, "goalState blocked: " + reason)
+robot_session.spoil(going, ("id", -1), ("id", ABSENT), ("state", "lost"), ("state", ABSENT), ("reason", "asked"), ("x", 1, ""))
+robot_session.spoil(ended, ("reason", "because"), ("reason", ABSENT), ("state", "reached", "reason"))
+lights = robot_session.good({"type": "robotCommand", "id": "lights-on", "label": "Lights on"})
+robot_session.good({"type": "robotCommand", "id": "0" * 32, "label": "Dock", "group": "Battery", "confirm": True, "barred": "estop"}, "robotCommand: all that it may say")
+for bar in ["not-permitted", "not-driver"]:
+    robot_session.good({**lights, "barred": bar}, "robotCommand barred: " + bar)
+robot_session.spoil(lights, ("id", ""), ("id", ABSENT), ("id", "a" * 33), ("id", "Lights"), ("id", "-on"), ("id", "a/b"), ("label", ""), ("label", ABSENT), ("label", "x" * 65),
+                    ("label", "a\nb"), ("group", ""), ("group", 1), ("confirm", False), ("barred", "busy"), ("topic", "/lights", ""))
+done = robot_session.good({"type": "commandAnswer", "request": 7, "outcome": "done"})
+robot_session.good({"type": "commandAnswer", "request": 2 ** 32 - 1, "outcome": "failed", "detail": "x" * 200}, "commandAnswer: failed, the longest detail")
+robot_session.good({"type": "commandAnswer", "request": 0, "outcome": "timed-out"}, "commandAnswer: timed out")
+for reason in ["not-permitted", "not-driver", "estop", "unknown", "too-often", "busy", "stale"]:
+    turned_down = robot_session.good({"type": "commandAnswer", "request": 7, "outcome": "refused", "reason": reason}, "commandAnswer refused: " + reason)
+robot_session.spoil(done, ("request", -1), ("request", ABSENT), ("request", 2 ** 32), ("outcome", "perhaps"), ("outcome", ABSENT), ("reason", "busy"), ("detail", ""),
+                    ("detail", "x" * 201), ("id", "lights-on", ""))
+robot_session.spoil(turned_down, ("reason", "because"), ("reason", ABSENT), ("outcome", "done", "reason"))
+away = robot_session.good({**operators, "operators": [present, {"number": 7, "name": "Bob", "claimed": True, "role": "drive", "drives": False, "you": False,
+                                                               "away": True}], "drivesForS": 0}, "operators: one is away, and nothing proves its name")
+robot_session.spoil(away, ("drivesForS", -1), ("drivesForS", 0.5), ("operators.1.claimed", False), ("operators.1.away", False), ("operators.1.away", 1))
+ada, bob = {"number": 4, "name": "Ada"}, {"number": 7, "name": "Bob", "claimed": True}
+asked = robot_session.good({"type": "handover", "id": 3, "kind": "ask", "from": bob, "to": ada, "yours": False, "leftMs": 15000})
+robot_session.good({"type": "handover", "id": 2 ** 32 - 1, "kind": "offer", "from": ada, "to": bob, "yours": True, "leftMs": 0}, "handover: an offer in its last moment")
+for end in ["accepted", "refused", "withdrawn", "expired", "driver-changed", "left", "estop"]:
+    over = robot_session.good({"type": "handover", "id": 0, "kind": "offer", "from": ada, "to": bob, "yours": True, "ended": end}, "handover: " + end)
+robot_session.spoil(asked, ("id", -1), ("id", ABSENT), ("kind", "give"), ("kind", ABSENT), ("from", "Bob"), ("from", ABSENT), ("from.name", ""), ("to.number", -1),
+                    ("to.role", "drive", "to"), ("yours", ABSENT), ("yours", 1), ("leftMs", -1), ("leftMs", 15001), ("leftMs", 0.5), ("leftMs", ABSENT, "ended"),
+                    ("ended", "accepted"), ("lease", "0f3a9c", ""))
+robot_session.spoil(over, ("ended", "given"), ("ended", ABSENT))
+said = robot_session.good({"type": "chatLine", "number": 12, "from": bob, "yours": False, "text": "Mind the <b>step</b> \U0001f44d", "agoS": 7})
+robot_session.spoil(said, ("number", -1), ("number", ABSENT), ("from", ABSENT), ("from.name", "\x07"), ("yours", ABSENT), ("text", ""), ("text", "a\nb"), ("text", "x" * 201),
+                    ("text", ABSENT), ("agoS", -1), ("agoS", 0.5), ("agoS", ABSENT), ("html", True, ""))
 write("robot-session.json", robot_session.lists())
 
 operator_session = Messages()
@@ -680,6 +809,9 @@ operator_session.good({"type": "cloudFormats", "formats": []}, "cloudFormats: no
 pictures = operator_session.good({"type": "pictures", "cameras": [0, 2]})
 wanted = operator_session.good({"type": "sensors", "sensors": [0, 1]})
 operator_session.good({"type": "sensors", "sensors": []}, "sensors: none")
+painted = operator_session.good({"type": "painted", "sensors": [0, 7]})
+operator_session.good({"type": "painted", "sensors": []}, "painted: none")
+operator_session.spoil(painted, ("sensors", ABSENT), ("sensors", [8], "sensors.0"), ("sensors", [0.5], "sensors.0"), ("sensors", [0] * 9), ("on", True, ""))
 operator_session.good({"type": "pictures", "cameras": []}, "pictures: none")
 wanted_videos = operator_session.good({"type": "videos", "videos": [0, 1]})
 operator_session.good({"type": "videos", "videos": []}, "videos: none")
@@ -710,6 +842,31 @@ operator_session.common(stop, 1024)
 operator_session.spoil(request, ("take", ABSENT), ("take", 0), ("limits", limits, ""))
 operator_session.spoil(stop, ("latch", "true"), ("latch", ABSENT), ("type", "eStop"))
 operator_session.spoil(stream, ("running", None))
+goal = operator_session.good({"type": "goal", "id": 3, "timeMs": 52311.5, "lease": "0f3a9c", "x": 4.25, "y": -1.5, "yaw": 1.5708})
+operator_session.good({"type": "goal", "id": 2 ** 32 - 1, "timeMs": 0, "lease": "0f3a9c", "x": -1000000, "y": 1000000}, "goal: in any direction, as far as there may be")
+take_back = operator_session.good({"type": "goalCancel", "id": 3})
+operator_session.spoil(goal, ("id", -1), ("id", ABSENT), ("timeMs", -1), ("timeMs", ABSENT), ("lease", ""), ("lease", ABSENT), ("x", 1000000.5), ("x", None),
+                       ("x", ABSENT), ("y", "1"), ("y", ABSENT), ("yaw", 3.2), ("yaw", None), ("z", 0, ""), ("frame", "map", ""))
+operator_session.spoil(take_back, ("id", ABSENT), ("id", 2 ** 32), ("lease", "0f3a9c", ""))
+call = operator_session.good({"type": "callCommand", "id": "lights-on", "request": 7, "timeMs": 52311.5})
+operator_session.good({"type": "callCommand", "id": "0", "request": 2 ** 32 - 1, "timeMs": 0}, "callCommand: the shortest id, the largest request")
+operator_session.spoil(call, ("id", ""), ("id", ABSENT), ("id", "a" * 33), ("id", "../x"), ("id", "LIGHTS"), ("id", 7), ("request", -1), ("request", ABSENT), ("request", 0.5),
+                       ("timeMs", -1), ("timeMs", ABSENT), ("topic", "/cmd_vel", ""), ("type", "call"), ("message", {"data": True}, ""))
+asks = operator_session.good({"type": "driveAsk"})
+offers = operator_session.good({"type": "driveOffer", "to": 7})
+for accept in [True, False]:
+    answers = operator_session.good({"type": "driveAnswer", "id": 3, "accept": accept}, "driveAnswer: " + ("accept" if accept else "refuse"))
+withdraws = operator_session.good({"type": "driveWithdraw", "id": 3})
+operator_session.spoil(asks, ("to", 7, ""), ("lease", "0f3a9c", ""))
+operator_session.spoil(offers, ("to", -1), ("to", 2 ** 32), ("to", "Bob"), ("to", ABSENT), ("lease", "0f3a9c", ""))
+operator_session.spoil(answers, ("id", -1), ("id", ABSENT), ("accept", ABSENT), ("accept", 1), ("from", 7, ""))
+operator_session.spoil(withdraws, ("id", ABSENT), ("id", 0.5), ("kind", "ask", ""))
+line = operator_session.good({"type": "chat", "text": "Mind the <b>step</b> \U0001f469\u200d\U0001f527"})
+operator_session.good({"type": "chat", "text": "x" * 200}, "chat: the longest line")
+operator_session.good({"type": "chat", "text": "x"}, "chat: the shortest line")
+operator_session.spoil(line, ("text", ABSENT), ("text", ""), ("text", " \u00a0\u200d "), ("text", "x" * 201), ("text", "a\nb"), ("text", "a\tb"),
+                       ("text", "\x1b[2J"), ("text", "\x85"), ("text", "a\u2028b"), ("text", "a\u2029b"), ("text", "\u202eab"), ("text", "\u2066ab"), ("text", 7),
+                       ("text", ["a"]), ("to", 7, ""), ("from", "Ada", ""))
 write("operator-session.json", operator_session.lists())
 
 telemetry = Messages()
@@ -865,6 +1022,14 @@ error = {"type": "error", "code": "unknown-robot", "message": "no robot 'sim-9' 
 servers = [{"urls": "stun:stun.example.org"},
            {"urls": ["turn:turn.example.org", "turns:turn.example.org"], "username": "u", "credential": "c"}]
 
+# What a robot says about itself for the list of robots.
+status = {"battery": 0.78, "estop": False, "moving": True, "driven": True, "driver": "Ada", "operators": 1, "maxOperators": 4, "alarms": 0}
+quiet_status = {"estop": True, "moving": False, "driven": False, "operators": 0, "maxOperators": 1000000, "alarms": 1000000}
+def bad_statuses(at):
+    return [(at, ABSENT), (at, None), (at + ".battery", 1.01), (at + ".battery", -0.01), (at + ".battery", None), (at + ".estop", ABSENT),
+            (at + ".estop", 1), (at + ".moving", ABSENT), (at + ".driven", "Ada"), (at + ".driver", ""), (at + ".operators", 0.5),
+            (at + ".operators", -1), (at + ".maxOperators", 1000001), (at + ".alarms", ABSENT), (at + ".pose", [0, 0], at)]
+
 m = Messages()
 hello = m.good({"type": "robot.hello", "protocol": 1, "id": "sim-1", "name": "Simulated robot", "key": "k_0-Z", "token": "secret"})
 m.good(changed(hello, "token", ABSENT), "robot.hello without a token")
@@ -888,6 +1053,11 @@ m.spoil(offer, ("session", ""), ("session", "s 1"), ("sdp", ""), ("sdp", ABSENT)
 m.spoil(trickle, ("candidate", CANDIDATE), ("candidate.candidate", "x" * 1025), ("candidate.sdpMLineIndex", -1), ("candidate.extra", 1, "candidate"))
 m.spoil(full, ("reason", "operator-left"), ("maxOperators", -1), ("maxOperators", "4"), ("detail", "x" * 301))
 m.spoil(refuse, ("claim", ABSENT), ("code", "unauthorized"), ("session", ABSENT))
+said = m.good({"type": "robot.status", "status": status})
+for battery in [0, 1]:
+    m.good({**said, "status": {**quiet_status, "battery": battery}}, "robot.status: a battery of %d" % battery)
+m.good({**said, "status": quiet_status}, "robot.status: no battery, nobody drives")
+m.spoil(said, *bad_statuses("status"), ("id", "sim-1", ""))
 write("signaling-robot-to-service.json", m.lists())
 
 m = Messages()
@@ -926,6 +1096,9 @@ m.common(m_open, 65536)
 m.spoil(hello, ("protocol", "1"), ("name", ABSENT), ("token", 5))
 m.spoil(m_resume, ("robotId", ABSENT), ("session", ABSENT), ("session", "a b"), ("resumeKey", ABSENT), ("resumeKey", "a.b"))
 m.spoil(m_open, ("robotId", 0), ("robotId", "../x"), ("type", "session.offer"))
+watch = m.good({"type": "statuses.watch", "on": True})
+m.good({**watch, "on": False}, "statuses.watch: no longer")
+m.spoil(watch, ("on", ABSENT), ("on", 1), ("robots", ["sim-1"], ""))
 write("signaling-operator-to-service.json", m.lists())
 
 GOOD_SIGN_IN_URLS = ["https://issuer.example/sign-in", "https://issuer.example:8443/a/sign-in",
@@ -988,6 +1161,12 @@ m.spoil(delta, ("here", ABSENT), ("here.0.name", ""), ("here.0.key", "k", "here.
 m.spoil(opened, ("robotId", ABSENT), ("type", "session.answer"))
 m.spoil(resuming, ("session", ABSENT), ("robotId", "sim-1", ""))
 m.spoil(ended, ("reason", "closed-by-operator"), ("maxOperators", 0.5), ("detail", 7))
+statuses = m.good({"type": "statuses", "statuses": [{"id": "sim-1", "status": status}, {"id": "r2", "status": quiet_status}]})
+m.good({"type": "statuses", "statuses": []}, "no statuses")
+news = m.good({"type": "statuses.changed", "here": [{"id": "sim-1", "status": quiet_status}], "gone": ["r2"]})
+m.good({"type": "statuses.changed", "here": [], "gone": []}, "no status changed")
+m.spoil(statuses, ("statuses", ABSENT), ("statuses.0.id", ABSENT), ("statuses.0.name", "R", "statuses.0"), *bad_statuses("statuses.1.status"))
+m.spoil(news, ("here", ABSENT), ("gone", ABSENT), ("gone.0", "R 2"), ("statuses", [], ""), *bad_statuses("here.0.status"))
 write("signaling-service-to-operator.json", m.lists())
 
 # The reference system's signaling: unknown fields are let through, ids are numbers from 0.

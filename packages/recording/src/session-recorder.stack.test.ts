@@ -52,6 +52,11 @@ async function written(tap: CloudTap): Promise<void> {
   while (tap.pending > 0) await new Promise((resolve) => setTimeout(resolve, 1));
 }
 
+/** Lets the writer tell the tap that a file is open, or is not. */
+async function told(tap: CloudTap, recording: boolean): Promise<void> {
+  while (tap.recording !== recording) await new Promise((resolve) => setTimeout(resolve, 1));
+}
+
 async function record(path: string, compression: 'none' | 'zstd' = 'none'): Promise<SessionRecorder> {
   const recorder = await SessionRecorder.open({
     ...{ path, compression, robotId: 'test', epochNs: 1_700_000_000_000_000_000n },
@@ -100,7 +105,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
   it.each(['none', 'zstd'] as const)('what it records (%s) can be played', async (compression) => {
     const path = join(folder, `${compression}.mcap`);
     const recorder = await record(path, compression);
-    expect(recorder.bytes).toBe(statSync(path).size);
+    expect(recorder.file.bytes).toBe(statSync(path).size);
     const recording = await openRecording(path);
     expect(recording.warning).toBeNull();
     const counts = Object.fromEntries(recording.topics.map(({ name, messages }) => [name, messages]));
@@ -108,7 +113,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     expect(counts).toMatchObject({ '/farpoint/cmd_vel': FRAMES, '/farpoint/telemetry': FRAMES });
     await recording.close();
     expect(counts).toMatchObject({ [FRONT]: FRAMES, [REAR]: FRAMES / 3 });
-    expect(recorder.messages).toBe(FRAMES * 9 + FRAMES / 3 + (counts['/farpoint/recorder'] ?? 0));
+    expect(recorder.file.messages).toBe(FRAMES * 9 + FRAMES / 3 + (counts['/farpoint/recorder'] ?? 0));
 
     const clock = new FakeClock();
     const player = await CloudPlayer.open(
@@ -239,7 +244,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       const { size } = statSync(path);
       expect(size).toBeLessThanOrEqual(mostBytes);
       expect(size).toBeGreaterThan(mostBytes * 0.8);
-      expect(recorder.bytes).toBe(size);
+      expect(recorder.file.bytes).toBe(size);
       const recording = await openRecording(path);
       expect(recording.warning).toBeNull();
       const messages = new Map(recording.topics.map((topic) => [topic.name, topic.messages]));
@@ -395,6 +400,85 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
   });
 });
 
+describe('files one after another', { timeout: 30_000 }, () => {
+  it('are each complete, with all topics, bookmarks, and videos from a key frame on', async () => {
+    const [first, second] = ['first.mcap', 'second.mcap'].map((name) => join(folder, name)) as [
+      string,
+      string,
+    ];
+    const epochNs = 1_700_000_000_000_000_000n;
+    const recorder = await SessionRecorder.open({
+      path: null,
+      compression: 'none',
+      robotId: 'test',
+      epochNs,
+    });
+    const asked: number[] = [];
+    recorder.onKeyFrameNeeded = (video) => asked.push(video);
+    recorder.cameras(CAMERAS);
+    recorder.videos([{ name: 'Front', format: 'h264' }]);
+    const tap = new CloudTap(recorder.clouds, { captured: 1000, sent: 0 });
+    const depth = new Float32Array(16 * 12).fill(2);
+    const colour = new Uint32Array(16 * 12);
+    let k = 0;
+    /** A frame of everything. */
+    const step = async (key: boolean) => {
+      const stamp = { cameraPose: poseAt(k), capturedAtMs: k * 100 };
+      tap.captured({ form: 'images', depth, colour, ...stamp }, GRID);
+      recorder.video({ video: 0, capturedAtMs: k * 100, key, format: 'h264', bytes: frameOf(0, k) });
+      recorder.json('telemetry', k * 100, { k });
+      k++;
+      await written(tap);
+    };
+    await told(tap, false);
+    await step(true);
+    expect(recorder.writing).toBe(false);
+    await recorder.file.open(first);
+    await told(tap, true);
+    await expect(recorder.file.open(second)).rejects.toThrow('another file is being written');
+    await step(false);
+    await step(true);
+    recorder.bookmark(k * 100, '1, by Ann');
+    await step(false);
+    await recorder.file.close();
+    await told(tap, false);
+    await step(false);
+    await expect(recorder.file.open(first)).rejects.toThrow('EEXIST');
+    await recorder.file.open(second);
+    await told(tap, true);
+    await step(false);
+    await step(true);
+    await recorder.close();
+
+    const countsOf = async (path: string) => {
+      const recording = await openRecording(path);
+      expect(recording.warning).toBeNull();
+      const counts = Object.fromEntries(recording.topics.map(({ name, messages }) => [name, messages]));
+      const marks: unknown[] = [];
+      for await (const { topic, data } of recording.messages(['/farpoint/bookmarks'], 0n))
+        marks.push(topic.decode(data));
+      await recording.close();
+      return { counts, marks };
+    };
+    const one = await countsOf(first);
+    expect(one.counts).toMatchObject({
+      ...{ '/farpoint/captured': 3, '/farpoint/telemetry': 3, '/farpoint/videos/Front': 2 },
+      [FRONT]: 0,
+    });
+    expect(one.marks).toMatchObject([
+      { message: '1, by Ann', name: 'bookmark', timestamp: { sec: 1_700_000_000 } },
+    ]);
+    const two = await countsOf(second);
+    expect(two.counts).toMatchObject({
+      ...{ '/farpoint/captured': 2, '/farpoint/telemetry': 2, '/farpoint/videos/Front': 1 },
+      '/farpoint/bookmarks': 0,
+    });
+    expect(two.marks).toEqual([]);
+    expect(recorder.file.bytes).toBe(statSync(first).size + statSync(second).size);
+    expect(asked).toContain(0);
+  });
+});
+
 const peers = Peers.install();
 describe.skipIf(typeof peers === 'string')(
   `recordings read by PyPI’s mcap and rosbags ${typeof peers === 'string' ? `(${peers})` : ''}`,
@@ -407,7 +491,7 @@ describe.skipIf(typeof peers === 'string')(
         const recorder = await record(path, compression);
         const { topics, messages, profile } = (peers as Peers).read(path);
         expect(profile).toBe('ros2');
-        expect(messages).toBe(recorder.messages);
+        expect(messages).toBe(recorder.file.messages);
         for (const topic of ['/farpoint/captured', '/odom', '/farpoint/cmd_vel', '/farpoint/telemetry']) {
           expect(topics[topic]).toMatchObject({ count: FRAMES, sequence: FRAMES - 1 });
         }

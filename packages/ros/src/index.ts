@@ -2,6 +2,8 @@ export { compressedPicture } from './compressed-picture.ts';
 export { definitionsOf } from './definitions.ts';
 export { DiagnosticBoard } from './diagnostic-board.ts';
 export { RosFault, type RosFaultCode } from './fault.ts';
+export { fixedMessage } from './fixed-message.ts';
+export { GOAL_POSE_TYPE, type GoalPoseWriter, goalPoseWriter } from './goal-pose.ts';
 export {
   type AdvertiseAs,
   type GraphTopic,
@@ -74,9 +76,17 @@ export {
 } from './topic-table.ts';
 export { TransformTree } from './transform-tree.ts';
 export type { JointSource } from './urdf/joint-sources.ts';
+export type { LinkMeshes, MeshUse } from './urdf/link-meshes.ts';
 export type { JointNews, ModelNews } from './urdf/model-news.ts';
-export { ModelTopic, modelReading, newsOf } from './urdf/model-topic.ts';
+export {
+  allMeshesLeft,
+  type MeshesLeft,
+  ModelTopic,
+  modelReading,
+  modelWords,
+  newsOf,
+} from './urdf/model-topic.ts';
 export { type RobotModel, readUrdf } from './urdf/read-urdf.ts';
 export { UrdfFault, type UrdfFaultCode, urdfFaultCodes } from './urdf/urdf-fault.ts';
-export { type VelocityWriter, velocityWriter } from './velocity.ts';
+export { type VelocityWriter, velocityReader, velocityWriter } from './velocity.ts';
 export { type TypedTopic, WorldState } from './world-state.ts';

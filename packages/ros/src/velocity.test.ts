@@ -1,8 +1,9 @@
 import type { Twist } from '@farpoint/protocol';
+import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { RosFault } from './fault.ts';
 import { decoderOf } from './message-decoder.ts';
-import { velocityWriter } from './velocity.ts';
+import { velocityReader, velocityWriter } from './velocity.ts';
 
 const twist: Twist = { linear: { x: 0.5, y: 0, z: 0 }, angular: { x: 0, y: 0, z: -1.25 } };
 const hex = (bytes: Uint8Array) => Buffer.from(bytes).toString('hex');
@@ -25,6 +26,33 @@ describe('velocities', () => {
     });
     const { stamp } = (message as { header: { stamp: { nsec?: number; nanosec?: number } } }).header;
     expect(stamp.nsec ?? stamp.nanosec).toBe(9);
+  });
+
+  it.each([1, 2] as const)('are read in ROS %i, and nothing else is', (version) => {
+    for (const type of ['geometry_msgs/msg/Twist', 'geometry_msgs/msg/TwistStamped']) {
+      const [write, read] = [velocityWriter(version, type), velocityReader(version, type)];
+      const bytes = write(twist, 1n, 'base_link');
+      expect(read(bytes)).toEqual(twist);
+      for (let length = 0; length < bytes.length; length++)
+        expect(read(bytes.subarray(0, length))).toBeNull();
+      const wild = { ...twist, linear: { x: Number.NaN, y: 0, z: 0 } };
+      expect(read(write(wild, 1n, 'base_link'))).toBeNull();
+      const endless = { ...twist, angular: { x: 0, y: 0, z: Number.POSITIVE_INFINITY } };
+      expect(read(write(endless, 1n, 'base_link'))).toBeNull();
+    }
+    expect(() => velocityReader(version, 'std_msgs/msg/String')).toThrow(RosFault);
+  });
+
+  it('of any bytes are a velocity or nothing', () => {
+    const read = velocityReader(2, 'geometry_msgs/msg/Twist');
+    const bytes = fc.uint8Array({ maxLength: 80, size: 'max' });
+    fc.assert(
+      fc.property(bytes, (any) => {
+        const said = read(any);
+        expect(said === null || Number.isFinite(said.linear.x + said.angular.z)).toBe(true);
+      }),
+      { seed: 3 },
+    );
   });
 
   it('refuse any other type', () => {

@@ -34,6 +34,8 @@ export interface GateContext {
   meetEstop: (motion: boolean) => EstopAnswer;
   /** Why nothing takes the robot's velocities; `null` or undefined if something does. */
   wheelsFault?: string | null;
+  /** Whether the robot stands still; undefined: nobody can tell, and it counts as standing. */
+  stands?: boolean;
 }
 
 export interface CommandGateOptions {
@@ -56,6 +58,8 @@ interface OperatorState {
   movedMs: number | null;
   /** During what the hand held on, and has not let go since; `null` if it has. */
   mustLetGo: string | null;
+  /** The drive was handed to it, and it has not shown an open grip since the robot stands. */
+  mustOpen: boolean;
 }
 
 /**
@@ -72,7 +76,7 @@ export const WITHOUT_WHEELS = 'the wheels took no velocities';
 
 /**
  * Judges each command of each operator by itself, in this order: rate, lease, sequence, age, emergency stop, dead-man
- * grip, wheels that are away, a grip held through silence, range. Each operator has state of its own: a broken or hostile clock or counter
+ * grip, wheels that are away, a drive that was handed over, a grip held through silence, range. Each operator has state of its own: a broken or hostile clock or counter
  * spoils only its own commands.
  */
 export class CommandGate {
@@ -111,12 +115,15 @@ export class CommandGate {
       operator.movedMs = null;
       operator.mustLetGo = null;
     }
+    // A stick in its middle is not enough here: the hand may have been on it before it was asked.
+    if (!command.deadMan && context.stands !== false) operator.mustOpen = false;
     const estop = context.meetEstop(motion);
     if (motion) {
       const refusal =
         estopRefusal(estop) ??
         (command.deadMan ? null : rejected('dead-man-released', 'motion without the dead-man grip')) ??
         withoutWheels(operator, context.wheelsFault ?? null) ??
+        handedOver(operator) ??
         this.#heldThroughSilence(operator, nowMs) ??
         this.#outOfRange(command.twist);
       if (refusal !== null) return refusal;
@@ -139,9 +146,13 @@ export class CommandGate {
     return rejected('malformed', detail.slice(0, 200));
   }
 
-  /** Learns the transit time from another timestamped message of the same channel: a clock probe. */
-  observeClock(operatorId: string, sentMs: number, nowMs: number): void {
-    this.#operator(operatorId).delay.observe(sentMs, nowMs);
+  /**
+   * Learns the transit time from another timestamped message: a clock probe, a goal.
+   *
+   * @returns how much longer than usual it took, ms
+   */
+  observeClock(operatorId: string, sentMs: number, nowMs: number): number {
+    return this.#operator(operatorId).delay.observe(sentMs, nowMs);
   }
 
   /** Whoever is moving the robot now must let go before it moves again. @param why completes "held while …" */
@@ -150,9 +161,19 @@ export class CommandGate {
       if (operator.movedMs !== null) operator.mustLetGo ??= why;
   }
 
-  /** Whether this operator's hand is still to let go, as {@link requireLetGo} demanded. */
+  /** The drive was handed to this operator: it must show an open grip while the robot stands before it moves anything. */
+  requireOpenGrip(operatorId: string): void {
+    this.#operator(operatorId).mustOpen = true;
+  }
+
+  awaitsOpenGrip(operatorId: string): boolean {
+    return this.#operators.get(operatorId)?.mustOpen ?? false;
+  }
+
+  /** Whether this operator's hand is still to let go, as {@link requireLetGo} or {@link requireOpenGrip} demanded. */
   awaitsLetGo(operatorId: string): boolean {
-    return (this.#operators.get(operatorId)?.mustLetGo ?? null) !== null;
+    const operator = this.#operators.get(operatorId);
+    return operator !== undefined && (operator.mustLetGo !== null || operator.mustOpen);
   }
 
   forget(operatorId: string): void {
@@ -171,6 +192,7 @@ export class CommandGate {
         lastSequence: null,
         movedMs: null,
         mustLetGo: null,
+        mustOpen: false,
       };
     } else {
       this.#operators.delete(operatorId);
@@ -234,6 +256,12 @@ function withoutWheels(operator: OperatorState, fault: string | null): RejectedC
   }
   if (operator.mustLetGo === null) return null;
   return rejected('let-go-first', `held while ${operator.mustLetGo}: let go of it once`);
+}
+
+/** A hand that was on the grip when the drive came to it must not move the robot. */
+function handedOver({ mustOpen }: OperatorState): RejectedCommand | null {
+  if (!mustOpen) return null;
+  return rejected('let-go-first', 'the drive was handed over: open the grip once while the robot stands');
 }
 
 function rejected(reason: CommandRejection, detail: string): RejectedCommand {

@@ -41,6 +41,10 @@ const step = fc.oneof(
     arbitrary: fc.record({ kind: fc.constant('latch' as const), by: fc.constantFrom('operator', 'robot') }),
   },
   { weight: 2, arbitrary: fc.record({ kind: fc.constant('unlatch' as const), by: operator }) },
+  {
+    weight: 1,
+    arbitrary: fc.record({ kind: fc.constant('handOver' as const), by: operator, to: operator }),
+  },
 );
 const timedStep = fc.record({
   waitMs: fc.constantFrom(0, 1, 5, 10, 20, 20, 20, 50, 149, 150, 151, 1000, 6000, 20_000),
@@ -60,6 +64,7 @@ function checkAnything(letGoAfterMs: number | undefined): void {
   let moved = 0;
   let checked = 0;
   let letGo = 0;
+  let handedOver = 0;
   fc.assert(
     fc.property(fc.array(timedStep, { minLength: 1, maxLength: 80, size: 'max' }), (steps) => {
       let handles = 0;
@@ -77,6 +82,8 @@ function checkAnything(letGoAfterMs: number | undefined): void {
       const sequences = new Map<string, number>();
       /** When a hand that has not let go since was last obeyed. */
       const held = new Map<string, number>();
+      /** Who got the drive from another's hand and has not shown an open grip since. */
+      const mustOpen = new Set<string>();
 
       const check = (atMs: number) => {
         checked++;
@@ -117,6 +124,8 @@ function checkAnything(letGoAfterMs: number | undefined): void {
           const verdict = guard.onCommand(by, command, nowMs);
           if (verdict.accepted) {
             expect(by).toBe(holder);
+            if (!step.deadMan) mustOpen.delete(by);
+            if (!isZeroTwist(command.twist)) expect(mustOpen.has(by)).toBe(false);
             expect(step.y).toBe(0);
             expect(Math.abs(step.x)).toBeLessThan(1.001);
             if (isZeroTwist(command.twist)) held.delete(by);
@@ -131,7 +140,10 @@ function checkAnything(letGoAfterMs: number | undefined): void {
             if (verdict.reason === 'dead-man-released') last = null;
             // These do not express the operator's present request.
             const passedOver = ['malformed', 'rate-limited', 'not-lease-holder', 'repeated', 'stale'];
-            if (!step.deadMan && !passedOver.includes(verdict.reason)) held.delete(by);
+            if (!step.deadMan && !passedOver.includes(verdict.reason)) {
+              held.delete(by);
+              mustOpen.delete(by);
+            }
             if (verdict.reason === 'let-go-first') letGo++;
           }
         } else if (step.kind === 'request') {
@@ -147,6 +159,7 @@ function checkAnything(letGoAfterMs: number | undefined): void {
           if (free) holder = null;
           if (free) last = null;
           if (step.kind === 'gone') held.delete(by);
+          if (step.kind === 'gone') mustOpen.delete(by);
         } else if (step.kind === 'latch') {
           guard.latchEstop(by === 'robot' ? 'robot' : 'operator');
           latched = true;
@@ -155,6 +168,17 @@ function checkAnything(letGoAfterMs: number | undefined): void {
           const outcome = guard.releaseEstop(by, nowMs);
           expect(outcome.released).toBe(latched && holder === by);
           if (outcome.released) latched = false;
+        } else if (step.kind === 'handOver') {
+          const { to } = step;
+          expect(guard.handOver(by, to, nowMs)).toBe(holder === by && to !== by);
+          if (holder === by && to !== by) {
+            handedOver++;
+            holder = to;
+            last = null;
+            mustOpen.add(to);
+            const { lease } = guard.leaseState(to);
+            leases.set(to, lease ?? '');
+          }
         } else {
           guard.onMalformed(by, 'not valid JSON', nowMs);
         }
@@ -169,4 +193,5 @@ function checkAnything(letGoAfterMs: number | undefined): void {
   // Without this check, the property would hold for a robot that never moves.
   expect(moved / checked).toBeGreaterThan(0.015);
   expect(letGo).toBeGreaterThan(0);
+  expect(handedOver).toBeGreaterThan(0);
 }

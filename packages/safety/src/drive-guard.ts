@@ -3,66 +3,56 @@ import {
   type Command,
   type DriveLimits,
   type DriveState,
-  type EstopState,
+  type GoalHold,
+  type GoalReason,
+  type GoalRequest,
   isZeroTwist,
   type LeaseState,
   type Twist,
   zeroTwist,
 } from '@farpoint/protocol';
-import {
-  CommandGate,
-  type CommandGateOptions,
-  type CommandVerdict,
-  type RejectedCommand,
-  WITHOUT_WHEELS,
-} from './command-gate.ts';
-import { EstopLatch, type EstopSource } from './estop.ts';
-import { type EstopReleaseOutcome, type EstopReleasePolicy, releaseEstop } from './estop-release.ts';
-import { type LeaseOptions, type LeaseOutcome, LeaseTable } from './lease.ts';
+import { CommandGate, type CommandVerdict, type RejectedCommand, WITHOUT_WHEELS } from './command-gate.ts';
+import type { DriveGuardOptions } from './drive-guard-options.ts';
+import { DriverWish } from './driver-wish.ts';
+import type { GuidedDrive } from './guided/guided-drive.ts';
+import { type LeaseOutcome, LeaseTable } from './lease.ts';
 import { OperatorView } from './motion/operator-view.ts';
-import type { RobotStop } from './robot-stop.ts';
-import { Watchdog } from './watchdog.ts';
+import { StoppableGuard } from './stoppable-guard.ts';
 
-export interface DriveGuardOptions extends LeaseOptions, CommandGateOptions {
-  limits: DriveLimits;
-  /** Who may release what an operator has latched; default `driver`. */
-  estopRelease?: EstopReleasePolicy | undefined;
-}
+/** A goal that was in transit for longer is stale, ms. */
+const STALE_GOAL_MS = 1000;
 
 /**
  * Everything between the operators' messages and the robot's wheels. All times are the robot's monotonic clock in ms.
  *
  * These invariants hold for any sequence of calls:
  * - `velocityAt` stays within the limits given at construction, which nothing can change;
- * - it is zero `watchdogMs` after the last accepted command, while the emergency stop is latched, and while nobody
+ * - it is zero `watchdogMs` after the last accepted command or hold of a goal, while the emergency stop is latched, and while nobody
  *   holds the lease;
- * - it follows the commands of the lease holder and of nobody else;
+ * - it follows the commands of the lease holder and of nobody else, or, while the lease holder holds on to a goal, the
+ *   navigator that leads there;
  * - it is zero while nothing takes it ({@link DriveGuard.watchWheels});
  * - a request from before an emergency stop, a change of the lease, a fault of the wheels or a released grip never
- *   takes effect again.
+ *   takes effect again;
+ * - after the lease was handed over, it is zero until the new holder has shown an open grip while the robot stood.
  */
-export class DriveGuard {
+export class DriveGuard extends StoppableGuard {
   /** How old what the driver sees is. */
   readonly view = new OperatorView();
   readonly #limits: Readonly<DriveLimits>;
   readonly #gate: CommandGate;
   readonly #leases: LeaseTable;
-  readonly #estop: EstopLatch;
-  readonly #estopRelease: EstopReleasePolicy;
-  readonly #watchdog: Watchdog;
-  #wish: Twist = zeroTwist();
+  readonly #wish: DriverWish;
   #askWheels: () => string | null = () => null;
   #hadWheels = true;
-  /** Whether something other than the driver's wish has stopped the robot. */
-  #forced = false;
+  #askMotion: () => boolean = () => true;
 
   constructor(options: DriveGuardOptions) {
+    super(options.limits.watchdogMs, options.estopRelease ?? 'driver');
     this.#limits = Object.freeze({ ...options.limits });
     this.#gate = new CommandGate(this.#limits, options);
     this.#leases = new LeaseTable(options);
-    this.#estop = new EstopLatch(this.#limits.watchdogMs);
-    this.#estopRelease = options.estopRelease ?? 'driver';
-    this.#watchdog = new Watchdog(this.#limits.watchdogMs);
+    this.#wish = new DriverWish(this.#limits.watchdogMs, options.guided ?? null);
   }
 
   /** Frozen. */
@@ -75,25 +65,67 @@ export class DriveGuard {
    * `nextDeadlineMs` changes with every call.
    */
   onCommand(operatorId: string, command: Command, nowMs: number): CommandVerdict {
-    const wheelsFault = this.#lookAtWheels();
-    const verdict = this.#gate.check(operatorId, command, nowMs, {
-      holdsLease: this.#leases.holds(operatorId, command.lease),
-      meetEstop: (motion) => this.#estop.meet(motion, nowMs),
-      wheelsFault,
-    });
+    const { verdict, holdsLease } = this.#judge(operatorId, command, nowMs);
+    // An older command may have been sent before the goal was.
+    const isFresh = verdict.accepted || verdict.reason !== 'repeated';
+    if (holdsLease && isFresh && !isZeroTwist(command.twist)) this.#wish.takeOver();
     if (verdict.accepted) {
-      this.#wish = verdict.twist;
-      this.#forced = false;
-      const { seenUs } = command;
-      this.view.note(seenUs === undefined ? null : ageOfStampMs(seenUs, nowMs), nowMs);
+      this.#look(command.seenUs, nowMs);
       // What was read a while ago is valid for so much less.
-      this.#watchdog.feed(nowMs - verdict.spentMs);
+      this.#wish.take(verdict.twist, nowMs - verdict.spentMs);
       if (!isZeroTwist(verdict.twist)) this.#leases.noteMotion(nowMs);
-      return { ...verdict, twist: copyTwist(verdict.twist) };
+      return verdict;
     }
     // The gate gives this reason only for the holder's latest request: the grip was released, so stop now, not in 150
     // ms.
-    if (verdict.reason === 'dead-man-released') this.#halt();
+    if (verdict.reason === 'dead-man-released') this.#wish.halt('stick');
+    return verdict;
+  }
+
+  /** @param sentMs the operator's clock @returns how much longer than usual the message was under way, ms */
+  lateMs(operatorId: string, sentMs: number, nowMs: number): number {
+    return this.#gate.observeClock(operatorId, sentMs, nowMs);
+  }
+
+  /** Drives to the driver's goals; `null` if the robot takes none. It is told by the guard what it must be told. */
+  get guided(): GuidedDrive | null {
+    return this.#wish.guided;
+  }
+
+  /**
+   * Judges a goal. One that is taken leads the robot while its operator holds on to it.
+   *
+   * @returns why it is refused; `null` if it is taken
+   */
+  onGoal(operatorId: string, goal: GoalRequest, nowMs: number): GoalReason | null {
+    const { id, x, y, yaw, lease, timeMs } = goal;
+    const { guided } = this.#wish;
+    if (guided === null) return 'off';
+    if (!this.#leases.holds(operatorId, lease)) return 'not-lease-holder';
+    if (!(this.#gate.observeClock(operatorId, timeMs, nowMs) <= STALE_GOAL_MS)) return 'stale';
+    if (this.estop.latched) return 'estop';
+    if (this.#lookAtWheels() !== null) return 'no-wheels';
+    // Its hand may have been on the stick before the drive came to it.
+    if (this.#gate.awaitsOpenGrip(operatorId)) return 'stick';
+    return guided.begin({ operatorId, id, x, y, yaw }, nowMs);
+  }
+
+  /** The operator takes its goal back. Only its own: everybody else has STOP. */
+  onGoalCancel(operatorId: string, id: number): void {
+    const goal = this.#wish.guided?.goal;
+    if (goal?.operatorId === operatorId && goal.id === id) this.#wish.halt('asked');
+  }
+
+  /** Judges the hold of a goal like a command that asks for no motion. */
+  onGoalHold(operatorId: string, hold: GoalHold, nowMs: number): CommandVerdict {
+    const { sequence, timeMs, lease, goal, seenUs } = hold;
+    const command: Command = {
+      ...{ type: 'command', sequence, timeMs, lease, deadMan: true, twist: zeroTwist() },
+    };
+    const { verdict } = this.#judge(operatorId, command, nowMs);
+    if (!verdict.accepted) return verdict;
+    this.#look(seenUs, nowMs);
+    if (this.#wish.hold(operatorId, goal, nowMs - verdict.spentMs)) this.#leases.noteMotion(nowMs);
     return verdict;
   }
 
@@ -110,9 +142,9 @@ export class DriveGuard {
     this.#gate.observeClock(operatorId, sentMs, nowMs);
   }
 
-  /** A picture or cloud was sent to the operator. */
-  onViewSent(operatorId: string, nowMs: number): void {
-    if (this.#leases.holder === operatorId) this.view.sent(nowMs);
+  /** A picture or cloud was taken that will be sent to the operator. */
+  onViewSupplied(operatorId: string, nowMs: number): void {
+    if (this.#leases.holder === operatorId) this.view.supplied(nowMs);
   }
 
   /**
@@ -126,6 +158,11 @@ export class DriveGuard {
     this.#askWheels = fault;
   }
 
+  /** @param stands asked at each command: whether the robot stands still, as far as its wheels were told */
+  watchMotion(stands: () => boolean): void {
+    this.#askMotion = stands;
+  }
+
   /** Whether something takes the velocities, as {@link velocityAt} found last. */
   get hasWheels(): boolean {
     return this.#hadWheels;
@@ -137,21 +174,20 @@ export class DriveGuard {
    * @param why for people, completes "held while …", under 100 characters
    */
   demandLetGo(why: string): void {
-    this.#halt();
+    this.#wish.halt(why === WITHOUT_WHEELS ? 'no-wheels' : 'view');
     this.#gate.requireLetGo(why);
   }
 
   /** The velocity that the driver asks for now, within the limits, as a copy. */
   velocityAt(nowMs: number): Twist {
     this.#lookAtWheels();
-    const moving = this.#leases.holder !== null && !this.#estop.latched && !this.#watchdog.expired(nowMs);
-    return moving ? copyTwist(this.#wish) : zeroTwist();
+    const wish = this.#wish.at(nowMs);
+    return this.#leases.holder !== null && !this.estop.latched ? wish : zeroTwist();
   }
 
   /** Whether something other than the driver's wish makes `velocityAt` zero: brake as hard as allowed. */
   stopsUrgently(nowMs: number): boolean {
-    if (this.#forced || this.#estop.latched) return true;
-    return !isZeroTwist(this.#wish) && this.#watchdog.expired(nowMs);
+    return this.estop.latched || this.#wish.stopsUrgently(nowMs);
   }
 
   /** Whether the driver must let go once before the robot moves again. */
@@ -162,14 +198,14 @@ export class DriveGuard {
 
   /** When `velocityAt` becomes zero without any further call: arm a timer for it. `null` while the velocity is zero. */
   get nextDeadlineMs(): number | null {
-    return isZeroTwist(this.#wish) ? null : this.#watchdog.deadlineMs;
+    return this.#wish.deadlineMs;
   }
 
   /** @param blocked whether the robot senses an obstacle */
   state(nowMs: number, blocked = false): DriveState {
-    if (this.#estop.latched) return 'estop';
-    if (this.#leases.holder === null || isZeroTwist(this.#wish)) return 'idle';
-    if (this.#watchdog.expired(nowMs)) return 'watchdog';
+    if (this.estop.latched) return 'estop';
+    if (this.#leases.holder === null || !this.#wish.isMoving) return 'idle';
+    if (this.#wish.isOverdue(nowMs)) return 'watchdog';
     return blocked ? 'blocked' : 'driving';
   }
 
@@ -190,6 +226,19 @@ export class DriveGuard {
     return outcome;
   }
 
+  /**
+   * The driver hands the lease to another operator. The robot brakes at once, and stands until the new driver has shown an
+   * open grip after that: a hand that is on the stick already moves nothing. Then send every operator its `leaseState`.
+   *
+   * @returns false if `from` does not drive; then nothing has changed
+   */
+  handOver(from: string, to: string, nowMs: number): boolean {
+    if (!this.#leases.handOver(from, to, nowMs)) return false;
+    this.#gate.requireOpenGrip(to);
+    this.#changeDriver();
+    return true;
+  }
+
   /** @returns whether the operator held the lease; if so, send every operator its `leaseState` */
   releaseLease(operatorId: string): boolean {
     const released = this.#leases.release(operatorId);
@@ -200,7 +249,7 @@ export class DriveGuard {
   /** The operator's connection has ended. @returns whether this freed the lease */
   operatorGone(operatorId: string): boolean {
     this.#gate.forget(operatorId);
-    this.#estop.withdraw(operatorId);
+    this.estop.withdraw(operatorId);
     return this.releaseLease(operatorId);
   }
 
@@ -211,70 +260,6 @@ export class DriveGuard {
     return { type: 'lease', holder: this.#leases.holder === null ? 'nobody' : 'other' };
   }
 
-  /**
-   * Stops at once, whoever asks and however often. Then send every operator the `estopState`: its `latch` has changed.
-   *
-   * @param operatorId the operator who asks, if it is one
-   * @returns false if it was already latched
-   */
-  latchEstop(by: EstopSource, operatorId?: string): boolean {
-    this.#halt();
-    return this.#estop.latch(by, operatorId);
-  }
-
-  /**
-   * Only the lease holder or a supervisor can release it, within the policy (estop-release.ts). Motion then needs a new
-   * command, from a hand that has let go (estop.ts).
-   *
-   * @param of number of the latch that is meant; left out, it is the present one
-   */
-  releaseEstop(operatorId: string, nowMs: number, supervises = false, of?: number): EstopReleaseOutcome {
-    const holdsLease = this.#leases.holder === operatorId;
-    return releaseEstop(this.#estop, this.#estopRelease, { operatorId, holdsLease, supervises, of }, nowMs);
-  }
-
-  /**
-   * Stops at once, for a stop at the robot itself. Only {@link letGoEstop} with the same name takes that back. Then send
-   * every operator the `estopState`.
-   *
-   * @returns false if it held the emergency stop already
-   */
-  holdEstop(stop: RobotStop): boolean {
-    this.#halt();
-    return this.#estop.hold(stop);
-  }
-
-  /**
-   * The stop at the robot was released. The emergency stop stays latched if anything else has latched it.
-   *
-   * @returns false if it did not hold the emergency stop
-   */
-  letGoEstop(stop: RobotStop, nowMs: number): boolean {
-    return this.#estop.letGo(stop, nowMs);
-  }
-
-  /** The stops at the robot that hold the emergency stop. */
-  get estopHolders(): ReadonlySet<RobotStop> {
-    return this.#estop.holders;
-  }
-
-  /** The message that tells every operator about the emergency stop. */
-  estopState(): EstopState {
-    const { by, number: latch, holders } = this.#estop;
-    if (by === null) return { type: 'estop', latched: false, latch };
-    const state: EstopState = { type: 'estop', latched: true, by, latch };
-    return holders.size === 0 ? state : { ...state, releasedAt: 'robot' };
-  }
-
-  /**
-   * Whose emergency stop must outlive a restart: an operator's comes before the robot's. `null` while it is released,
-   * and while only {@link estopHolders} keep it.
-   */
-  get estopKeptFor(): EstopSource | null {
-    if (this.#estop.ofOperator) return 'operator';
-    return this.#estop.isAsked ? 'robot' : null;
-  }
-
   #lookAtWheels(): string | null {
     const fault = this.#askWheels();
     if (fault !== null && this.#hadWheels) this.demandLetGo(WITHOUT_WHEELS);
@@ -282,18 +267,29 @@ export class DriveGuard {
     return fault;
   }
 
+  #judge(
+    operatorId: string,
+    command: Command,
+    nowMs: number,
+  ): { verdict: CommandVerdict; holdsLease: boolean } {
+    const wheelsFault = this.#lookAtWheels();
+    const holdsLease = this.#leases.holds(operatorId, command.lease);
+    const meetEstop = (motion: boolean) => this.estop.meet(motion, nowMs);
+    const context = { holdsLease, meetEstop, wheelsFault, stands: this.#askMotion() };
+    const verdict = this.#gate.check(operatorId, command, nowMs, context);
+    return { verdict, holdsLease };
+  }
+
+  #look(seenUs: number | undefined, nowMs: number): void {
+    this.view.note(seenUs === undefined ? null : ageOfStampMs(seenUs, nowMs), nowMs);
+  }
+
+  protected override stopAtOnce(): void {
+    this.#wish.halt('estop');
+  }
+
   #changeDriver(): void {
-    this.#halt();
+    this.#wish.halt('lease-lost');
     this.view.forget();
   }
-
-  #halt(): void {
-    if (!isZeroTwist(this.#wish)) this.#forced = true;
-    this.#wish = zeroTwist();
-    this.#watchdog.reset();
-  }
-}
-
-function copyTwist({ linear, angular }: Twist): Twist {
-  return { linear: { ...linear }, angular: { ...angular } };
 }

@@ -8,6 +8,12 @@ export const estopReleasePolicies = [
 ] as const;
 export type EstopReleasePolicy = (typeof estopReleasePolicies)[number];
 
+/** Who may release it now, besides supervisors, if no stop at the robot holds it. */
+export function releaseRule(estop: EstopLatch, policy: EstopReleasePolicy): EstopReleasePolicy {
+  if (policy === 'supervisor' && estop.ofOperator) return 'supervisor';
+  return policy === 'latcher' && estop.latchers.size > 0 ? 'latcher' : 'driver';
+}
+
 /** Why the emergency stop was not released. */
 export type EstopReleaseRefusal =
   | 'not-lease-holder' // whoever asks neither drives nor supervises
@@ -43,8 +49,9 @@ export function releaseEstop(
   if (!estop.latched) return refused('not-latched');
   if (estop.holders.size > 0) return refused('held-at-robot');
   if (of !== undefined && of !== estop.number) return refused('newer-latch');
-  if (!supervises && policy === 'supervisor' && estop.ofOperator) return refused('not-supervisor');
-  if (!supervises && policy === 'latcher' && estop.latchers.size > 0) {
+  const rule = releaseRule(estop, policy);
+  if (!supervises && rule === 'supervisor') return refused('not-supervisor');
+  if (!supervises && rule === 'latcher') {
     if (!estop.latchers.has(operatorId)) return refused('not-latcher');
     estop.withdraw(operatorId);
     if (estop.latchers.size > 0) return refused('others-latched');

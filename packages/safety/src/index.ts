@@ -1,8 +1,11 @@
 export * from './command-gate.ts';
 export * from './drive-guard.ts';
+export type { DriveGuardOptions } from './drive-guard-options.ts';
 export * from './estop.ts';
 export * from './estop-release.ts';
 export * from './geofence/index.ts';
+export { type Goal, GuidedDrive } from './guided/guided-drive.ts';
+export { defaultGuidedOptions, type GuidedOptions } from './guided/guided-options.ts';
 export * from './lease.ts';
 export * from './limits.ts';
 export * from './motion/blind-travel.ts';

@@ -76,6 +76,17 @@ export class LeaseTable {
     return { granted: false, reason: 'take-refused', detail };
   }
 
+  /**
+   * The holder gives the lease to another operator, who gets a new one.
+   *
+   * @returns false if `from` did not hold it, and nothing has changed
+   */
+  handOver(from: string, to: string, nowMs: number): boolean {
+    if (this.#held?.operatorId !== from || from === to) return false;
+    this.#grant(to, from, nowMs);
+    return true;
+  }
+
   /** @returns false if the operator did not hold the lease */
   release(operatorId: string): boolean {
     if (this.#held?.operatorId !== operatorId) return false;

@@ -5,6 +5,7 @@ import type { OptionPlace, OptionTable, ProgramDefinition } from './option-table
 export type ParsedFlags =
   | { action: 'help' }
   | { action: 'version' }
+  | { action: 'schema' }
   /** Key → text (or boolean, for a flag without an argument), only for flags that were given. */
   | { action: 'run'; values: Map<string, unknown> };
 
@@ -30,6 +31,7 @@ export function parseFlags(
     throw new OptionsError('command line:', detail);
   }
   const given = command.opts<Record<string, unknown>>();
+  if (given.configSchema === true) return { action: 'schema' };
   const values = new Map<string, unknown>();
   for (const [attribute, key] of keys) {
     if (command.getOptionValueSource(attribute) === 'cli') values.set(key, given[attribute]);
@@ -59,6 +61,7 @@ function buildCommand(
     )
     .usage('[options]')
     .version(definition.version, '--version', 'print the version')
+    .option('--config-schema', 'print the JSON Schema of the configuration file, for editors')
     .helpOption('-h, --help', 'print this help')
     .exitOverride()
     .configureOutput(silent)

@@ -1,18 +1,22 @@
 import * as z from 'zod';
+import { valueSchema } from './value-schema.ts';
 
 /**
  * Schemas for options. Each accepts both text from a flag or the environment and typed values from YAML. Its messages
- * complete the sentence "<option> …", for example "must be a whole number from 0 to 65535".
+ * complete the sentence "<option> …", for example "must be a whole number from 0 to 65535". What a schema cannot be
+ * asked, because it converts, its metadata says for editors: the values of the configuration file (config-schema.ts).
  */
 
 export function text(limits: { min?: number; max?: number } = {}): z.ZodType<string> {
   const { min = 1, max = 4096 } = limits;
   const range = `must be ${min}–${max} characters long`;
   // YAML reads an unquoted 7 or true as a number or a boolean; for a name, the text is meant.
-  return z.preprocess(
-    (value) => (typeof value === 'number' || typeof value === 'boolean' ? String(value) : value),
-    z.string('must be text').min(min, range).max(max, range),
-  ) as z.ZodType<string>;
+  return z
+    .preprocess(
+      (value) => (typeof value === 'number' || typeof value === 'boolean' ? String(value) : value),
+      z.string('must be text').min(min, range).max(max, range),
+    )
+    .meta({ type: ['string', 'number', 'boolean'], minLength: min, maxLength: max }) as z.ZodType<string>;
 }
 
 export function number(limits: { min?: number; max?: number } = {}): z.ZodType<number> {
@@ -34,7 +38,7 @@ const SIZE_UNITS: Readonly<Record<string, number>> = { '': 1, k: 1e3, m: 1e6, g:
 export function size(limits: { min: number; none?: boolean }): z.ZodType<number> {
   const { min, none = false } = limits;
   const message = `must be a size such as 500MB or 4GB, of at least ${min} bytes${none ? ', or none' : ''}`;
-  return z.unknown().transform((value, context) => {
+  const read = z.unknown().transform((value, context) => {
     if (none && (value === 'none' || value === false)) return Number.POSITIVE_INFINITY;
     const [, digits, unit = ''] = /^(\d+(?:\.\d+)?) ?([kmgt]?)b?$/i.exec(String(value).trim()) ?? [];
     const bytes = Number(digits) * (SIZE_UNITS[unit.toLowerCase()] ?? Number.NaN);
@@ -42,6 +46,8 @@ export function size(limits: { min: number; none?: boolean }): z.ZodType<number>
     context.addIssue({ code: 'custom', message });
     return z.NEVER;
   });
+  const pattern = `^ *[0-9]+([.][0-9]+)? ?[kmgtKMGT]?[bB]? *$${none ? '|^none$' : ''}`;
+  return read.meta({ type: ['integer', 'string', ...(none ? ['boolean'] : [])], minimum: min, pattern });
 }
 
 export function boolean(): z.ZodType<boolean> {
@@ -55,13 +61,16 @@ export function boolean(): z.ZodType<boolean> {
     ['off', false],
     ['0', false],
   ]);
-  return z.unknown().transform((value, context) => {
-    const read =
-      typeof value === 'boolean' ? value : words.get(typeof value === 'string' ? value.toLowerCase() : '');
-    if (read !== undefined) return read;
-    context.addIssue({ code: 'custom', message: 'must be true or false' });
-    return z.NEVER;
-  });
+  return z
+    .unknown()
+    .transform((value, context) => {
+      const read =
+        typeof value === 'boolean' ? value : words.get(typeof value === 'string' ? value.toLowerCase() : '');
+      if (read !== undefined) return read;
+      context.addIssue({ code: 'custom', message: 'must be true or false' });
+      return z.NEVER;
+    })
+    .meta({ enum: [true, false, ...words.keys()] });
 }
 
 export function choice<const T extends readonly [string, ...string[]]>(values: T): z.ZodType<T[number]> {
@@ -70,16 +79,24 @@ export function choice<const T extends readonly [string, ...string[]]>(values: T
 
 /** Comma-separated text, or a YAML list. */
 export function list<T>(element: z.core.$ZodType<T>): z.ZodType<T[]> {
-  return z.preprocess(
-    (value) =>
-      typeof value === 'string'
-        ? value
-            .split(',')
-            .map((part) => part.trim())
-            .filter((part) => part !== '')
-        : value,
-    z.array(element, 'must be a list'),
-  ) as z.ZodType<T[]>;
+  // Made when somebody asks: programs start without it.
+  const values = {
+    get anyOf() {
+      return [{ type: 'string' }, { type: 'array', items: valueSchema(element) }];
+    },
+  };
+  return z
+    .preprocess(
+      (value) =>
+        typeof value === 'string'
+          ? value
+              .split(',')
+              .map((part) => part.trim())
+              .filter((part) => part !== '')
+          : value,
+      z.array(element, 'must be a list'),
+    )
+    .meta(values) as z.ZodType<T[]>;
 }
 
 /** An option that may be omitted. Its default is `null`. */
@@ -101,7 +118,7 @@ function numeric(
         : max !== undefined
           ? ` of at most ${max}`
           : '';
-  return z.unknown().transform((value, context) => {
+  const schema = z.unknown().transform((value, context) => {
     const read = typeof value === 'string' && value.trim() !== '' ? Number(value) : value;
     if (
       typeof read === 'number' &&
@@ -113,5 +130,10 @@ function numeric(
     }
     context.addIssue({ code: 'custom', message: `must be ${what}${range}` });
     return z.NEVER;
+  });
+  return schema.meta({
+    type: accepts === Number.isSafeInteger ? 'integer' : 'number',
+    ...(min === undefined ? {} : { minimum: min }),
+    ...(max === undefined ? {} : { maximum: max }),
   });
 }

@@ -1,5 +1,6 @@
 import * as z from 'zod';
 import { type ConfigFile, readConfigFile } from './config-file.ts';
+import { configSchema } from './config-schema.ts';
 import { helpText, parseFlags } from './flags.ts';
 import { type OptionMistake, throwMistakes } from './option-errors.ts';
 import { valueIssues } from './option-issues.ts';
@@ -26,7 +27,7 @@ export interface OptionInput {
 }
 
 export type ResolvedOptions<Table extends OptionTable> =
-  /** `--help` or `--version`: print and exit 0. */
+  /** `--help`, `--version` or `--config-schema`: print and exit 0. */
   | { readonly action: 'print'; readonly text: string }
   | {
       readonly action: 'run';
@@ -56,6 +57,8 @@ export function resolveOptions<Table extends OptionTable>(
   if (flags.action === 'help') return { action: 'print', text: helpText(definition, places) };
   if (flags.action === 'version')
     return { action: 'print', text: `${definition.name} ${definition.version}\n` };
+  if (flags.action === 'schema')
+    return { action: 'print', text: `${JSON.stringify(configSchema([definition]), null, 2)}\n` };
 
   const mistakes: OptionMistake[] = [];
   const values: Record<string, unknown> = {};

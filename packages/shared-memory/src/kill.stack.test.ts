@@ -55,7 +55,7 @@ describe('marked frames', () => {
 describe.skipIf(ADDON_SUITE.skip)(`killed at random (${ADDON_SUITE.note})`, { timeout: 300_000 }, () => {
   it.each(['farpoint', 'reference'] as const)('%s: no torn frame, no deadlock', async (layout) => {
     const result = await runKillTest({
-      ...{ layout, folder, frames: 1000, points: 6000, leastKills: 4, seed: 11, lifeMs: [10, 250] },
+      ...{ layout, folder, frames: 1000, points: 6000, leastKills: 12, seed: 11, lifeMs: [10, 400] },
     });
     expect(result.torn).toBe(0);
     expect(result.frames).toBeGreaterThanOrEqual(1000);

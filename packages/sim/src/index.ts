@@ -16,6 +16,7 @@ export { type BaseState, SimulatedBase, TIME_STEP } from './simulated-base.ts';
 export { type CloudFrame, type RenderOptions, SimulatedCamera } from './simulated-camera.ts';
 export { DEFAULT_LIDAR, type LidarOptions, type LidarTurn, SimulatedLidar } from './simulated-lidar.ts';
 export { type RobotState, Simulation, type SimulationOptions } from './simulation.ts';
+export { type SteerLimits, steerTo } from './steer-to.ts';
 export type { Box, Ellipsoid, Hole, Material, Mover, Panel, PlanarPose, WorldDescription } from './world.ts';
 export { readSnapshot, snapshotNumbers, type WorldSnapshot, writeSnapshot } from './world-snapshot.ts';
 export { concourseWorld } from './worlds/concourse.ts';

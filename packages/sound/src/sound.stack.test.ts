@@ -52,8 +52,12 @@ describe(`farpoint-sound (${SOUND_SUITE.note})`, { skip: SOUND_SUITE.skip }, () 
     // The encoder begins with sound from before the beginning, so the first packet is shorter.
     const given = (await packets.atLeast(31)).slice(1, 31);
     expect(given.map(({ bytes }) => opusDurationMs(bytes))).toEqual(given.map(() => packetMs));
-    const steps = given.slice(1).map(({ capturedAtMs }, i) => capturedAtMs - given[i]!.capturedAtMs);
-    for (const step of steps) expect(step).toBeCloseTo(packetMs, 3);
+    const steps = given
+      .slice(1)
+      .map(({ capturedAtMs }, i) => (capturedAtMs - given[i]!.capturedAtMs) / packetMs);
+    // A busy machine loses packets, and the others keep their times.
+    for (const step of steps) expect(step).toBeCloseTo(Math.round(step), 3);
+    expect(steps.filter((step) => Math.round(step) === 1).length).toBeGreaterThan(0.8 * steps.length);
     for (const { ageMs } of given) expect(ageMs).toBeGreaterThan(0);
   });
 

@@ -87,6 +87,14 @@ static GstPadProbeReturn on_came(GstPad *pad, GstPadProbeInfo *info, gpointer da
   return GST_PAD_PROBE_OK;
 }
 
+/*
+ * A new size is made here, not by the source: told to negotiate anew, a camera would stop and start, or on older kernels
+ * find itself busy.
+ */
+static GstPadProbeReturn to_source(GstPad *pad, GstPadProbeInfo *info, gpointer data) {
+  return GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) == GST_EVENT_RECONFIGURE ? GST_PAD_PROBE_DROP : GST_PAD_PROBE_OK;
+}
+
 static gboolean on_message(GstBus *bus, GstMessage *message, gpointer data) {
   Video *video = data;
   if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
@@ -151,6 +159,7 @@ static bool build(Video *video) {
 bool pipeline_start(Video *video) {
   if (!build(video)) return false;
   GstBin *bin = GST_BIN(video->pipeline);
+  probe(video, gst_bin_get_by_name(bin, "farpoint-pace"), GST_PAD_PROBE_TYPE_EVENT_UPSTREAM, to_source);
   probe(video, gst_bin_get_by_name(bin, "farpoint-head"), GST_PAD_PROBE_TYPE_BUFFER, on_came);
   probe(video, GST_ELEMENT(video->rate), GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, before_rate);
   barcode_attach(video);

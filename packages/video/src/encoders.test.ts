@@ -60,6 +60,15 @@ describe('an encoder', () => {
     expect([1, 2, 3, 4, 8, 64].map(encoderThreads)).toEqual([1, 1, 1, 2, 4, 4]);
   });
 
+  it('of VP8 has at most two threads', () => {
+    const text = (name: string, threads: number) =>
+      encoderText(VIDEO_ENCODERS.find((each) => each.name === name)!, threads);
+    expect([1, 2, 4].map((threads) => / threads=(\d)/.exec(text('vp8enc', threads))?.[1])).toEqual([
+      ...['1', '2', '2'],
+    ]);
+    expect(text('x264enc', 4)).toContain(' threads=4');
+  });
+
   // Of encoders that cannot be tried here, the text is compared with their documentation.
   it.each([
     [

@@ -28,6 +28,8 @@ export interface VideoEncoder {
   readonly following: readonly FollowingProperty[];
   /** H.264 profile, if the element takes it from the caps behind it. */
   readonly profile?: string;
+  /** Of its threads, if there are fewer than software encoders have otherwise. */
+  readonly mostThreads?: number;
 }
 
 /** Too many frames for any session: a key frame comes on request, or after 10 s, which the process counts. */
@@ -123,6 +125,9 @@ export const VIDEO_ENCODERS: readonly VideoEncoder[] = [
     name: 'vp8enc',
     codec: 'vp8',
     runsOn: 'CPU',
+    // They wait for each other by spinning: of 1024 × 768 pixels, four make no picture sooner than two, and take more of the
+    // cores that other cameras need.
+    mostThreads: 2,
     raw: 'format=I420',
     properties:
       'deadline=1 cpu-used=8 end-usage=cbr lag-in-frames=0 keyframe-mode=disabled max-intra-bitrate=300 undershoot=95 max-quantizer=56 static-threshold=1 threads=THREADS token-partitions=2',
@@ -221,7 +226,8 @@ export const ENCODER_PROPERTIES = /^(?:[a-z0-9-]+=[A-Za-z0-9._:+-]+(?: |$))*$/;
  * @param extra further properties, which take precedence over ours
  */
 export function encoderText(encoder: VideoEncoder, threads: number, extra = ''): string {
-  const properties = encoder.properties.replaceAll('THREADS', String(threads));
+  const { mostThreads = threads } = encoder;
+  const properties = encoder.properties.replaceAll('THREADS', String(Math.min(threads, mostThreads)));
   const own = `${encoder.name} name=farpoint-encoder ${properties}${extra === '' ? '' : ` ${extra}`}`;
   const before = encoder.before === undefined ? [] : [encoder.before];
   if (encoder.codec === 'vp8') return [...before, own, 'video/x-vp8'].join(' ! ');

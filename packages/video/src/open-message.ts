@@ -12,9 +12,9 @@ import { writeOpen } from './wire.ts';
 
 /**
  * Test sources begin at a multiple of this, so that those with equal rates capture at the same instants, as cameras with
- * a common trigger do. The intervals of all usual rates divide it.
+ * a common trigger do. The intervals of all whole rates divide it.
  */
-const TEST_PHASE_MS = 200;
+const TEST_PHASE_MS = 1000;
 
 /** @param extra further properties of the encoder */
 export function openMessage(

@@ -2,7 +2,7 @@
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { makeSigningKey } from '@farpoint/grants';
-import { freePorts, ManagedProcess, repositoryRoot } from '@farpoint/local-stack';
+import { freePorts, ManagedProcess, programPath, repositoryRoot } from '@farpoint/local-stack';
 import { CLIENT_ID, LoginProvider, type LoginProviderOptions } from './login-provider.ts';
 
 export interface SignOnOptions
@@ -62,7 +62,7 @@ export class SignOn {
   async startIssuer(): Promise<void> {
     this.#issuer = await ManagedProcess.start({
       name: 'issuer',
-      command: ['node', 'apps/issuer/src/main.ts', '--config', join(this.#options.folder, 'issuer.yaml')],
+      command: ['node', programPath('issuer'), '--config', join(this.#options.folder, 'issuer.yaml')],
       ...{ cwd: repositoryRoot, readyUrl: `${this.adminUrl}/healthz` },
       onLine: (_, line) => this.#options.onLine?.(line),
     });

@@ -1,5 +1,6 @@
 import { decodeJson, encodeJson, type Operators, type Role, robotSessionCodec } from '@farpoint/protocol';
 import { expect, it } from 'vitest';
+import { openAccess } from './access.ts';
 import { OperatorRoster } from './operator-roster.ts';
 
 function operator(id: string, role: Role = 'drive', name = id) {
@@ -35,6 +36,7 @@ it('tells everyone at each change, at most four times a second, the own entry fi
         { number: 2, name: 'wim', role: 'watch', drives: true, you: false },
         { number: 3, name: 'sue', role: 'supervise', drives: false, you: false },
       ],
+      drivesForS: 0,
     },
   ]);
   expect(sue.taken()).toEqual([{ names: ['sue', 'wim', 'ada'] }]);
@@ -46,6 +48,39 @@ it('tells everyone at each change, at most four times a second, the own entry fi
   expect(ada.taken()).toEqual([{ names: ['ada', 'sue'] }]);
   roster.tick([ada.made, sue.made], null, 1000);
   expect(ada.taken()).toEqual([]);
+});
+
+it('says for how long the driver has driven, and who is away', () => {
+  const roster = new OperatorRoster();
+  const [ada, bob] = [operator('ada'), operator('bob')];
+  let heardMs = 0;
+  Object.defineProperty(bob.made.messages, 'heardMs', { get: () => heardMs });
+  const both = [ada.made, bob.made];
+  roster.tick(both, 'ada', 1000);
+  roster.tick(both, 'ada', 3000);
+  expect(ada.inbox.splice(0)).toMatchObject([{ drivesForS: 0 }]);
+  roster.tick(both, 'ada', 9000);
+  expect(ada.inbox.splice(0)).toMatchObject([
+    { operators: [{ drives: true }, { away: true }], drivesForS: 8 },
+  ]);
+  heardMs = 9000;
+  roster.tick(both, 'bob', 9250);
+  roster.tick(both, null, 9500);
+  const told = ada.inbox.map(({ operators, drivesForS }) => [operators[1]?.away, drivesForS]);
+  expect(told).toEqual([
+    [undefined, 0],
+    [undefined, undefined],
+  ]);
+});
+
+it('lists everybody where nobody is asked for a grant, with names that nothing proves', () => {
+  const roster = new OperatorRoster();
+  const ada = operator('ada');
+  Object.assign(ada.made.messages, { access: openAccess('Ada') });
+  roster.tick([ada.made], null, 0);
+  expect(ada.inbox[0]?.operators).toEqual([
+    { number: 1, name: 'Ada', claimed: true, role: 'drive', drives: false, you: true },
+  ]);
 });
 
 it('lists nobody who is not admitted or not connected, and gives no number twice', () => {

@@ -31,6 +31,8 @@ export interface RobotAccessOptions extends Omit<GrantGateOptions, 'keys' | 'ref
   revocationLists: ReasonCounts;
   /** For the audit log. */
   onRefused?: (operator: GuardedOperator['messages'], reason: string) => void;
+  /** Knows the operators' numbers; without one, there is one of its own. */
+  roster?: OperatorRoster;
 }
 
 /** Admits operators by their grants, ends their sessions with them, and tells operators of each other. */
@@ -38,7 +40,7 @@ export class RobotAccess {
   readonly revocations: RobotRevocations;
   readonly #options: RobotAccessOptions;
   readonly #gate: GrantGate;
-  readonly #roster = new OperatorRoster();
+  readonly #roster: OperatorRoster;
   readonly #lists: readonly WatchedText[];
   /** What was last read of each. */
   readonly #listed = new Map<string, string>();
@@ -48,6 +50,7 @@ export class RobotAccess {
 
   constructor(options: RobotAccessOptions) {
     this.#options = options;
+    this.#roster = options.roster ?? new OperatorRoster();
     const { files, revocationLists: outcomes, log, nowS, now } = options;
     const keys = () => files.keys.keys;
     this.revocations = new RobotRevocations({ keys, journal: files.journal, outcomes, log, nowS, now });

@@ -1,5 +1,5 @@
 import { type Audit, type AuditEvent, type AuditSubject, noAudit, shortHash } from '@farpoint/audit';
-import type { EstopState, ReturnEnd } from '@farpoint/protocol';
+import type { CommandAnswer, EstopState, GoalPhase, GoalReason, ReturnEnd } from '@farpoint/protocol';
 import type { RobotStop, RobotStopState } from '@farpoint/safety';
 import type { Access } from '../access/access.ts';
 
@@ -10,11 +10,19 @@ export interface AuditedOperator {
   readonly access: Access;
 }
 
+/** A place to which the robot was to go. */
+interface GoalPlace {
+  id: number;
+  x: number;
+  y: number;
+  yaw?: number | undefined;
+}
+
 /** What was refused. */
 export type RefusedThing = 'admission' | 'session' | 'lease' | 'estop-release' | 'command';
 
 /** Why the driver may have changed, if not by a request. */
-export type LeaseCause = 'expired' | 'session-ended';
+export type LeaseCause = 'expired' | 'session-ended' | 'handed-over';
 
 interface Who {
   readonly subject: AuditSubject;
@@ -75,7 +83,8 @@ export class RobotAudit {
     if (before === null) this.#record({ kind: 'lease-given', ...who });
     else {
       const from = { ...before.subject, session: before.session };
-      this.#record({ kind: 'lease-taken', ...who, details: { from } });
+      const kind = cause === 'handed-over' ? 'lease-handed-over' : 'lease-taken';
+      this.#record({ kind, ...who, details: { from } });
     }
   }
 
@@ -100,6 +109,35 @@ export class RobotAudit {
   returned(end: ReturnEnd | null, metres: number): void {
     if (end === null) this.#record({ kind: 'return-began' });
     else this.#record({ kind: 'return-ended', details: { because: end, metres } });
+  }
+
+  /**
+   * What becomes of a goal.
+   *
+   * @param place m and rad, in odometry's frame
+   * @param operator who named it; undefined if its session has ended
+   */
+  goal(
+    { id, x, y, yaw }: Readonly<GoalPlace>,
+    state: Exclude<GoalPhase, 'driving'>,
+    reason: GoalReason | null,
+    operator: AuditedOperator | undefined,
+  ): void {
+    const who = operator === undefined ? {} : whoIs(operator);
+    const place = { id, x: millimetres(x), y: millimetres(y), yaw };
+    if (state === 'accepted') this.#record({ kind: 'goal-taken', ...who, details: place });
+    else if (state === 'refused')
+      this.#record({ kind: 'goal-refused', ...who, details: { ...place, reason } });
+    else this.#record({ kind: 'goal-ended', ...who, details: { id, state, reason: reason ?? undefined } });
+  }
+
+  /** What became of a robot command that an operator gave. @param id as it was asked for, whether there is one or not */
+  robotCommand(
+    id: string,
+    { outcome, reason, detail }: Pick<CommandAnswer, 'outcome' | 'reason' | 'detail'>,
+    operator: AuditedOperator,
+  ): void {
+    this.#record({ kind: 'robot-command', ...whoIs(operator), details: { id, outcome, reason, detail } });
   }
 
   /** The emergency stop outlives the last run. */
@@ -129,4 +167,8 @@ function whoIs({ id, access }: AuditedOperator): Who {
         ? { name, proven: false }
         : { id: subject, name, role: role ?? undefined, grant: grant?.id, proven: true },
   };
+}
+
+function millimetres(metres: number): number {
+  return Math.round(metres * 1000) / 1000;
 }

@@ -15,7 +15,7 @@ export class TriggeredSource implements FrameSource {
   readonly goesOn = true;
   readonly #source: FrameSource;
   readonly #trigger: SimTrigger;
-  readonly #intervalNs: bigint;
+  readonly #perSecond: number;
   /** Of the cloud that is ready, ms; `null` before the first. */
   #instantMs: number | null = null;
   #end: (() => void) | null = null;
@@ -24,7 +24,7 @@ export class TriggeredSource implements FrameSource {
   constructor(source: FrameSource, perSecond: number, nowNs = () => process.hrtime.bigint()) {
     this.#source = source;
     this.#trigger = new SimTrigger(nowNs);
-    this.#intervalNs = BigInt(Math.round(1e9 / perSecond));
+    this.#perSecond = perSecond;
     this.description = { ...source.description, framesPerSecond: perSecond };
   }
 
@@ -34,7 +34,7 @@ export class TriggeredSource implements FrameSource {
 
   start(): void {
     this.#end = this.#trigger.add({
-      intervalNs: this.#intervalNs,
+      perSecond: this.#perSecond,
       capture: (atNs) => {
         this.#instantMs = Number(atNs) / 1e6;
         this.onReady?.();

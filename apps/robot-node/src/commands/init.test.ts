@@ -1,8 +1,10 @@
 import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { resolveOptions } from '@farpoint/service';
+import { configSchema, resolveOptions } from '@farpoint/service';
+import { Ajv } from 'ajv';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { parse } from 'yaml';
 import { robotProgram } from '../options/robot-program.ts';
 import { SOURCE_KINDS } from '../options/source.ts';
 import { init } from './init.ts';
@@ -35,6 +37,8 @@ function values(text: string | null): Record<string, unknown> {
 /** Enables every `#key:` line. */
 const uncommented = (text: string) => text.replaceAll(/^( *)#(\w+:)/gm, '$1$2');
 const defaults = values(null);
+const ajv = new Ajv({ allowUnionTypes: true, validateFormats: false });
+const validate = ajv.compile(configSchema([robotProgram]));
 
 describe('the file that init writes', () => {
   it('gives the defaults, both as it is and with every line enabled', () => {
@@ -55,6 +59,11 @@ describe('the file that init writes', () => {
     const text = robotTemplate(source);
     expect(values(text)).toMatchObject({ source });
     expect(values(uncommented(text))).toEqual(values(text));
+  });
+
+  it.each(SOURCE_KINDS)('is what the schema for editors allows, for the source %s', (source) => {
+    for (const text of [robotTemplate(source), uncommented(robotTemplate(source))])
+      expect(validate(parse(text)), JSON.stringify(validate.errors)).toBe(true);
   });
 
   it('has every option of its source, each explained', () => {

@@ -112,7 +112,7 @@ export async function timeCodec(now: () => number): Promise<number[]> {
     const frame = { form: 'images', depth, colour: words, cameraPose, capturedAtMs: now() } as const;
     const begin = now();
     encoder.take(frame, { fx, fy, cx, cy });
-    encoder.encode(frame, i, BUDGET_BYTES, false);
+    encoder.encode(frame, i, { budgetBytes: BUDGET_BYTES, coarse: false }, false);
     times.push(now() - begin);
   }
   simulation.close();

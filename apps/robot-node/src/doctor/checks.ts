@@ -145,7 +145,7 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
     {
       name: 'recording',
       withinMs: SLACK_MS,
-      run: () => (running.state === 'runs' ? [] : checkRecording(robot.record?.path)),
+      run: () => (running.state === 'runs' ? [] : checkRecording(robot.record)),
     },
     { name: 'audit log', withinMs: 20_000, run: () => checkAudit(robot.audit?.path) },
   ];

@@ -249,10 +249,14 @@ describe('files', () => {
   it('of recordings', () => {
     expect(checkRecording(undefined)).toEqual([]);
     const path = join(folder, 'a.mcap');
-    expect(verdicts(checkRecording(path))).not.toContain('fail');
+    const check = (path: string | null, folder: string | null = null) =>
+      checkRecording({ path, folder: folder === null ? null : { path: folder, mostBytes: 1e9 } });
+    expect(verdicts(check(path))).not.toContain('fail');
+    expect(verdicts(check(null, folder))).toHaveLength(1);
     writeFileSync(path, '');
-    expect(checkRecording(path)[0]?.detail).toContain('already exists');
-    expect(checkRecording('/nowhere/b.mcap')[0]?.detail).toContain('is not a folder');
+    expect(check(path)[0]?.detail).toContain('already exists');
+    expect(check('/nowhere/b.mcap')[0]?.detail).toContain('is not a folder');
+    expect(check(null, '/nowhere')[0]?.remedy).toContain('recording.folder');
   });
 });
 

@@ -1,6 +1,9 @@
 import type { DriveState, MotionState, ObstacleGuardState, ReturnState } from '@farpoint/protocol';
 import type { BlindTravel, MotionSupervisor } from '@farpoint/safety';
 
+/** What a driver sees is told for as long after its last command, ms. Later it may see something new. */
+const VIEW_TOLD_MS = 1000;
+
 /** What operators are told of the robot's motion. */
 export class MotionStatus {
   readonly #motion: MotionSupervisor;
@@ -33,8 +36,9 @@ export class MotionStatus {
   state(nowMs: number): MotionState {
     const { guard, decision } = this.#motion;
     const { factor, reasons } = decision;
-    const mostMps = this.#blindTravel?.mostMps(nowMs) ?? Number.POSITIVE_INFINITY;
-    const ageMs = guard.view.worstAgeMs(nowMs);
+    const isViewTold = guard.view.silentMs(nowMs) <= VIEW_TOLD_MS;
+    const mostMps = (isViewTold ? this.#blindTravel?.mostMps(nowMs) : null) ?? Number.POSITIVE_INFINITY;
+    const ageMs = isViewTold ? guard.view.worstAgeMs(nowMs) : null;
     // Clouds are judged while somebody drives.
     const seen = this.#obstacleGuard?.();
     const returns = this.#returns?.();

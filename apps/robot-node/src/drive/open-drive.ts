@@ -14,6 +14,9 @@ import type { TimedBaseState } from '../base/base.ts';
 import { monotonicMs } from '../clock.ts';
 import type { FixPosition } from '../geofence/fix-position.ts';
 import { type FenceOptions, openGeofence } from '../geofence/open-geofence.ts';
+import type { GoalConfiguration } from '../goals/goal-configuration.ts';
+import type { GoalStation } from '../goals/goal-station.ts';
+import { openGoals } from '../goals/open-goals.ts';
 import type { ObstacleStation } from '../obstacles/obstacle-station.ts';
 import { type HeardOperator, newestHeardMs } from '../return/newest-heard.ts';
 import type { ReturnConfiguration } from '../return/return-configuration.ts';
@@ -38,6 +41,8 @@ export interface DriveOptions {
   fence?: FenceOptions | null | undefined;
   /** How it drives back by itself; if undefined, never. */
   returns?: ReturnConfiguration | undefined;
+  /** What leads it to the places that its driver names; if undefined, it takes no goals. */
+  goals?: GoalConfiguration | undefined;
   /** The stops at the robot itself. */
   stops: RobotStopsOptions;
   /** Where the robot remembers its emergency stop across restarts. */
@@ -69,8 +74,11 @@ export interface Drive {
   fix: FixPosition | null;
   /** What drives the robot back by itself; `null`: nothing. */
   returns: ReturnStation | null;
+  /** What takes the driver's goals; `null`: nothing. */
+  goals: GoalStation | null;
   /** Call this every 25 ms. */
   tick: () => void;
+  close: () => Promise<void>;
 }
 
 /**
@@ -82,8 +90,12 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
   const { base, sink, recording, audit, obstacles, state, heard, count, log } = parts;
   const fence = options.fence == null ? null : openGeofence(options.fence, state, base !== null);
   const letGo = afterGap === 'let-go';
+  const isSimulated = base !== null;
+  const goals = openGoals(options.goals, { limits, isSimulated, log });
+  if (goals !== null && fence !== null) goals.guided.judge = (goal) => fence.judge(goal);
   const guard = new DriveGuard({
     ...{ limits, takePolicy, estopRelease, randomBytes: (bytes) => randomBytes(bytes) },
+    guided: goals?.guided ?? null,
     // Any gap that lets the watchdog stop the robot.
     ...(letGo ? { letGoAfterMs: limits.watchdogMs } : {}),
   });
@@ -93,7 +105,7 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
     options.returns === undefined
       ? null
       : new ReturnStation(options.returns, {
-          ...{ limits, lookout: obstacles, isSimulated: base !== null, audit, log },
+          ...{ limits, lookout: obstacles, isSimulated, audit, log },
         });
   const supervisor = new MotionSupervisor(guard, {
     ramps,
@@ -116,6 +128,7 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
     monotonicMs,
     () => sink.fault ?? null,
   );
+  if (goals !== null) goals.onVelocity = () => station.apply();
   if (obstacles.topics !== null) obstacles.topics.onChange = () => station.apply();
   return {
     station,
@@ -127,11 +140,16 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
       () => returns?.told,
     ),
     fix: fence?.fix ?? null,
-    returns,
+    ...{ returns, goals },
     tick: () => {
       const newest = state();
+      goals?.update(newest, monotonicMs());
       obstacles.update(newest, guard.leaseHolder !== null || returns?.drive.isActive === true);
       if (returns?.update(newest, newestHeardMs(heard())) === true) station.apply();
+    },
+    close: async () => {
+      await returns?.close();
+      await goals?.close();
     },
   };
 }

@@ -5,6 +5,7 @@
 import { parentPort, workerData } from 'node:worker_threads';
 import { monotonicMs } from '../clock.ts';
 import { openGraph } from '../ros/open-graph.ts';
+import { tellNewFaults } from '../ros/tell-new-faults.ts';
 import { wallNs } from '../ros/wall-clock.ts';
 import type { RosDriveReport, RosDriveRequest, RosDriveSetup } from './ros-drive-messages.ts';
 import { RosVelocity } from './ros-velocity.ts';
@@ -20,12 +21,7 @@ const send = (report: RosDriveReport) => port.postMessage(report);
 
 try {
   const graph = await openGraph(options.graph, 'drive');
-  let lastFault = '';
-  graph.onFault = ({ message }) => {
-    // Report a fault once, not at every retry.
-    if (message !== lastFault) send({ type: 'fault', detail: message });
-    lastFault = message;
-  };
+  tellNewFaults(graph, (detail) => send({ type: 'fault', detail }));
   const { entry, silenceMs } = options;
   const velocity = new RosVelocity(graph, { entry, silenceMs, now: monotonicMs, wallNs });
   let listeners: number | null = null;

@@ -25,6 +25,8 @@ export interface CodedBudget {
   targetBitsPerSecond: number;
   /** Bit rate in addition, for `points64` to those who do not read this format, bit/s; `null` if there are none. */
   plainBitsPerSecond: number | null;
+  /** Colours may be coarse: all readers paint the cloud with a video. Only for `organised`. */
+  coarse?: true;
 }
 
 /** The budget when only live viewers watch: clouds are captured at a low rate, and coded as little as possible. */

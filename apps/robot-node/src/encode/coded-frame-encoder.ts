@@ -1,6 +1,6 @@
 import { type Codec, CodecError } from '@farpoint/wasm-codec';
 import type { CaptureRoom, SourceDescription, SourceFrame } from '../capture/frame-source.ts';
-import type { EncodedFrame, EncoderOptions, PacketSource } from './encoded-frame.ts';
+import type { EncodedFrame, EncoderOptions, FrameSpending, PacketSource } from './encoded-frame.ts';
 import { OrganisedFrameEncoder } from './organised-frame-encoder.ts';
 import type { CodedFormat } from './plan.ts';
 import { UnorganisedFrameEncoder } from './unorganised-frame-encoder.ts';
@@ -52,7 +52,7 @@ export class CodedFrameEncoder {
 
   /**
    * @param allowed the formats that somebody reads
-   * @param budgetBytes for the data of all packets
+   * @param spending what the data of all packets may take, and on what it is spent
    * @param latencyTest makes the whole frame green
    * @returns `null` if `points64` is the only format for this frame
    * @throws {CodecError} for a frame beyond the capacity
@@ -61,7 +61,7 @@ export class CodedFrameEncoder {
     frame: SourceFrame,
     frameNumber: number,
     allowed: readonly CodedFormat[],
-    budgetBytes: number,
+    spending: FrameSpending,
     latencyTest: boolean,
   ): EncodedFrame | null {
     const fits = allowed.includes('organised') && this.#organised?.take(frame, this.#source.camera) === true;
@@ -73,7 +73,7 @@ export class CodedFrameEncoder {
         : frame;
     const encoder = fits ? this.#organised : frame.form === 'images' ? null : this.#makeUnorganised();
     if (encoder === null) return null;
-    const encoded = encoder.encode(kept as never, frameNumber, budgetBytes, latencyTest);
+    const encoded = encoder.encode(kept as never, frameNumber, spending, latencyTest);
     this.#last = encoder;
     const { header } = encoder;
     if (header !== null && header !== this.#stream?.header) {

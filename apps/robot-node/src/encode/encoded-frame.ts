@@ -17,6 +17,14 @@ export interface EncoderOptions extends SamplingOptions {
   sensor: number;
 }
 
+/** What a coded frame may take, and what that is spent on. */
+export interface FrameSpending {
+  /** For the data of all packets. */
+  budgetBytes: number;
+  /** Colours are coarse, and depth gets the rest; only in `organised`. */
+  coarse: boolean;
+}
+
 /** The result of encoding one frame. Its packets wait in the encoder. */
 export interface EncodedFrame {
   format: CloudFormat;
@@ -27,6 +35,8 @@ export interface EncodedFrame {
   validPoints: number;
   rejected: RejectedPoints;
   saturated: number;
+  /** Its colours are coarse, because all who read it paint it with a video. */
+  coarse?: true;
   /** Time to choose points and turn them into packets, ms. */
   sampleMs: number;
   packMs: number;

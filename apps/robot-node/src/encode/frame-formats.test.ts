@@ -2,7 +2,7 @@ import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { expect, it } from 'vitest';
 import type { ImageFrame, PointFrame, SourceDescription } from '../capture/frame-source.ts';
 import type { CodedBudget } from './capture-budget.ts';
-import { type FormattedFrame, FrameFormats } from './frame-formats.ts';
+import { type FormatRequest, type FormattedFrame, FrameFormats } from './frame-formats.ts';
 import { type CodedFormat, FramePlanner } from './plan.ts';
 
 const codec = await loadCodecFromDisk();
@@ -36,6 +36,12 @@ function encode(
   formats: CodedFormat[],
   plainBitsPerSecond: number | null = null,
 ) {
+  return formatsOf(frame)
+    .encode(frame, requestOf(formats, plainBitsPerSecond))
+    .frames.map(({ encoded, audience }: FormattedFrame) => [encoded.format, audience]);
+}
+
+function formatsOf(frame: ImageFrame | PointFrame): FrameFormats {
   const planner = new FramePlanner({
     policy: 'latency',
     mostFramesPerSecond: 30,
@@ -44,15 +50,23 @@ function encode(
     mostPoints: 1e6,
   });
   const sampling = { lambda: 1, epsilon: 1e-6, nearDistance: 3.85, sensor: 0 };
-  const encoder = new FrameFormats(codec, describe(frame.form === 'images'), sampling, planner, () => 0);
+  return new FrameFormats(codec, describe(frame.form === 'images'), sampling, planner, () => 0);
+}
+
+function requestOf(
+  formats: CodedFormat[],
+  plainBitsPerSecond: number | null,
+  coarse = false,
+  targetBitsPerSecond = 20e6,
+): FormatRequest {
   const coded = formats.map(
-    (format): CodedBudget => ({ format, targetBitsPerSecond: 20e6, plainBitsPerSecond }),
+    (format): CodedBudget => ({
+      ...{ format, targetBitsPerSecond, plainBitsPerSecond },
+      ...(coarse ? { coarse } : {}),
+    }),
   );
-  const budget = { targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true, probe: null, coded };
-  const request = { frameNumber: 1, budget, probeBytes: 0, workMs: 0, latencyTest: false };
-  return encoder
-    .encode(frame, request)
-    .frames.map(({ encoded, audience }: FormattedFrame) => [encoded.format, audience]);
+  const budget = { targetBitsPerSecond, overheadBytes: 68, streaming: true, probe: null, coded };
+  return { frameNumber: 1, budget, probeBytes: 0, workMs: 0, latencyTest: false };
 }
 
 it('encodes a camera’s image as organised for everyone who reads it, whatever else they read', () => {
@@ -76,4 +90,24 @@ it('sends points64 to everyone if nobody reads a format that fits', () => {
   expect(encode(images, ['unorganised'])).toEqual([['points64', 'everyone']]);
   expect(encode(lidar, ['organised'], 1e6)).toEqual([['points64', 'everyone']]);
   expect(encode(images, [])).toEqual([['points64', 'everyone']]);
+});
+
+it('changes between full and coarse colours from one frame to the next, at the same rate', () => {
+  const noise = (i: number) => Math.abs((Math.sin(i * 12.9898) * 43758.5453) % 1);
+  const rich: ImageFrame = {
+    ...images,
+    depth: images.depth.map((metres, i) => metres + 0.002 * noise(i)),
+    colour: images.colour.map((_, i) => 0xff808080 + Math.floor(noise(i) * 16)),
+  };
+  const formats = formatsOf(rich);
+  const shapes = [false, false, true, true, false].map((coarse) => {
+    const { frames, intervalMs } = formats.encode(rich, requestOf(['organised'], null, coarse, 0.17e6));
+    const { points, validPoints, packets } = frames[0]!.encoded;
+    expect(points).toBe(validPoints);
+    // As much as a packet that is begun can add.
+    expect(packets).toBeLessThanOrEqual(2);
+    return intervalMs;
+  });
+  expect(shapes[2]).toBeLessThan(shapes[1] as number);
+  expect(shapes[4]).toBe(shapes[1]);
 });

@@ -4,7 +4,14 @@ import type { CaptureRoom, SourceDescription, SourceFrame } from '../capture/fra
 import type { CaptureBudget } from './capture-budget.ts';
 import { CodedFrameEncoder, type CodedStream } from './coded-frame-encoder.ts';
 import type { EncodedFrame, EncoderOptions, PacketSource } from './encoded-frame.ts';
-import type { CodedFormat, CodedPlan, FramePlanner, PlanInput } from './plan.ts';
+import {
+  type CodedFormat,
+  type CodedKind,
+  type CodedPlan,
+  type FramePlanner,
+  kindOf,
+  type PlanInput,
+} from './plan.ts';
 import { Points64FrameEncoder } from './points64-frame-encoder.ts';
 import { UsefulRate } from './useful-rate.ts';
 
@@ -38,7 +45,8 @@ export interface FormattedFrames {
 /** Encodes a frame once for each format that somebody reads. */
 export class FrameFormats {
   readonly #planner: FramePlanner;
-  readonly #useful = new UsefulRate();
+  /** One for frames with full colours, and one for those with coarse ones, which use less. */
+  readonly #useful = { full: new UsefulRate(), coarse: new UsefulRate() };
   readonly #points64: Points64FrameEncoder;
   readonly #makeCoded: () => CodedFrameEncoder;
   /** Created when first needed, because it takes megabytes of memory. */
@@ -88,7 +96,7 @@ export class FrameFormats {
         frames: [{ encoded, audience: 'everyone', packets: this.#points64 }],
       };
     }
-    const { formatted, format, framesPerSecond } = coded;
+    const { formatted, format, kind, framesPerSecond } = coded;
     const frames: FormattedFrame[] = [formatted];
     const plain = budget.coded.find((one) => one.format === format)?.plainBitsPerSecond ?? null;
     if (plain !== null) {
@@ -97,12 +105,12 @@ export class FrameFormats {
       const encoded = this.#points64.encode(frame, frameNumber, points, latencyTest);
       frames.push({ encoded, audience: { others: format }, packets: this.#points64 });
     }
-    const usefulBitsPerSecond = this.#useful.update({
+    const usefulBitsPerSecond = this.#useful[kind === 'organised-coarse' ? 'coarse' : 'full'].update({
       wireBits: this.#planner.wireBits(formatted.encoded.packets, input),
       budgetBits: this.#planner.wireBits(coded.budgetBytes / MAX_POINT_DATA_BYTES, input),
-      limited: coded.budgetBytes < Math.floor(this.#planner.enoughBytes(format, rawPoints)),
+      limited: coded.budgetBytes < Math.floor(this.#planner.enoughBytes(kind, rawPoints)),
       framesPerSecond,
-      mostBitsPerSecond: this.#planner.usefulBitsPerSecond(format, input),
+      mostBitsPerSecond: this.#planner.usefulBitsPerSecond(kind, input),
     });
     return { intervalMs: 1000 / framesPerSecond, usefulBitsPerSecond, frames };
   }
@@ -112,18 +120,20 @@ export class FrameFormats {
     frame: SourceFrame,
     { frameNumber, budget, latencyTest }: FormatRequest,
     input: PlanInput,
-  ): ({ formatted: FormattedFrame; format: CodedFormat } & CodedPlan) | null {
+  ): ({ formatted: FormattedFrame; format: CodedFormat; kind: CodedKind } & CodedPlan) | null {
     if (budget.coded.length === 0) return null;
     this.#coded ??= this.#makeCoded();
     const allowed = budget.coded.map(({ format }) => format);
     const likely = budget.coded.find(({ format }) => format === this.#coded?.likelyFormat(allowed));
     if (likely === undefined) return null;
     const { targetBitsPerSecond } = likely;
-    const plan = this.#planner.planCoded(likely.format, { ...input, targetBitsPerSecond });
-    const encoded = this.#coded.encode(frame, frameNumber, allowed, plan.budgetBytes, latencyTest);
+    const kind = kindOf(likely);
+    const plan = this.#planner.planCoded(kind, { ...input, targetBitsPerSecond });
+    const spending = { budgetBytes: plan.budgetBytes, coarse: likely.coarse === true };
+    const encoded = this.#coded.encode(frame, frameNumber, allowed, spending, latencyTest);
     if (encoded === null) return null;
     const format = encoded.format as CodedFormat;
     const formatted: FormattedFrame = { encoded, audience: { readers: format }, packets: this.#coded };
-    return { formatted, format, ...plan };
+    return { formatted, format, kind: format === likely.format ? kind : format, ...plan };
   }
 }

@@ -3,6 +3,7 @@ import type { CaptureRoom, SourceDescription, SourceFrame } from '../capture/fra
 import {
   type EncodedFrame,
   type EncoderOptions,
+  type FrameSpending,
   isSameMemory,
   type PacketSource,
   placementOf,
@@ -72,16 +73,22 @@ export class OrganisedFrameEncoder implements PacketSource {
   /**
    * Encodes the frame that was taken.
    *
-   * @param budgetBytes for the data of all packets
+   * @param spending what the data of all packets may take, and on what it is spent
    * @param latencyTest makes the whole frame green
    */
-  encode(frame: SourceFrame, frameNumber: number, budgetBytes: number, latencyTest: boolean): EncodedFrame {
+  encode(
+    frame: SourceFrame,
+    frameNumber: number,
+    { budgetBytes, coarse }: FrameSpending,
+    latencyTest: boolean,
+  ): EncodedFrame {
     const encoder = this.#encoder;
     const begin = this.#now();
     const { lambda, epsilon, nearDistance } = this.#sampling;
     const report = encoder.encode({
       budgetBytes,
       latencyTest,
+      ...(coarse ? ({ colour: 'coarse' } as const) : {}),
       fromImages: frame.form === 'images',
       thinning: { lambda, epsilon, nearDistance },
     });
@@ -101,6 +108,7 @@ export class OrganisedFrameEncoder implements PacketSource {
       validPoints: report.points + notDrawn,
       rejected: { notFinite, nonPositiveDepth, outOfRange, notDrawn },
       saturated: 0,
+      ...(coarse ? { coarse } : {}),
       sampleMs: 0,
       packMs: this.#now() - begin,
     };

@@ -1,7 +1,14 @@
 import { MAX_POINT_DATA_BYTES } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { type CodedPlan, FramePlanner, type PlanInput, type PlanOptions, wireBytesOfPacket } from './plan.ts';
+import {
+  type CodedKind,
+  type CodedPlan,
+  FramePlanner,
+  type PlanInput,
+  type PlanOptions,
+  wireBytesOfPacket,
+} from './plan.ts';
 
 const OPTIONS: PlanOptions = {
   policy: 'latency',
@@ -141,6 +148,22 @@ describe('FramePlanner, coded', () => {
     expect(at(100, 20).framesPerSecond).toBe(30);
   });
 
+  it('spends the bits that coarse colours save on more frames, and changes nothing else', () => {
+    const at = (kind: CodedKind, mbps: number) =>
+      planner({ mostFramesPerSecond: 20 }).planCoded(kind, { ...INPUT, targetBitsPerSecond: mbps * 1e6 });
+    // A path of 8 Mbit/s, of which a video takes 1.6.
+    expect(at('organised', 8).framesPerSecond).toBe(10);
+    expect(at('organised-coarse', 6.4).framesPerSecond).toBe(20);
+    expect(dataBits(at('organised-coarse', 6.4))).toBeLessThan(6.4e6);
+    // There and back within one planner: the rate is kept throughout.
+    const both = planner({ mostFramesPerSecond: 20 });
+    for (const kind of ['organised', 'organised-coarse', 'organised'] as const) {
+      const bits = dataBits(both.planCoded(kind, { ...INPUT, targetBitsPerSecond: 6.4e6 }));
+      expect(bits).toBeGreaterThan(5.5e6);
+      expect(bits).toBeLessThan(6.4e6);
+    }
+  });
+
   it('gives more bits to clouds without a grid', () => {
     const input = { ...INPUT, rawPoints: 60_000, targetBitsPerSecond: 20e6 };
     const { framesPerSecond, budgetBytes } = planner({ mostFramesPerSecond: 10 }).planCoded(
@@ -156,7 +179,7 @@ describe('FramePlanner, coded', () => {
       fc.property(
         fc.integer({ min: 0, max: 300_000_000 }),
         fc.integer({ min: 0, max: 400_000 }),
-        fc.constantFrom('organised' as const, 'unorganised' as const),
+        fc.constantFrom<CodedKind>('organised', 'organised-coarse', 'unorganised'),
         (targetBitsPerSecond, rawPoints, format) => {
           const plan = planner().planCoded(format, { ...INPUT, targetBitsPerSecond, rawPoints });
           expect(plan.budgetBytes).toBeGreaterThanOrEqual(1200);

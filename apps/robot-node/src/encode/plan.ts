@@ -49,6 +49,13 @@ export interface PlanInput {
 
 export type CodedFormat = Exclude<CloudFormat, 'points64'>;
 
+/** What a coded frame's bits are spent on: the format, and whether its colours are coarse. */
+export type CodedKind = CodedFormat | 'organised-coarse';
+
+export function kindOf({ format, coarse }: { format: CodedFormat; coarse?: true }): CodedKind {
+  return format === 'organised' && coarse === true ? 'organised-coarse' : format;
+}
+
 /** Best first. */
 export const CODED_FORMATS: readonly CodedFormat[] = ['organised', 'unorganised'];
 
@@ -88,9 +95,12 @@ interface CodedNeed {
   /** Much finer than a depth camera's own precision. Any higher rate makes the stream faster, not finer. */
   enough: number;
 }
-const CODED_NEEDS: Readonly<Record<CodedFormat, CodedNeed>> = {
+const CODED_NEEDS: Readonly<Record<CodedKind, CodedNeed>> = {
   // Camera frames within 0.5 mm · z², with colours at 34 dB, take 1.9 to 2.3 bits.
   organised: { whole: 1.6, enough: 2.4 },
+  // Colours take 0.1 of them. What is fine in the picture comes from the video that paints it, so that depth may be one level
+  // coarser before the frame rate drops.
+  'organised-coarse': { whole: 0.9, enough: 2 },
   // The step is fixed, so that only the number of points can change.
   unorganised: { whole: 16, enough: 64 },
 };
@@ -156,14 +166,14 @@ export class FramePlanner {
    * The plan for a frame in a coded format: as many whole frames per second as possible, each as fine as the bit rate
    * allows.
    */
-  planCoded(format: CodedFormat, input: PlanInput): CodedPlan {
+  planCoded(kind: CodedKind, input: PlanInput): CodedPlan {
     const { rawPoints } = input;
-    const need = CODED_NEEDS[format];
+    const need = CODED_NEEDS[kind];
     const wireBytes = wireBytesOfPacket(input.overheadBytes);
     const dataShare = MAX_POINT_DATA_BYTES / wireBytes;
     const bitsPerSecond = input.targetBitsPerSecond * dataShare;
     const framesPerSecond = this.#chooseFrameRate(bitsPerSecond / need.whole, rawPoints, input, rawPoints);
-    const enough = this.enoughBytes(format, rawPoints);
+    const enough = this.enoughBytes(kind, rawPoints);
     const afforded = Math.min(BitRate.toBytesPerSecond(bitsPerSecond) / framesPerSecond, enough);
     const probed = Math.min(
       input.probeBytes * dataShare * CODED_SLACK,
@@ -181,17 +191,17 @@ export class FramePlanner {
   }
 
   /** The most data that a coded frame like this one can use, bytes. */
-  enoughBytes(format: CodedFormat, rawPoints: number): number {
-    return bytesOfBits(rawPoints * CODED_NEEDS[format].enough);
+  enoughBytes(kind: CodedKind, rawPoints: number): number {
+    return bytesOfBits(rawPoints * CODED_NEEDS[kind].enough);
   }
 
   /** The highest bit rate that frames like this one can use, all headers counted, bit/s. */
-  usefulBitsPerSecond(format: CloudFormat, { rawPoints, overheadBytes }: PlanInput): number {
+  usefulBitsPerSecond(kind: 'points64' | CodedKind, { rawPoints, overheadBytes }: PlanInput): number {
     const { mostFramesPerSecond, mostPoints } = this.#options;
-    const plain = format === 'points64';
-    const bits = plain
-      ? Math.min(rawPoints, mostPoints) * BITS_PER_POINT
-      : rawPoints * CODED_NEEDS[format].enough;
+    const bits =
+      kind === 'points64'
+        ? Math.min(rawPoints, mostPoints) * BITS_PER_POINT
+        : rawPoints * CODED_NEEDS[kind].enough;
     return (bits * mostFramesPerSecond * wireBytesOfPacket(overheadBytes)) / MAX_POINT_DATA_BYTES;
   }
 

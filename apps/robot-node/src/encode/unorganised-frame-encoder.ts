@@ -4,6 +4,7 @@ import type { CaptureRoom, PointFrame } from '../capture/frame-source.ts';
 import {
   type EncodedFrame,
   type EncoderOptions,
+  type FrameSpending,
   isSameMemory,
   type PacketSource,
   placementOf,
@@ -50,7 +51,12 @@ export class UnorganisedFrameEncoder implements PacketSource {
    * @param latencyTest makes the whole frame green
    * @throws {CodecError} for a frame beyond the capacity
    */
-  encode(frame: PointFrame, frameNumber: number, budgetBytes: number, latencyTest: boolean): EncodedFrame {
+  encode(
+    frame: PointFrame,
+    frameNumber: number,
+    { budgetBytes }: Pick<FrameSpending, 'budgetBytes'>,
+    latencyTest: boolean,
+  ): EncodedFrame {
     const encoder = this.#encoder;
     const begin = this.#now();
     const words = new Uint32Array(frame.points.buffer, frame.points.byteOffset, frame.count * 4);

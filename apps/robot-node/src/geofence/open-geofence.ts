@@ -1,3 +1,4 @@
+import type { GoalReason } from '@farpoint/protocol';
 import {
   type EarthFrame,
   type Fence,
@@ -7,6 +8,7 @@ import {
 } from '@farpoint/safety';
 import type { TimedBaseState } from '../base/base.ts';
 import { FixPosition } from './fix-position.ts';
+import { goalInFence } from './goal-in-fence.ts';
 
 /** A fence, and what says where the robot is. */
 export interface FenceOptions {
@@ -20,6 +22,8 @@ export interface FenceOptions {
 
 export interface OpenedGeofence {
   geofence: Geofence;
+  /** Why the robot may not be told to go to a place in odometry's frame, m; `null`: it may. */
+  judge: (goal: Readonly<{ x: number; y: number }>) => GoalReason | null;
   /** Takes the robot's readings, of which it needs the satellite receiver's; `null` if it needs none. */
   fix: FixPosition | null;
 }
@@ -44,7 +48,11 @@ export function openGeofence(
     if (place === null) return null;
     return { ...odometry, x: place.x, y: place.y, yaw: null, atMs: Math.min(odometry.atMs, place.atMs) };
   };
-  return { geofence: new Geofence(fence, limits, pose), fix };
+  const judge = (goal: Readonly<{ x: number; y: number }>) => {
+    const robot = state()?.pose.position;
+    return robot === undefined ? 'no-pose' : goalInFence(fence, limits.radiusM, pose(), robot, goal);
+  };
+  return { geofence: new Geofence(fence, limits, pose), judge, fix };
 }
 
 /** `null` if nobody knows when the position was measured. */

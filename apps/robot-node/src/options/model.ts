@@ -8,4 +8,10 @@ export const modelOptions = {
     argument: 'FILE',
     help: 'the robot’s model for operators: a URDF file, or none; default: of a topic with `as: model`, and the simulated robot’s own',
   }),
+  meshDir: defineOption({
+    schema: schema.list(schema.text()),
+    default: [],
+    argument: 'FOLDERS',
+    help: 'folders of packages, or packages, whose meshes the model may name (package://, file://, a path), separated by commas; default: no mesh is read',
+  }),
 };

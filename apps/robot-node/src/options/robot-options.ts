@@ -26,8 +26,11 @@ import { readText } from './read-text.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { rosKindOf } from './ros-kind.ts';
 import { stateFolder } from './state.ts';
+import { toCommands } from './to-commands.ts';
 import { toFence } from './to-fence.ts';
+import { toGoals } from './to-goals.ts';
 import { toModel } from './to-model.ts';
+import { toLive, toRecording } from './to-outputs.ts';
 import { toReturn } from './to-return.ts';
 import { toStops } from './to-stops.ts';
 
@@ -51,13 +54,12 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     refuse,
   );
   const broadcast = toBroadcast(values, ca, refuse);
-  const motion = toMotion(values, refuse);
-  const fence = toFence(values, refuse);
-  const model = toModel(values, refuse);
-  const returns = toReturn(values, refuse, (kind) => toGraph(values, kind));
+  const [motion, fence, model] = [toMotion(values, refuse), toFence(values, refuse), toModel(values, refuse)];
+  const graph = (kind: GraphOptions['kind']) => toGraph(values, kind);
+  const [returns, goals] = [toReturn(values, refuse, graph), toGoals(values, refuse, graph)];
+  const commands = toCommands(values, refuse, graph);
   if (mistakes.length > 0) throw new OptionsError(mistakes);
   const folder = stateFolder(values.stateDir, process.env);
-  const recorded = (kind: 'captured' | 'sent') => [kind, 'both'].includes(values.recordClouds);
   return {
     id: values.id,
     name: values.name,
@@ -69,7 +71,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     },
     grantKeys: values.grantKeys ?? undefined,
     robotKey: values.robotKey ?? join(folder, `${values.id}.key.json`),
-    revocations: values.revocations,
+    ...{ revocations: values.revocations, listStatus: values.listStatus },
     audit: toAudit(values),
     sensors: toSensors(values, topics),
     base:
@@ -93,8 +95,8 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     takePolicy: values.takePolicy,
     estopRelease: values.estopRelease,
     afterGap: values.afterGap,
-    ...{ fence, returns, model },
-    stops: toStops(values, (kind) => toGraph(values, kind)),
+    ...{ fence, returns, goals, commands, model, meshFolders: values.meshDir },
+    stops: toStops(values, graph),
     stateFolder: folder,
     referenceSignaling: values.referenceSignaling ?? undefined,
     bitsPerSecond: BitRate.fromMbps(values.bitrateMbps),
@@ -122,28 +124,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     frameLog: values.frameLog ?? undefined,
     commandLog: values.commandLog ?? undefined,
     statisticsFile: values.stats ?? undefined,
-    foxglove:
-      values.foxglovePort === null
-        ? undefined
-        : {
-            port: values.foxglovePort,
-            reach: values.foxgloveReach,
-            allowedOrigins: values.foxgloveOrigins,
-            cloudsPerSecond: values.foxgloveFps,
-          },
-    record:
-      values.record === null
-        ? undefined
-        : {
-            path: values.record,
-            compression: values.recordCompression,
-            clouds: {
-              captured: recorded('captured') ? values.recordCapturedFps : 0,
-              sent: recorded('sent') ? values.recordSentFps : 0,
-            },
-            videos: values.recordVideos,
-            mostBytes: values.recordMax,
-          },
+    ...{ foxglove: toLive(values), record: toRecording(values) },
   };
 }
 

@@ -5,8 +5,10 @@ import { accessOptions } from './access.ts';
 import { alarmsOptions } from './alarms.ts';
 import { auditOptions } from './audit.ts';
 import { broadcastOptions } from './broadcast.ts';
+import { commandsOptions } from './commands.ts';
 import { fenceOptions } from './fence.ts';
 import { foxgloveOptions } from './foxglove.ts';
+import { goalsOptions } from './goals.ts';
 import { guardOptions } from './guard.ts';
 import { guardTopicsOptions } from './guard-topics.ts';
 import { identityOptions } from './identity.ts';
@@ -53,6 +55,8 @@ const options = {
   ...guardOptions,
   ...guardTopicsOptions,
   ...returnOptions,
+  ...goalsOptions,
+  ...commandsOptions,
   ...stateOptions,
   ...streamOptions,
   ...picturesOptions,

@@ -2,6 +2,7 @@
 import { handleSchema, tokenSchema } from '@farpoint/protocol';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 import * as z from 'zod';
+import { LIST_STATUSES } from '../signaling/status-reporter.ts';
 
 const signalingUrlSchema = z
   .url({ protocol: /^wss?$/, error: 'must be a ws:// or wss:// address' })
@@ -27,6 +28,12 @@ export const signalingOptions = optionGroup('signaling', {
     argument: 'TOKEN',
     secret: true,
     help: 'token that the signaling service requires',
+  }),
+  listStatus: defineOption({
+    schema: schema.choice(LIST_STATUSES),
+    default: 'state',
+    argument: 'LEVEL',
+    help: 'what the list of robots shows without a session: state (battery, STOP, motion, alarms, how many operators), names (also who drives) or off (only the robot’s name)',
   }),
   plaintextToken: defineOption({
     schema: schema.boolean(),

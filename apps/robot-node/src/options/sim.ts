@@ -93,6 +93,11 @@ export const simOptions = optionGroup('source', {
     argument: 'X,Y',
     help: 'the simulated robot has a plan to this place in its building, as a navigator would publish it; metres',
   }),
+  simCommands: defineOption({
+    schema: schema.boolean(),
+    default: false,
+    help: 'the simulated robot has commands to try out: lights, a horn, and one that is confirmed (docs/commands.md)',
+  }),
   simSize: defineOption({
     schema: schema.integer({ min: 16, max: 1024 }),
     default: 480,

@@ -43,17 +43,14 @@ export class PictureSender {
   bytesSent = 0;
   readonly drops: Record<PictureDropReason, number> = { superseded: 0, backlog: 0, overdue: 0 };
   readonly #link: PictureLink;
-  readonly #onSent: () => void;
   /** By camera, in the order in which they will be sent. */
   readonly #waiting = new Map<number, ReadyPicture>();
   #sending: Sending | null = null;
   #creditBytes = 0;
   #filledMs: number | null = null;
 
-  /** @param onSent a whole picture is on its way */
-  constructor(link: PictureLink, onSent: () => void = () => undefined) {
+  constructor(link: PictureLink) {
     this.#link = link;
-    this.#onSent = onSent;
   }
 
   watch(cameras: readonly number[]): void {
@@ -61,12 +58,14 @@ export class PictureSender {
     for (const camera of this.#waiting.keys()) if (!this.watched.has(camera)) this.#waiting.delete(camera);
   }
 
-  offer(picture: ReadyPicture): void {
+  /** @returns whether it waits to be sent */
+  offer(picture: ReadyPicture): boolean {
     const { camera } = picture.header;
-    if (!this.watched.has(camera)) return;
+    if (!this.watched.has(camera)) return false;
     // The camera keeps its place in the queue, so that a fast camera does not push back a slow one.
     if (this.#waiting.has(camera)) this.drops.superseded++;
     this.#waiting.set(camera, picture);
+    return true;
   }
 
   /** Sends what is due. @param bitsPerSecond the present rate for pictures; 0 holds everything back */
@@ -91,7 +90,6 @@ export class PictureSender {
       sending.next++;
       if (sending.next < sending.picture.chunks.length) continue;
       this.picturesSent++;
-      this.#onSent();
       this.#sending = null;
     }
   }

@@ -16,12 +16,16 @@ const ROBOT = 'sim-1';
 const NAME = 'Simulated robot';
 /** A loaded machine makes gaps, after which the reference system's operators do not know that they must let go. */
 const ARGS = ['--sim-size', '64', '--max-points', '650', '--after-gap', 'resume'];
+/** Where a machine stalls, rate control would send fewer points for a while. */
+const FIXED = ['--rate-control', 'fixed'];
 
 let stack: LocalStack;
 const cleanups: (() => Promise<void>)[] = [];
 
 beforeAll(async () => {
-  stack = await LocalStack.start({ robots: [{ id: ROBOT, name: NAME, args: ARGS, reference: true }] });
+  stack = await LocalStack.start({
+    robots: [{ id: ROBOT, name: NAME, args: [...ARGS, ...FIXED], reference: true }],
+  });
 }, 60_000);
 afterAll(() => stack.stop(), 30_000);
 afterEach(async () => {

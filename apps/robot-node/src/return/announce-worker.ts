@@ -1,6 +1,7 @@
 /** The thread that says on a topic whether the robot drives back by itself. */
 import { parentPort, workerData } from 'node:worker_threads';
 import { type GraphOptions, openGraph } from '../ros/open-graph.ts';
+import { tellNewFaults } from '../ros/tell-new-faults.ts';
 import { boolMessage } from '../stops/bool-message.ts';
 
 export interface AnnounceSetup {
@@ -24,11 +25,7 @@ const send = (report: AnnounceReport) => port.postMessage(report);
 
 try {
   const graph = await openGraph(setup.graph, 'return');
-  let lastFault = '';
-  graph.onFault = ({ message }) => {
-    if (message !== lastFault) send({ fault: message });
-    lastFault = message;
-  };
+  tellNewFaults(graph, (detail) => send({ fault: detail }));
   const publisher = graph.advertise({ topic: setup.topic, type: 'std_msgs/msg/Bool' });
   let { isActive } = setup;
   const say = () => publisher.publish(boolMessage(graph.version, isActive));

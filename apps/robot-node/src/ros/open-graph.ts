@@ -26,7 +26,7 @@ export interface Ros2Options extends DdsOptions {
  */
 export async function openGraph(
   options: GraphOptions,
-  part: 'capture' | 'drive' | 'guard' | 'stop' | 'video' | 'return',
+  part: 'capture' | 'drive' | 'guard' | 'stop' | 'video' | 'return' | 'goals' | 'commands',
 ): Promise<RosGraph> {
   switch (options.kind) {
     case 'ros1': {

@@ -47,7 +47,7 @@ export class CloudSensors {
     this.all = options.map((each, i) => {
       const first = i === 0;
       // Frames are logged and recorded for the first sensor only: frame numbers of several sensors would get mixed up.
-      const { frameLog: _, onFrame: __, wantedAnyway: ___, ...others } = fanOut;
+      const { frameLog: _, onFrame: __, wantedAnyway: ___, coloursWanted: ____, ...others } = fanOut;
       const sensor = new CloudSensor(each, captures[i] as Capture, first ? fanOut : others);
       const { capture } = sensor;
       capture.onFault = (detail) => events.onFault(sensor, detail);

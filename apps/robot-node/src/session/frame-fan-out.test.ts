@@ -1,4 +1,4 @@
-import { expect, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import type { ReadyFrame } from '../capture/capture-messages.ts';
 import type { CaptureBudget } from '../encode/capture-budget.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
@@ -17,6 +17,7 @@ class Viewer implements FrameTarget {
   probed = 0;
   frames = 0;
   readonly announced: string[] = [];
+  painting = false;
 
   constructor(id: string, cloudBitsPerSecond: number, formats: readonly CodedFormat[]) {
     this.id = id;
@@ -29,6 +30,9 @@ class Viewer implements FrameTarget {
   }
   wants(sensor: number): boolean {
     return sensor === 0;
+  }
+  paints(sensor: number): boolean {
+    return this.painting && sensor === 0;
   }
   probesWith(sensor: number): boolean {
     return sensor === this.probed;
@@ -46,7 +50,7 @@ class Viewer implements FrameTarget {
 
 const BOTH = ['organised', 'unorganised'] as const;
 
-function setUp(viewers: Viewer[], driver: string | null = null) {
+function setUp(viewers: Viewer[], driver: string | null = null, coloursWanted = false) {
   const budgets: CaptureBudget[] = [];
   const capture = {
     onFrame: null as ((frame: ReadyFrame) => void) | null,
@@ -65,6 +69,7 @@ function setUp(viewers: Viewer[], driver: string | null = null) {
     stages: new StageTimer(),
     now: () => 1000,
     mayCode: true,
+    coloursWanted: () => coloursWanted,
   });
   fanOut.updateBudget();
   const frame = (audience: FrameAudience) =>
@@ -79,7 +84,7 @@ function setUp(viewers: Viewer[], driver: string | null = null) {
     frame(audience);
     return viewers.filter(({ frames }, i) => frames > (before[i] as number)).map(({ id }) => id);
   };
-  return { budget: budgets.at(-1), capture, received };
+  return { budget: budgets.at(-1), budgets, fanOut, capture, received };
 }
 
 const coded = (
@@ -152,4 +157,33 @@ it('enlarges the frames of one sensor for a probe, if a single path decides', ()
   expect(setUp(viewers).budget?.probe).toBeNull();
   for (const viewer of viewers) viewer.probed = 1;
   expect(setUp(viewers, 'a').budget?.probe).toBeNull();
+});
+
+describe('colours may be coarse', () => {
+  const painting = (id: string, formats: readonly CodedFormat[] = ['organised']) =>
+    Object.assign(new Viewer(id, 5e6, formats), { painting: true });
+  const isCoarse = (viewers: Viewer[], driver: string | null = null, coloursWanted = false) =>
+    setUp(viewers, driver, coloursWanted).budget?.coded.map(({ coarse }) => coarse === true);
+
+  it('only if all who read the packets paint them, also those whose paths do not decide', () => {
+    expect(isCoarse([painting('a'), painting('b')])).toEqual([true]);
+    expect(isCoarse([painting('a'), new Viewer('b', 5e6, ['organised'])], 'a')).toEqual([false]);
+    // Gets points64, which have colours of their own.
+    expect(isCoarse([painting('a'), new Viewer('b', 5e6, [])], 'a')).toEqual([true]);
+    const paused = Object.assign(new Viewer('b', 5e6, ['organised']), { streaming: false });
+    expect(isCoarse([painting('a'), paused])).toEqual([true]);
+  });
+
+  it('never where clouds are recorded as they are sent, nor in a format without a grid', () => {
+    expect(isCoarse([painting('a')], null, true)).toEqual([false]);
+    expect(isCoarse([painting('a', BOTH)])).toEqual([true, false]);
+  });
+
+  it('until one says otherwise: the next budget has full colours', () => {
+    const viewer = painting('a');
+    const { budgets, fanOut } = setUp([viewer]);
+    viewer.painting = false;
+    fanOut.updateBudget();
+    expect(budgets.map(({ coded }) => coded[0]?.coarse === true)).toEqual([true, false]);
+  });
 });

@@ -27,6 +27,8 @@ export interface FrameTarget {
   /** Whether this sensor's frames are enlarged when the path's rate control probes for a higher rate. */
   probesWith(sensor: number): boolean;
   reads(format: CodedFormat): boolean;
+  /** Whether the target paints this sensor's clouds with a video now. Absent: never. */
+  paints?(sensor: number): boolean;
   readonly sender: Pick<StreamSender, 'probeWish' | 'overheadBytes'> | null;
   enqueue(shared: SharedFrame): void;
   /** Sends the header that a coded stream's frames are decoded with, to operators who read the format. */
@@ -49,6 +51,8 @@ export interface FanOutOptions {
   onFrame?: ((frame: ReadyFrame) => void) | undefined;
   /** Whether live viewers want the clouds even if no operator does. */
   wantedAnyway?: (() => boolean) | undefined;
+  /** Whether clouds are recorded as they are sent, so that their colours are needed. */
+  coloursWanted?: (() => boolean) | undefined;
   now: () => number;
   /** Whether coded formats may be used. */
   mayCode: boolean;
@@ -92,7 +96,9 @@ export class FrameFanOut {
     const driving = streaming.find((operator) => operator.id === driver());
     const driven = driving === undefined ? streaming : [driving];
     const coded = mayCode
-      ? CODED_FORMATS.flatMap((format) => codedBudget(format, sensor, driven, streaming))
+      ? CODED_FORMATS.flatMap((format) =>
+          codedBudget(format, sensor, driven, streaming, this.#options.coloursWanted?.() === true),
+        )
       : [];
     const readers = driven.filter((target) => coded.some(({ format }) => target.reads(format)));
     const deciding = readers.length > 0 ? readers : driven;
@@ -160,12 +166,23 @@ function codedBudget(
   sensor: number,
   deciding: readonly FrameTarget[],
   streaming: readonly FrameTarget[],
+  coloursWanted: boolean,
 ): CodedBudget[] {
   const readers = deciding.filter((target) => target.reads(format));
   if (readers.length === 0) return [];
   const others = streaming.filter((target) => !target.reads(format));
   const plainBitsPerSecond = others.length === 0 ? null : narrowest(others, sensor);
-  return [{ format, targetBitsPerSecond: narrowest(readers, sensor), plainBitsPerSecond }];
+  // Not only those who decide: all readers get the same packets.
+  const coarse =
+    format === 'organised' &&
+    !coloursWanted &&
+    streaming.every((target) => !target.reads(format) || target.paints?.(sensor) === true);
+  return [
+    {
+      ...{ format, targetBitsPerSecond: narrowest(readers, sensor), plainBitsPerSecond },
+      ...(coarse ? { coarse } : {}),
+    },
+  ];
 }
 
 function narrowest(targets: readonly FrameTarget[], sensor: number): number {

@@ -1,10 +1,20 @@
 import { TokenBucket, type TokenBucketOptions } from '@farpoint/timing';
 
 /**
- * What an operator may send only so often. `probe` and `lease` are parts of `control` and `session`; `latch` is STOP on
+ * What an operator may send only so often. `probe` is a part of `control`, `lease`, `goal` and `call` of `session`; `latch` is STOP on
  * `session`, and `stop` is STOP on `control`.
  */
-export const ratedMessages = ['control', 'session', 'bandwidth', 'probe', 'lease', 'latch', 'stop'] as const;
+export const ratedMessages = [
+  'control',
+  'session',
+  'bandwidth',
+  'probe',
+  'lease',
+  'goal',
+  'call',
+  'latch',
+  'stop',
+] as const;
 export type RatedMessage = (typeof ratedMessages)[number];
 
 /**
@@ -18,6 +28,8 @@ const RATES: Record<RatedMessage, TokenBucketOptions> = {
   bandwidth: { perSecond: 50, burst: 100 },
   probe: { perSecond: 20, burst: 40 },
   lease: { perSecond: 5, burst: 10 },
+  goal: { perSecond: 5, burst: 10 },
+  call: { perSecond: 10, burst: 20 },
   latch: { perSecond: 10, burst: 20 },
   // A page repeats it 20 times a second until it is acknowledged.
   stop: { perSecond: 50, burst: 50 },

@@ -7,10 +7,12 @@ import {
   decodeStreamSwitch,
   type EndSession,
   encodeJson,
-  type LatencyMeasured,
+  type GoalHold,
+  isPeopleRequest,
   type OperatorSessionMessage,
   operatorControlCodec,
   operatorSessionCodec,
+  type PeopleRequest,
   ProtocolError,
   type ReceiverReport,
   type RobotSessionMessage,
@@ -18,45 +20,17 @@ import {
   robotSessionCodec,
   sequenceDelta32,
 } from '@farpoint/protocol';
-import { type CommandVerdict, type RejectedCommand, RejectionReporter } from '@farpoint/safety';
+import { type RejectedCommand, RejectionReporter } from '@farpoint/safety';
 import { type Access, mayDrive, openAccess, supervises } from '../access/access.ts';
-import type { DriveStation } from '../drive/drive-station.ts';
+import { CommandRequests } from './command-requests.ts';
 import { EstopRequests } from './estop-requests.ts';
-import { MessageRates, type RatedMessage } from './message-rates.ts';
+import { GoalRequests } from './goal-requests.ts';
+import { LeaseRequests } from './lease-requests.ts';
+import { MessageRates } from './message-rates.ts';
 import { OperatorWishes } from './operator-wishes.ts';
+import type { SessionHost, SessionLink } from './session-host.ts';
 
-/** Sends a session's messages to its operator. */
-export interface SessionLink {
-  sendSession(text: string): void;
-  sendControl(text: string): void;
-}
-
-/** What a session needs from the robot. */
-export interface SessionHost {
-  readonly drive: DriveStation;
-  now(): number;
-  /** The driver has changed, and all operators must be told. @param cause if it was not a request */
-  leaseChanged(cause?: 'expired' | 'session-ended'): void;
-  /** The emergency stop was latched or released. @param by who changed it; undefined: the robot itself */
-  estopChanged(by?: OperatorMessages): void;
-  /** It was latched again: all operators must be told its new number. */
-  estopRenewed(by: OperatorMessages): void;
-  latencyTestRequested(session: OperatorMessages, id: number, commandMs: number): void;
-  /** For the counters. */
-  commandAccepted(): void;
-  commandRejected(rejection: RejectedCommand): void;
-  /** For a recording: each command, and the guard's verdict. */
-  commandJudged?(session: OperatorMessages, command: Command, verdict: CommandVerdict): void;
-  /** For a recording: what an operator measured. */
-  latencyMeasured?(session: OperatorMessages, measured: LatencyMeasured): void;
-  /** For the audit log: a request that was refused. */
-  refused?(session: OperatorMessages, what: 'lease' | 'estop-release', reason: string): void;
-  messageRefused(channel: string, error: ProtocolError): void;
-  /** A message was dropped because there were too many of its kind. */
-  messageLimited?(kind: RatedMessage): void;
-  /** The driver's name by its grant; undefined if nobody drives or there are no grants. */
-  driverName?(): string | undefined;
-}
+export type { SessionHost, SessionLink } from './session-host.ts';
 
 /** How much of a malformed command's text goes into the report. */
 const MAX_DETAIL = 200;
@@ -78,10 +52,16 @@ export class OperatorMessages {
   onReceiverLimit: ((bitsPerSecond: number) => void) | null = null;
   /** Of supervisors only. */
   onEndSession: ((request: EndSession) => void) | null = null;
+  /** What it asks of the other operators. */
+  onPeople: ((request: PeopleRequest) => void) | null = null;
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #rejections = new RejectionReporter();
   readonly #estop: EstopRequests;
+  readonly #goals: GoalRequests;
+  /** The robot's commands, as far as this operator may give them. */
+  readonly commands: CommandRequests;
+  readonly #lease: LeaseRequests;
   readonly #rates = new MessageRates((kind, tell) => {
     this.#host.messageLimited?.(kind);
     if (tell) this.send({ type: 'fault', message: `too many ${kind} messages: some were dropped` });
@@ -100,6 +80,19 @@ export class OperatorMessages {
       renewed: () => host.estopRenewed(this),
       refused: (reason) => host.refused?.(this, 'estop-release', reason),
     });
+    this.#goals = new GoalRequests(this, {
+      ...{ drive: host.drive, rates: this.#rates },
+      refused: (goal, reason) => host.goalRefused?.(this, goal, reason),
+    });
+    this.#lease = new LeaseRequests(this, {
+      ...{ drive: host.drive, rates: this.#rates },
+      changed: () => host.leaseChanged(),
+      refused: (reason) => host.refused?.(this, 'lease', reason),
+    });
+    this.commands = new CommandRequests(this, {
+      ...{ commands: host.commands ?? null, drive: host.drive, rates: this.#rates },
+      answered: (id, answer) => host.commandAnswered?.(this, id, answer),
+    });
   }
 
   /** Tells the operator the state of the drive lease; sent after the welcome and at each change. */
@@ -107,6 +100,7 @@ export class OperatorMessages {
     const driver = this.#host.driverName?.();
     const named = driver === undefined ? {} : { driver };
     this.send({ ...this.#host.drive.guard.leaseState(this.id), ...named });
+    this.commands.update();
   }
 
   get operatorName(): string {
@@ -114,7 +108,10 @@ export class OperatorMessages {
   }
 
   sendEstop(): void {
+    const cause = this.#host.estopCause?.(this.id) ?? null;
+    if (cause !== null) this.send(cause);
     this.send(this.#estop.told());
+    this.commands.update();
   }
 
   send(message: RobotSessionMessage): void {
@@ -155,6 +152,9 @@ export class OperatorMessages {
       case 'command':
         this.#onCommand(message, now);
         break;
+      case 'goalHold':
+        this.#onHold(message, now);
+        break;
       case 'clockProbe': {
         if (this.#rates.over('probe', now)) break;
         const { id, sentMs } = message;
@@ -191,6 +191,14 @@ export class OperatorMessages {
     if (command.latencyTest !== undefined) this.#host.latencyTestRequested(this, command.latencyTest, now);
   }
 
+  #onHold(hold: GoalHold, now: number): void {
+    const { drive } = this.#host;
+    const verdict = mayDrive(this.access) ? drive.guard.onGoalHold(this.id, hold, now) : NOT_PERMITTED;
+    drive.apply();
+    if (verdict.accepted) this.#host.commandAccepted();
+    else this.#reject(verdict, hold.sequence);
+  }
+
   #onMalformed(error: ProtocolError): void {
     const verdict = this.#host.drive.guard.onMalformed(
       this.id,
@@ -216,38 +224,25 @@ export class OperatorMessages {
   }
 
   #onRequest(message: OperatorSessionMessage): void {
-    const { drive } = this.#host;
-    const { guard } = drive;
     switch (message.type) {
-      case 'leaseRequest': {
-        if (this.#rates.over('lease', this.heardMs)) break;
-        if (!mayDrive(this.access)) {
-          this.#host.refused?.(this, 'lease', 'not-permitted');
-          this.#notPermitted(NOT_PERMITTED.detail);
-          this.sendLease();
-          break;
-        }
-        const outcome = guard.requestLease(this.id, message.take, this.heardMs, supervises(this.access));
-        drive.apply();
-        if (outcome.granted) {
-          this.#host.leaseChanged();
-        } else {
-          this.#host.refused?.(this, 'lease', outcome.reason);
-          this.send({ type: 'fault', message: outcome.detail });
-          this.sendLease();
-        }
+      case 'leaseRequest':
+        this.#lease.request(message.take);
         break;
-      }
-      case 'leaseRelease': {
-        const released = guard.releaseLease(this.id);
-        drive.apply();
-        if (released) this.#host.leaseChanged();
-        else this.sendLease();
+      case 'leaseRelease':
+        this.#lease.release();
         break;
-      }
       case 'estop':
         if (message.latch) this.#estop.press(message.press);
         else this.#estop.release(message.of);
+        break;
+      case 'goal':
+        this.#goals.take(message);
+        break;
+      case 'goalCancel':
+        this.#goals.cancel(message);
+        break;
+      case 'callCommand':
+        this.commands.take(message);
         break;
       case 'endSession':
         if (supervises(this.access)) this.onEndSession?.(message);
@@ -257,7 +252,8 @@ export class OperatorMessages {
         this.#host.latencyMeasured?.(this, message);
         break;
       default:
-        this.wishes.take(message, mayDrive(this.access));
+        if (isPeopleRequest(message)) this.onPeople?.(message);
+        else this.wishes.take(message, mayDrive(this.access));
     }
   }
 

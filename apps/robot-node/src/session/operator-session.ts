@@ -1,4 +1,4 @@
-import type { CloudFormat, Sound, StageTimings, StreamStatus } from '@farpoint/protocol';
+import type { Sound, StageTimings, StreamStatus } from '@farpoint/protocol';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import { slotSequenceOffset } from '../encode/packetiser.ts';
 import type { CodedFormat } from '../encode/plan.ts';
@@ -19,6 +19,7 @@ import { StreamSender } from '../transport/stream-sender.ts';
 import type { VideoLine } from '../transport/video-line.ts';
 import { OperatorVideos } from '../video/operator-videos.ts';
 import type { VideoFrame } from '../video/video-frame.ts';
+import { CloudWishes } from './cloud-wishes.ts';
 import type { FrameTarget } from './frame-fan-out.ts';
 import { type LatencyTest, LatencyTests } from './latency-tests.ts';
 import { OperatorMessages, type SessionHost } from './operator-messages.ts';
@@ -36,10 +37,7 @@ export class OperatorSession implements FrameTarget {
   readonly resumeKey = new ResumeKey();
   sender: StreamSender | null = null;
   readonly #claims: OperatorSessionOptions['claims'];
-  /** The sensors whose clouds the operator wants. */
-  #sensors: ReadonlySet<number> = new Set([0]);
-  /** The coded formats that the operator says it reads. */
-  #formats: ReadonlySet<CloudFormat> = new Set();
+  readonly #clouds: CloudWishes;
   /** Nothing has been heard from the operator for a while, so its points would be lost. */
   quiet = false;
   readonly #host: SessionHost;
@@ -53,7 +51,7 @@ export class OperatorSession implements FrameTarget {
   readonly videos: OperatorVideos;
   readonly sound: OperatorSound;
   readonly #tests = new LatencyTests();
-  readonly #onViewSent = () => this.#host.drive.guard.onViewSent(this.id, this.#host.now());
+  readonly #onViewSupplied = () => this.#host.drive.guard.onViewSupplied(this.id, this.#host.now());
   #pathHeardMs = 0;
 
   constructor(
@@ -75,7 +73,7 @@ export class OperatorSession implements FrameTarget {
       onPicturesLow: () => this.#sendPictures(),
       onEnded: (end, detail) => this.#onEnded(end, detail),
     });
-    this.pictures = new PictureSender(this.peer, this.#onViewSent);
+    this.pictures = new PictureSender(this.peer);
     this.videos = new OperatorVideos(this.#budget, options.mostVideoBitsPerSecond, (video) =>
       events.onNeedsKeyFrame(video),
     );
@@ -90,11 +88,7 @@ export class OperatorSession implements FrameTarget {
       if (!running) this.#clear();
       events.onBudgetChanged();
     };
-    this.messages.wishes.onSensors = (sensors) => {
-      this.#sensors = new Set(sensors);
-      events.onCloudFormats();
-      events.onBudgetChanged();
-    };
+    this.#clouds = new CloudWishes(this.messages.wishes, events, () => host.now());
     this.messages.wishes.onListen = (on) => this.sound.listen(on);
     this.messages.wishes.onSpeak = (held) => this.sound.speak(held);
     this.messages.wishes.onPictures = (cameras) => this.pictures.watch(cameras);
@@ -106,11 +100,6 @@ export class OperatorSession implements FrameTarget {
       this.#budget.weigh(shares);
       events.onBudgetChanged();
     };
-    this.messages.wishes.onCloudFormats = (formats) => {
-      this.#formats = new Set(formats);
-      events.onCloudFormats();
-      events.onBudgetChanged();
-    };
   }
 
   /** The operator's answer to our latest offer. Never throws. */
@@ -120,9 +109,12 @@ export class OperatorSession implements FrameTarget {
     return verdict;
   }
 
-  /** Whether the operator reads this format. Formats are independent: reading one implies no other. */
   reads(format: CodedFormat): boolean {
-    return this.#formats.has(format);
+    return this.#clouds.reads(format);
+  }
+
+  paints(sensor: number): boolean {
+    return this.#clouds.paints(sensor);
   }
 
   /** The name by which the guard knows the operator. */
@@ -149,11 +141,11 @@ export class OperatorSession implements FrameTarget {
   }
 
   wants(sensor: number): boolean {
-    return this.#sensors.has(sensor);
+    return this.#clouds.sensors.has(sensor);
   }
 
   probesWith(sensor: number): boolean {
-    return probingSensor(this.#claims(), this.#sensors) === sensor;
+    return probingSensor(this.#claims(), this.#clouds.sensors) === sensor;
   }
 
   /** How much of the path a sensor's points may take, bit/s on the wire; 0 while there is no path. */
@@ -161,7 +153,7 @@ export class OperatorSession implements FrameTarget {
     const { sender } = this;
     if (sender === null) return 0;
     const total = this.#budget.cloudBitsPerSecond(sender.targetBitsPerSecond) * sender.fit;
-    return cloudShare(sensor, total, this.#claims(), this.#sensors);
+    return cloudShare(sensor, total, this.#claims(), this.#clouds.sensors);
   }
 
   get watchedCameras(): ReadonlySet<number> {
@@ -190,11 +182,11 @@ export class OperatorSession implements FrameTarget {
   readonly videoCodecs = (video: number) => this.videos.codecs(video);
 
   offerVideo(frame: VideoFrame): void {
-    if (this.streaming) this.videos.offer(frame);
+    if (this.streaming && this.videos.offer(frame)) this.#onViewSupplied();
   }
 
   offerPicture(picture: ReadyPicture): void {
-    if (this.streaming) this.pictures.offer(picture);
+    if (this.streaming && this.pictures.offer(picture)) this.#onViewSupplied();
   }
 
   get droppedFrames(): number {
@@ -217,6 +209,7 @@ export class OperatorSession implements FrameTarget {
     }
     this.#meter.onQueued(shared);
     this.sender.enqueue(shared);
+    this.#onViewSupplied();
   }
 
   announce({ format, header }: CodedStream, sensor: number): void {
@@ -261,7 +254,6 @@ export class OperatorSession implements FrameTarget {
       };
     }
     sender.onFrameSent = ({ frame, sendMs }) => {
-      if (frame.stream !== SOUND_STREAM) this.#onViewSent();
       if (!(frame instanceof SharedFrame)) return;
       this.#meter.onSent(frame, sendMs);
       this.#tests.onSent(frame);

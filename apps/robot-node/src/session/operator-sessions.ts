@@ -5,20 +5,26 @@ import type { IceServer, RobotToService, ServiceToRobot, VideoCodec } from '@far
 import type { Logger } from '@farpoint/service';
 import { openAccess } from '../access/access.ts';
 import type { GrantFiles } from '../access/grant-files.ts';
+import { OperatorRoster } from '../access/operator-roster.ts';
 import { RobotAccess } from '../access/robot-access.ts';
 import type { RobotKey } from '../access/robot-key-file.ts';
 import { SIGNALING } from '../access/robot-revocations.ts';
 import type { AuditedOperator, RobotAudit } from '../audit/robot-audit.ts';
 import { monotonicMs } from '../clock.ts';
+import { People } from '../people/people.ts';
 import type { CloudClaim } from '../sensors/cloud-shares.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { PacketLog } from '../transport/packet-log.ts';
 import type { OperatorPeerOptions, PeerEnd } from '../transport/peer-events.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
+import { KeptPlace } from './kept-place.ts';
 import type { SessionHost } from './operator-messages.ts';
 import { OperatorSession } from './operator-session.ts';
 import type { ResumeRequest } from './path-keeper.ts';
 import { WaitingPlaces } from './waiting-places.ts';
+
+/** The most that signaling takes. */
+const MAX_DETAIL = 300;
 
 export interface OperatorSessionsOptions {
   /** The robot's. */
@@ -65,13 +71,19 @@ export class OperatorSessions {
   readonly #options: OperatorSessionsOptions;
   readonly #events: OperatorSessionsEvents;
   readonly #access: RobotAccess | null;
+  readonly #roster = new OperatorRoster();
+  readonly #people: People;
   readonly #waiting = new WaitingPlaces();
+  readonly #kept = new KeptPlace();
   #iceServers: readonly IceServer[] = [];
 
   constructor(options: OperatorSessionsOptions, events: OperatorSessionsEvents) {
     this.#options = options;
     this.#events = events;
-    const { grants: files, id: robot, counters, audit, log } = options;
+    const { grants: files, id: robot, counters, audit, host, log } = options;
+    const { operators } = this;
+    const roster = this.#roster;
+    this.#people = new People({ operators, roster, host, counters, log });
     const { grantsRefused: refusals, revocationLists } = counters;
     const onRefused = (operator: AuditedOperator, reason: string) =>
       audit.refused('admission', reason, operator);
@@ -79,12 +91,16 @@ export class OperatorSessions {
     this.#access =
       files === null
         ? null
-        : new RobotAccess({ files, robot, refusals, revocationLists, onRefused, log, ...clocks });
+        : new RobotAccess({ files, robot, refusals, revocationLists, onRefused, roster, log, ...clocks });
   }
 
   /** Call every 25 ms. */
   tick(): void {
-    this.#access?.tick(this.operators, this.#options.host.drive.guard.leaseHolder);
+    const { leaseHolder } = this.#options.host.drive.guard;
+    this.#kept.drives(leaseHolder);
+    this.#access?.tick(this.operators, leaseHolder);
+    if (this.#access === null) this.#roster.tick(this.operators.values(), leaseHolder, monotonicMs());
+    this.#people.tick();
   }
 
   /** Reads keys and revocations again; the old keys stay in force if that fails. @throws {GrantKeysError} */
@@ -169,18 +185,15 @@ export class OperatorSessions {
       return;
     }
     const now = monotonicMs();
-    if (this.operators.size >= most) {
-      const overdue = this.operators.get(this.#waiting.overdue(now) ?? '');
-      overdue?.peer.close('not-connected', 'somebody else asked for a place before the connection was there');
-    }
-    if (this.operators.size >= most) {
+    if (!this.#makeRoom(operatorName, now)) {
       counters.sessionsRefused++;
       this.#options.audit.refused('session', 'robot-full', { id: session, access: openAccess(operatorName) });
       this.#options.log.warn(
         { session: shown(session), operators: most },
         'session refused: the robot is full',
       );
-      signaling.send({ type: 'session.close', session, reason: 'robot-full', maxOperators: most });
+      const full = { reason: 'robot-full', maxOperators: most } as const;
+      signaling.send({ type: 'session.close', session, ...full, ...this.#whoIsHere() });
       return;
     }
     const log = this.#options.log.child({ session: shown(session), operator: operatorName });
@@ -203,6 +216,7 @@ export class OperatorSessions {
           this.#waiting.settled(session);
           log.info({ operators: this.operators.size }, 'operator connected');
           this.#events.connected(operator);
+          this.#people.joined(operator);
         },
         onBudgetChanged: () => this.#events.budgetChanged(),
         onCloudFormats: () => this.#events.cloudFormats(operator),
@@ -213,8 +227,10 @@ export class OperatorSessions {
     );
     operator.messages.onEndSession = (request) =>
       this.#access?.endSession(operator, request, this.operators.values());
+    operator.messages.onPeople = (request) => this.#people.take(operator, request);
     this.operators.set(session, operator);
     this.#waiting.requested(session, now);
+    this.#kept.requested(session, operatorName);
     counters.sessionsOpened++;
     log.info('session requested');
     try {
@@ -231,13 +247,43 @@ export class OperatorSessions {
     }
   }
 
+  /** Whether there is a place for an operator of this name, if need be in place of a session that nobody is at. */
+  #makeRoom(name: string, nowMs: number): boolean {
+    const { most } = this.#options;
+    // A robot for a single operator keeps no place: nobody else could ever take over.
+    const isFull = () => this.operators.size + (most > 1 ? this.#kept.keptFrom(name, nowMs) : 0) >= most;
+    if (!isFull()) return true;
+    // Where operators prove who they are, no session ends for a name that nobody has proven yet.
+    if (this.#access === null) {
+      const heardMs = (session: string) => this.operators.get(session)?.heardMs ?? nowMs;
+      const left = this.operators.get(this.#kept.leftBehind(name, heardMs, nowMs) ?? '');
+      left?.peer.close('silent', 'its operator has come back and needs the place');
+      if (!isFull()) return true;
+    }
+    const overdue = this.operators.get(this.#waiting.overdue(nowMs) ?? '');
+    overdue?.peer.close('not-connected', 'somebody else asked for a place before the connection was there');
+    return !isFull();
+  }
+
+  /** Who has a session, for somebody who got none. With grants, names are for those who have shown one. */
+  #whoIsHere(): { detail?: string } {
+    if (this.#access !== null) return {};
+    const driver = this.#options.host.drive.guard.leaseHolder;
+    const names = [...this.operators.values()].map(({ id, operatorName }) =>
+      id === driver ? `${operatorName} (drives)` : operatorName,
+    );
+    return { detail: names.join(', ').toWellFormed().slice(0, MAX_DETAIL) };
+  }
+
   #ended(operator: OperatorSession, end: PeerEnd, detail: string, log: Logger): void {
     const { counters, signaling, audit } = this.#options;
     const { id } = operator.messages;
     this.operators.delete(id);
     this.#waiting.settled(id);
+    this.#kept.ended(id, monotonicMs());
     this.#access?.forget(id);
     this.#events.ended(operator);
+    this.#people.gone(id);
     audit.sessionEnded(operator.messages, end, detail);
     counters.sessionsEnded.add(end);
     log.info({ end, detail, operators: this.operators.size }, 'session ended');

@@ -9,6 +9,7 @@ export class OperatorWishes {
   onPictures: ((cameras: readonly number[]) => void) | null = null;
   onSensors: ((sensors: readonly number[]) => void) | null = null;
   onVideos: ((videos: readonly number[], barcode: boolean) => void) | null = null;
+  onPainted: ((sensors: readonly number[]) => void) | null = null;
   onShares: ((shares: LinkShares) => void) | null = null;
   onListen: ((on: boolean) => void) | null = null;
   onSpeak: ((held: boolean) => void) | null = null;
@@ -30,6 +31,9 @@ export class OperatorWishes {
         break;
       case 'videos':
         this.onVideos?.(message.videos, message.barcode === true && mayDraw);
+        break;
+      case 'painted':
+        this.onPainted?.(message.sensors);
         break;
       case 'shares':
         this.onShares?.(message);

@@ -1,4 +1,10 @@
-import { type Alarm, PROTOCOL_VERSION, type Quantity, type RobotBody } from '@farpoint/protocol';
+import {
+  type Alarm,
+  PROTOCOL_VERSION,
+  type Quantity,
+  type RobotAbout,
+  type RobotBody,
+} from '@farpoint/protocol';
 import { FLOOR_SLOPE } from '../obstacles/floor-slope.ts';
 import type { RobotOptions } from '../robot-configuration.ts';
 import type { CloudSensor } from '../sensors/cloud-sensor.ts';
@@ -11,7 +17,11 @@ import type { OperatorSession } from './operator-session.ts';
 const ELEVATION_DIGITS = 5;
 
 export interface WelcomeFacts
-  extends Pick<RobotOptions, 'id' | 'name' | 'limits' | 'afterGap' | 'sensors' | 'motion' | 'obstacleGuard'> {
+  extends Pick<
+    RobotOptions,
+    'id' | 'name' | 'limits' | 'afterGap' | 'sensors' | 'motion' | 'obstacleGuard' | 'goals'
+  > {
+  about: RobotAbout;
   quantities: readonly Quantity[];
   /** Those that are raised. */
   alarms: readonly Alarm[];
@@ -41,12 +51,14 @@ export function welcome(
     limits: { ...limits, afterGap },
     body: bodyOf(facts),
     stream: { format: 'points64', width, height, framesPerSecond },
+    ...(facts.goals === undefined ? {} : { goals: { mostM: facts.goals.mostM } }),
     resumeKey: resumeKey.text,
     ...(role === null ? {} : { access: { role, name: operatorName, expiresInS } }),
   });
   messages.sendLease();
   messages.sendEstop();
-  for (const message of [...quantities, ...alarms]) messages.send(message);
+  messages.commands.tell();
+  for (const message of [facts.about, ...quantities, ...alarms]) messages.send(message);
   if (cameras.length > 0) messages.send({ type: 'cameras', cameras: cameras.map(({ name }) => ({ name })) });
   if (sensors.all.length > 1) {
     messages.send({ type: 'sensors', sensors: sensors.all.map(({ name }) => ({ name })) });

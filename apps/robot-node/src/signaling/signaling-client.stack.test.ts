@@ -75,6 +75,43 @@ describe('SignalingClient', () => {
     expect(JSON.parse(String((await said)[0]))).toEqual({ type: 'session.close', session: 's' });
   });
 
+  it('says no more of its status to a service that does not know it', async () => {
+    const { port, nextRobot } = await service();
+    const robot = client(port);
+    const heard: string[] = [];
+    const called = nextRobot();
+    robot.start();
+    const { socket } = await called;
+    expect(robot.takesStatus).toBe(false);
+    const next = () =>
+      new Promise<void>((resolve) => {
+        robot.onMessage = ({ type }) => {
+          heard.push(type);
+          resolve();
+        };
+      });
+    const refusal = JSON.stringify({
+      type: 'error',
+      code: 'malformed',
+      message: '',
+    } satisfies ServiceToRobot);
+    const welcomed = next();
+    socket.send(welcome);
+    await welcomed;
+    // What it has refused was something else.
+    const other = next();
+    socket.send(refusal);
+    await other;
+    expect(robot.takesStatus).toBe(true);
+    const status = { estop: false, moving: false, driven: false, operators: 0, maxOperators: 4, alarms: 0 };
+    expect(robot.send({ type: 'robot.status', status })).toBe(true);
+    const refused = next();
+    socket.send(refusal);
+    await refused;
+    expect(robot.takesStatus).toBe(false);
+    expect([robot.registrations, heard]).toEqual([1, ['robot.welcome', 'error', 'error']]);
+  });
+
   it('reconnects with the same key after the service was away', async () => {
     const first = await service();
     const robot = client(first.port);

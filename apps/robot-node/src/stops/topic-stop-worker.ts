@@ -2,6 +2,7 @@
 import { parentPort, workerData } from 'node:worker_threads';
 import { SENSOR_QOS } from '@farpoint/ros';
 import { type GraphOptions, openGraph } from '../ros/open-graph.ts';
+import { tellNewFaults } from '../ros/tell-new-faults.ts';
 import { saysStop } from './bool-message.ts';
 import { StopCells } from './stop-cells.ts';
 
@@ -29,11 +30,7 @@ const send = (report: TopicStopReport) => port.postMessage(report);
 
 try {
   const graph = await openGraph(options, 'stop');
-  let lastFault = '';
-  graph.onFault = ({ message }) => {
-    if (message !== lastFault) send({ type: 'fault', detail: message });
-    lastFault = message;
-  };
+  tellNewFaults(graph, (detail) => send({ type: 'fault', detail }));
   let before: boolean | null = null;
   const to = { topic, type: 'std_msgs/msg/Bool', qos: SENSOR_QOS, queue: 16 };
   const subscription = graph.subscribe(to, (bytes, receivedMs) => {

@@ -1,7 +1,7 @@
 import { encodeJson, type ModelPart, robotSessionCodec } from '@farpoint/protocol';
-import { modelReading, newsOf } from '@farpoint/ros';
+import { type LinkMeshes, modelReading, newsOf } from '@farpoint/ros';
 import { beforeEach, expect, test } from 'vitest';
-import { ModelBoard } from './model-board.ts';
+import { type LoadMeshes, ModelBoard } from './model-board.ts';
 
 const JOINTS = 30;
 const links = Array.from(
@@ -94,4 +94,55 @@ test('people are told when joints are unknown or silent, and when that is over',
   board.take(joints(['j1', 1]), 5000);
   expect(board.reading(5000)).toMatchObject({ level: 'ok', values: [['', 'drawn']] });
   expect(board.reading(15_000)?.values).toEqual([['', 'its joints: silent for 10 s']]);
+});
+
+const MESHED = `<robot name="r"><link name="base_link"><visual><geometry><mesh filename="a.stl"/></geometry></visual>
+  <collision><geometry><box size="1 1 1"/></geometry></collision></link></robot>`;
+
+test('meshes come after the model, in small messages, and not while others wait for the path', () => {
+  const bytes = Uint8Array.from({ length: 2000 }, (_, i) => i);
+  let links: readonly LinkMeshes[] = [];
+  board.loadMeshes = (given, done) => {
+    links = given;
+    done({ bytes, left: { replaced: 0, missing: 0, why: null } });
+  };
+  board.take(reading(MESHED), 0);
+  expect(links).toMatchObject([{ meshes: [{ address: 'a.stl' }], standIns: [0] }]);
+  expect(board.nextMeshes(operator, 'wide', 0, 0)).toBe(null);
+  told([], 'wide', 0, 1);
+  expect(board.nextMeshes(operator, 'wide', 10_000, 1000)).toBe(null);
+  const taken: number[] = [];
+  let messages = 0;
+  for (let nowMs = 1000; nowMs < 3000; nowMs += 25) {
+    const part = board.nextMeshes(operator, 'wide', 0, nowMs);
+    if (part === null) continue;
+    expect(encodeJson(robotSessionCodec, part).length).toBeLessThan(1100);
+    expect(part).toMatchObject({ model: 1, count: 2000, at: taken.length });
+    taken.push(...Buffer.from(part.data, 'base64'));
+    messages++;
+  }
+  expect(taken).toEqual([...bytes]);
+  expect(messages).toBe(3);
+  // Another operator gets them from the beginning, slowly on a narrow path.
+  const other = {};
+  for (let nowMs = 5000; nowMs < 7000; nowMs += 50) board.nextParts(other, 'narrow', nowMs);
+  expect(board.nextMeshes(other, 'narrow', 0, 7000)?.at).toBe(0);
+  expect(board.nextMeshes(other, 'narrow', 0, 7350)).toBe(null);
+  expect(board.nextMeshes(other, 'narrow', 0, 7400)?.at).toBe(720);
+});
+
+test('people are told of the meshes that are not drawn, once it is known', () => {
+  let done: Parameters<LoadMeshes>[1] = () => undefined;
+  board.loadMeshes = (_, then) => {
+    done = then;
+  };
+  board.take(reading(MESHED), 0);
+  expect(board.reading(0)?.values).toEqual([['', 'collision shapes for 1 mesh']]);
+  done({ bytes: null, left: { replaced: 1, missing: 0, why: 'a.stl: no folder for meshes has it' } });
+  expect(board.reading(0)?.values).toEqual([
+    ['', 'collision shapes for 1 mesh'],
+    ['', 'a.stl: no folder for meshes has it'],
+  ]);
+  done({ bytes: new Uint8Array(1), left: { replaced: 0, missing: 0, why: null } });
+  expect(board.reading(0)).toMatchObject({ level: 'ok', values: [['', 'drawn']] });
 });

@@ -1,15 +1,24 @@
 /**
  * The robot's model and where its joints are, and what of them each operator is told next. The model goes in small
- * messages, one at a time and slowly, so that it delays nothing else.
+ * messages, one at a time and slowly, so that it delays nothing else; its meshes come after it.
  */
 import {
   type JointPositions,
   MAX_JOINT_POSITION,
+  type ModelMeshParts,
   type ModelPart,
   nextSequence32,
   type RobotModelParts,
 } from '@farpoint/protocol';
-import type { JointNews, JointSource, TopicReading } from '@farpoint/ros';
+import {
+  type JointNews,
+  type JointSource,
+  type LinkMeshes,
+  modelWords,
+  type TopicReading,
+} from '@farpoint/ros';
+import type { ModelMeshBytes } from '../model/mesh-loader.ts';
+import { MeshBoard } from './mesh-board.ts';
 import type { PathWidth } from './navigation-board.ts';
 
 /** Time between two messages of the model, ms. */
@@ -36,7 +45,13 @@ interface Told {
   changes: number;
 }
 
+/** Reads the meshes of a model. @param done is told once, unless another model comes first */
+export type LoadMeshes = (links: readonly LinkMeshes[], done: (meshes: ModelMeshBytes) => void) => void;
+
 export class ModelBoard {
+  /** `null`: nobody reads meshes. */
+  loadMeshes: LoadMeshes | null = null;
+  readonly #meshes = new MeshBoard();
   /** 0: there has not been any. */
   #number = 0;
   #parts: readonly ModelPart[] = [];
@@ -64,6 +79,11 @@ export class ModelBoard {
     this.#reading = reading;
     this.#parts = model?.parts ?? [];
     this.#sources = model?.joints ?? [];
+    this.#meshes.take(null);
+    this.loadMeshes?.(model?.meshes ?? [], ({ bytes, left }) => {
+      this.#meshes.take(bytes);
+      if (news !== undefined) this.#reading = { ...reading, ...modelWords(news, left) };
+    });
     this.#place();
   }
 
@@ -96,16 +116,27 @@ export class ModelBoard {
     return { type: 'robotModel', number: this.#number, count, at, parts };
   }
 
+  /** The next bytes of its meshes for this operator, as {@link MeshBoard.next} has them. */
+  nextMeshes(operator: object, width: PathWidth, waiting: number, nowMs: number): ModelMeshParts | null {
+    return this.#knowsModel(operator)
+      ? this.#meshes.next(operator, this.#number, width, waiting, nowMs)
+      : null;
+  }
+
   /** Where the joints are: `null` if this operator knows, or does not know the model yet. Call it 20 times a second. */
   nextJoints(operator: object, nowMs: number): JointPositions | null {
     const told = this.#toldTo(operator);
-    const knowsModel = told.number === this.#number && told.parts === this.#parts.length;
-    if (this.#jointsMs === null || this.#positions.length === 0 || !knowsModel) return null;
+    if (this.#jointsMs === null || this.#positions.length === 0 || !this.#knowsModel(operator)) return null;
     if (told.changes === this.#changes && nowMs - told.jointsMs < REPEAT_JOINTS_MS) return null;
     Object.assign(told, { changes: this.#changes, jointsMs: nowMs });
     const timeMs = this.#jointsMs;
     const positions = this.#positions;
     return { type: 'joints', model: this.#number, timeMs, ageMs: Math.max(0, nowMs - timeMs), positions };
+  }
+
+  #knowsModel(operator: object): boolean {
+    const { number, parts } = this.#toldTo(operator);
+    return number === this.#number && parts === this.#parts.length;
   }
 
   #jointWords(nowMs: number): string | null {

@@ -2,6 +2,7 @@ import { MAX_ALARMS, MAX_QUANTITIES } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
 import type { Capture } from '../capture/capture.ts';
 import { monotonicMs } from '../clock.ts';
+import { MeshLoader } from '../model/mesh-loader.ts';
 import type { RobotOptions } from '../robot-configuration.ts';
 import { NO_PLAYED_TELEMETRY, type PlayedTelemetry } from './played-telemetry.ts';
 import type { SessionRecording } from './session-recording.ts';
@@ -9,7 +10,12 @@ import { TelemetryBoard } from './telemetry-board.ts';
 
 /** The board of what the robot tells about itself, with what its source plays, and recorded if anything is. */
 export function openBoard(
-  { quantities, alarms, model }: Pick<RobotOptions, 'quantities' | 'alarms' | 'model'>,
+  {
+    quantities,
+    alarms,
+    model,
+    meshFolders,
+  }: Pick<RobotOptions, 'quantities' | 'alarms' | 'model' | 'meshFolders'>,
   capture: Pick<Capture, 'description' | 'onTelemetry'>,
   recording: Pick<SessionRecording, 'telemetryTaker'> | null,
   log: Logger,
@@ -26,6 +32,8 @@ export function openBoard(
       'the recording has more quantities or alarms than can be shown: the last are left out',
     );
   const board = new TelemetryBoard(quantities, alarms, shown);
+  const meshes = new MeshLoader(meshFolders ?? [], log);
+  board.model.loadMeshes = (links, done) => meshes.load(links, done);
   if (model !== undefined) board.take(model, monotonicMs());
   capture.onTelemetry = (message) => board.play(message);
   const watched = [...alarms, ...shown.alarms].map(({ watches, label }) => ({ watches, label }));

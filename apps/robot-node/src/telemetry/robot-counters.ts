@@ -36,6 +36,10 @@ export class RobotCounters {
   /** Datagrams that arrived on sessions' sockets and were dropped unread, by reason. */
   readonly datagramsRefused = new ReasonCounts();
   readonly signalingErrors = new ReasonCounts();
+  /** What became of requests for the drive and offers of it: `ask-accepted`, `offer-expired` and so on. */
+  readonly handovers = new ReasonCounts();
+  /** Lines that operators have said to each other. */
+  chatLines = 0;
   commandsAccepted = 0;
   readonly commandsRejected = new ReasonCounts();
   /** Times that something began to bound the robot's motion. */
@@ -45,6 +49,10 @@ export class RobotCounters {
   framesCaptured = 0;
   /** Frames that were captured, but too old when they left the worker. */
   framesStale = 0;
+  /** Frames of which every point was coded. */
+  framesWhole = 0;
+  /** Frames with coarse colours, for operators that paint them with a video. */
+  framesCoarse = 0;
   pointsCaptured = 0;
   /** Points not sent, by reason. */
   readonly pointsRejected = new ReasonCounts();
@@ -57,6 +65,8 @@ export class RobotCounters {
 
   frame(frame: ReadyFrame): void {
     this.framesCaptured++;
+    if (frame.rejected.notDrawn === 0) this.framesWhole++;
+    if (frame.coarse === true) this.framesCoarse++;
     this.pointsCaptured += frame.points;
     this.lastPoints = frame.points;
     this.lastFramesPerSecond = 1000 / frame.intervalMs;

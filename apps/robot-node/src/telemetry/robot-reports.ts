@@ -1,36 +1,33 @@
 import { fileFault, JsonLinesFile, type Logger } from '@farpoint/service';
-import type { TimedBaseState } from '../base/base.ts';
 import type { MotionStatus } from '../drive/motion-status.ts';
-import type { OperatorSession } from '../session/operator-session.ts';
+import { type ListedStatusParts, tellListedStatus } from '../signaling/listed-status.ts';
 import type { RobotCounters } from './robot-counters.ts';
 import type { SessionRecording } from './session-recording.ts';
 import { streamStatistics } from './stream-statistics.ts';
-import type { TelemetryBoard } from './telemetry-board.ts';
 import type { TelemetrySender } from './telemetry-sender.ts';
 
 const TELEMETRY_MS = 50;
 const STATISTICS_MS = 100;
 
-export interface RobotReportsParts {
-  operators: ReadonlyMap<string, OperatorSession>;
+export interface RobotReportsParts extends ListedStatusParts {
   counters: RobotCounters;
   telemetry: TelemetrySender;
-  board: TelemetryBoard;
   status: MotionStatus;
   recording: SessionRecording | null;
-  /** The state of the base; `null` before it is known. */
-  state: () => TimedBaseState | null;
   /** One JSON object per line; if undefined, nothing is written. */
   statisticsFile?: string | undefined;
   log: Logger;
-  now: () => number;
 }
 
-/** What the robot reports periodically: telemetry to operators and the recording, statistics to a file. */
+/**
+ * What the robot reports periodically: telemetry to operators and the recording, statistics to a file, its status to the
+ * list of robots.
+ */
 export class RobotReports {
   readonly #parts: RobotReportsParts;
   readonly #timers: NodeJS.Timeout[] = [];
   readonly #statistics: JsonLinesFile | null = null;
+  readonly #endListed: () => void;
 
   constructor(parts: RobotReportsParts) {
     this.#parts = parts;
@@ -47,10 +44,12 @@ export class RobotReports {
       this.#timers.push(setInterval(() => this.#writeStatistics(), STATISTICS_MS));
     }
     this.#timers.push(setInterval(() => this.#sendTelemetry(), TELEMETRY_MS));
+    this.#endListed = tellListedStatus(parts);
   }
 
   async close(): Promise<void> {
     for (const timer of this.#timers) clearInterval(timer);
+    this.#endListed();
     await this.#statistics?.close();
   }
 

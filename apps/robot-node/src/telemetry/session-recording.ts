@@ -24,42 +24,17 @@ import type { ReadyFrame } from '../capture/capture-messages.ts';
 import type { CameraDescription } from '../capture/frame-source.ts';
 import { monotonicMs } from '../clock.ts';
 import type { MotionStatus } from '../drive/motion-status.ts';
-import type { FOXGLOVE_REACHES } from '../options/foxglove.ts';
 import type { RecordedVideos } from '../options/recording.ts';
 import type { ReadyPicture } from '../pictures/picture-messages.ts';
+import type { RecordControl } from '../robot-commands/record-actor.ts';
 import type { VideoCamera } from '../video/video-encoder.ts';
 import type { EncodedPicture } from '../video/video-frame.ts';
 import type { VideoTaker } from '../video/video-taker.ts';
+import { logLive } from './log-live.ts';
 import { durationWords, recordingBytesPerSecond, sizeWords } from './recording-rate.ts';
+import type { SessionOutputs } from './session-outputs.ts';
 import type { StreamStatistics } from './stream-statistics.ts';
 import type { TelemetryTaker } from './telemetry-taker.ts';
-
-export interface RecordingOptions {
-  /** Path of the MCAP file, which must not exist yet. */
-  path: string;
-  compression: 'none' | 'zstd';
-  /** Highest number of clouds per second; 0 records none. */
-  clouds: Readonly<Record<CloudKind, number>>;
-  videos: RecordedVideos;
-  /** The recording ends, complete, before it exceeds this size. */
-  mostBytes: number;
-}
-
-/** A server that shows live what a recording contains. */
-export interface LiveOptions {
-  port: number;
-  reach: (typeof FOXGLOVE_REACHES)[number];
-  /** Origins of web pages that may connect, besides the viewers' own and pages of this machine. */
-  allowedOrigins: readonly string[];
-  /** Highest number of clouds of each kind per second. */
-  cloudsPerSecond: number;
-}
-
-/** At least one of them. */
-export interface SessionOutputs {
-  record: RecordingOptions | null;
-  foxglove: LiveOptions | null;
-}
 
 const HOSTS = { localhost: '127.0.0.1', network: '0.0.0.0' } as const;
 const MOST_VIEWERS = 8;
@@ -74,17 +49,20 @@ const UNSEEN = 'these cameras are in VP8, which this robot plays but Foxglove an
 const SEEN_REMEDY = 'an H.264 encoder (docs/video.md)';
 
 /** The main thread's part of a recording, and of the live server. The clouds come from the capture thread. */
-export class SessionRecording implements VideoTaker {
+export class SessionRecording implements RecordControl, VideoTaker {
+  readonly robotId: string;
   readonly capture: CaptureRecording;
   readonly #recorder: SessionRecorder;
   readonly #options: SessionOutputs;
+  readonly #recordedVideos: RecordedVideos;
   readonly #log: Logger;
+  /** Called when a file begins, or ends before the robot does. */
+  onChanged: (() => void) | null = null;
   readonly #keyFramesMs = new Map<number, number>();
 
-  private constructor(recorder: SessionRecorder, options: SessionOutputs, log: Logger) {
-    this.#recorder = recorder;
-    this.#options = options;
-    this.#log = log;
+  private constructor(recorder: SessionRecorder, options: SessionOutputs, robotId: string, log: Logger) {
+    [this.robotId, this.#recorder, this.#options, this.#log] = [robotId, recorder, options, log];
+    this.#recordedVideos = options.record?.videos ?? 'none';
     this.capture = {
       clouds: recorder.clouds,
       perSecond: options.record?.clouds ?? NO_CLOUDS,
@@ -106,14 +84,19 @@ export class SessionRecording implements VideoTaker {
             allowedOrigins: foxglove.allowedOrigins,
           };
     const recorder = await SessionRecorder.open({ path, compression, robotId, epochNs, mostBytes, live });
-    recorder.onFailure = (error) => log.error({ err: error }, 'the recording ends; the robot goes on');
-    recorder.onFull = () =>
+    recorder.onFailure = (error) => {
+      log.error({ err: error }, 'the recording ends; the robot goes on');
+      recording.onChanged?.();
+    };
+    recorder.onFull = () => {
       log.warn(
-        { path, bytes: recorder.bytes, remedy: MORE_ROOM },
+        { path: recorder.file.path, bytes: recorder.file.bytes, remedy: MORE_ROOM },
         `the recording has reached ${sizeWords(mostBytes)} and is closed, whole; the robot goes on`,
       );
-    const recording = new SessionRecording(recorder, options, log);
-    recording.#logLive();
+      recording.onChanged?.();
+    };
+    const recording = new SessionRecording(recorder, options, robotId, log);
+    if (foxglove !== null) logLive(recorder.live, foxglove, log);
     return recording;
   }
 
@@ -127,6 +110,7 @@ export class SessionRecording implements VideoTaker {
     if (record === null) return;
     const { capacity, framesPerSecond = mostFramesPerSecond } = description;
     const { path, clouds, mostBytes } = record;
+    if (path === null) return;
     const bytesPerSecond = recordingBytesPerSecond({
       perSecond: clouds,
       points: capacity,
@@ -147,13 +131,18 @@ export class SessionRecording implements VideoTaker {
 
   /** For `/metrics`: what was written, and what was not because the disk or the processor did not keep up. */
   get counts(): { messages: number; bytes: number; dropped: Readonly<Record<DropKind, number>> } {
-    const { messages, bytes, dropped } = this.#recorder;
-    return { messages, bytes, dropped };
+    const { file, dropped } = this.#recorder;
+    return { messages: file.messages, bytes: file.bytes, dropped };
   }
 
-  /** Whether there is a file. */
+  /** Whether files are written, or may be. */
   get hasFile(): boolean {
     return this.#options.record !== null;
+  }
+
+  /** Whether the session is being written to a file now. */
+  get writes(): boolean {
+    return this.#recorder.writing;
   }
 
   /** Whether there is a server for live viewers, and what it did so far. */
@@ -165,6 +154,11 @@ export class SessionRecording implements VideoTaker {
   /** Whether a live viewer wants clouds as the source gives them, even if no operator watches. */
   get wantsClouds(): boolean {
     return this.#recorder.liveWishes.clouds.captured;
+  }
+
+  /** Whether clouds are recorded, or shown to live viewers, as they are sent. */
+  get takesSentClouds(): boolean {
+    return (this.writes && this.capture.perSecond.sent > 0) || this.#recorder.liveWishes.clouds.sent;
   }
 
   /**
@@ -269,24 +263,37 @@ export class SessionRecording implements VideoTaker {
     if (this.#recorder.takes('audit')) this.#recorder.json('audit', monotonicMs(), event);
   }
 
+  get folder(): RecordControl['folder'] {
+    return this.#options.record?.folder ?? null;
+  }
+
+  /** The file that the robot itself writes from its start is not the operators'. */
+  get isOwn(): boolean {
+    return this.writes && this.#recorder.file.path === this.#options.record?.path;
+  }
+
+  async start(path: string): Promise<void> {
+    await this.#recorder.file.open(path);
+    this.#log.info({ path }, 'a recording begins');
+    this.onChanged?.();
+  }
+
+  async stop(): Promise<string | null> {
+    const { path } = this.#recorder.file;
+    try {
+      await this.#recorder.file.close();
+    } finally {
+      this.onChanged?.();
+    }
+    this.#log.info({ path }, 'the recording is complete');
+    return path;
+  }
+
+  bookmark(text: string): void {
+    this.#recorder.bookmark(monotonicMs(), text);
+  }
+
   close(): Promise<void> {
     return this.#recorder.close();
-  }
-
-  get #recordedVideos(): RecordedVideos {
-    return this.#options.record?.videos ?? 'none';
-  }
-
-  #logLive(): void {
-    const { foxglove } = this.#options;
-    const { live } = this.#recorder;
-    if (live === null || foxglove === null) return;
-    const { reach } = foxglove;
-    if ('failed' in live) {
-      const remedy = 'another --foxglove-port, or end the program that has this one';
-      this.#log.error({ port: foxglove.port, remedy }, `no server for Foxglove: ${live.failed}`);
-    } else if (reach === 'network')
-      this.#log.warn({ ...live, reach }, 'everybody in the network can watch this robot in Foxglove');
-    else this.#log.info({ ...live, reach }, 'server for Foxglove');
   }
 }

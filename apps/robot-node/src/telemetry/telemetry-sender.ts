@@ -103,7 +103,9 @@ export class TelemetrySender {
       const width = isNarrow ? 'narrow' : 'wide';
       for (const each of navigation.next(operator, width, nowMs)) send(each);
       const parts = model.nextParts(operator, width, nowMs);
-      if (parts !== null) operator.messages.send(parts);
+      const meshes = () => model.nextMeshes(operator, width, operator.peer.sessionBuffered, nowMs);
+      const ofModel = parts ?? meshes();
+      if (ofModel !== null) operator.messages.send(ofModel);
       send(model.nextJoints(operator, nowMs));
     }
   }

@@ -1,6 +1,7 @@
 import {
   type Command,
   type EstopRequest,
+  type GoalHold,
   type RobotSessionMessage,
   sequenceDelta32,
   type Twist,
@@ -29,6 +30,14 @@ export class DrivingHand {
   /** Whatever has arrived counts as drawn at once. @param stampUs its capture time, as in `seenUs` */
   sees(stampUs: number): void {
     if (this.#seenUs === null || sequenceDelta32(stampUs, this.#seenUs) > 0) this.#seenUs = stampUs;
+  }
+
+  /** Holds on to a goal. */
+  hold(lease: string, goal: number): GoalHold {
+    return {
+      ...{ type: 'goalHold', goal, sequence: this.#sequence++, timeMs: performance.now(), lease },
+      ...(this.#seenUs === null ? {} : { seenUs: this.#seenUs }),
+    };
   }
 
   /** On a busy machine commands come with gaps, after which the robot demands an open hand. */

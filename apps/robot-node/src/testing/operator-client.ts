@@ -92,7 +92,7 @@ export class OperatorClient {
   readonly #helloAtOnce: boolean;
   #sessionChannel: RTCDataChannel | null = null;
   #probes: NodeJS.Timeout | null = null;
-  readonly #hand = new DrivingHand(this.session);
+  readonly hand = new DrivingHand(this.session);
 
   constructor({
     keys,
@@ -222,8 +222,8 @@ export class OperatorClient {
 
   /** Lets go once when the robot has asked for it. */
   drive(lease: string, linear: number, more: DriveExtras = {}): void {
-    if (this.telemetry !== null) this.#hand.sees(stampUsOf(this.telemetry.timeMs));
-    this.sendControl(this.#hand.command(lease, linear, more));
+    if (this.telemetry !== null) this.hand.sees(stampUsOf(this.telemetry.timeMs));
+    this.sendControl(this.hand.command(lease, linear, more));
   }
 
   /** By the `mid` of its m-line. */
@@ -275,7 +275,7 @@ export class OperatorClient {
       return;
     }
     this.onCloudPacket?.(payload);
-    this.#hand.sees(placement.captureTimeUs);
+    this.hand.sees(placement.captureTimeUs);
     const { frameNumber, frameLength, sequenceLength } = header;
     const frames = this.#framesOf.get(placement.sensor) ?? new Map<number, ReceivedFrame>();
     this.#framesOf.set(placement.sensor, frames);

@@ -197,6 +197,11 @@ export class OperatorPeer {
     this.#send(this.#session, text);
   }
 
+  /** Bytes of session messages that wait for the path. */
+  get sessionBuffered(): number {
+    return this.#session.bufferedAmount;
+  }
+
   sendTelemetry(text: string): void {
     this.#sendUnreliable(this.#telemetry, text);
   }

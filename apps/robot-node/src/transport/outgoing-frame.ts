@@ -1,10 +1,13 @@
 import type { PacedFrame } from '@farpoint/congestion';
 import type { VideoCodec } from '@farpoint/protocol';
 
+/** The number of the clouds' stream. */
+export const CLOUD_STREAM = 0;
+
 /** One frame on its way to several operators, cut into the payloads of RTP packets. */
 export interface OutgoingFrame extends PacedFrame {
   readonly lane: number;
-  /** The RTP stream that carries it, by the number under which the sender knows its transport; 0 for clouds. */
+  /** The RTP stream that carries it, by the number under which the sender knows its transport. */
   readonly stream: number;
   /** What a video's frame is coded with: its payload type follows from it. */
   readonly codec?: VideoCodec;

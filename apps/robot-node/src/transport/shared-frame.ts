@@ -2,14 +2,14 @@ import { CLOUD_MEDIA } from '@farpoint/protocol';
 import { rtpTimestamp } from '@farpoint/rtp';
 import type { ReadyFrame } from '../capture/capture-messages.ts';
 import { slotPayload, slotPayloadBytes } from '../encode/packetiser.ts';
-import type { OutgoingFrame } from './outgoing-frame.ts';
+import { CLOUD_STREAM, type OutgoingFrame } from './outgoing-frame.ts';
 
 /** A frame takes one interval to send. When it has taken this many, its farthest points are dropped. */
 const MOST_INTERVALS = 2;
 
 /** One captured cloud on its way to several operators. Its buffer is returned when the last of them has released it. */
 export class SharedFrame implements OutgoingFrame {
-  readonly stream = 0;
+  readonly stream = CLOUD_STREAM;
   readonly frame: ReadyFrame;
   readonly slots: Uint8Array;
   readonly packets: number;

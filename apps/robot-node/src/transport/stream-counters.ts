@@ -5,6 +5,8 @@ export interface StreamCounters {
   packetsSent: number;
   /** On the wire, all headers counted. */
   bytesSent: number;
+  /** The same by stream, without what was sent again. */
+  bytesByStream: Map<number, number>;
   pointsSent: number;
   /** Packets not sent because the path was closed. */
   packetsUnsent: number;
@@ -19,6 +21,7 @@ export function emptyStreamCounters(): StreamCounters {
     framesSent: 0,
     packetsSent: 0,
     bytesSent: 0,
+    bytesByStream: new Map(),
     pointsSent: 0,
     packetsUnsent: 0,
     feedbackMessages: 0,

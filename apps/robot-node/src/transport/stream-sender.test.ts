@@ -171,6 +171,7 @@ describe('StreamSender', () => {
       framesSent: 1,
       packetsSent: 11,
       bytesSent: shared.bytes,
+      bytesByStream: new Map([[0, shared.bytes]]),
       pointsSent: 1510,
     });
   });

@@ -7,14 +7,12 @@ import {
 } from '@farpoint/congestion';
 import type { ResendRefusal } from '@farpoint/rtp';
 import { FrameFit } from './frame-fit.ts';
-import type { OutgoingFrame } from './outgoing-frame.ts';
+import { CLOUD_STREAM, type OutgoingFrame } from './outgoing-frame.ts';
 import { ReportIntake } from './report-intake.ts';
 import type { RtpTransport } from './rtp-transport.ts';
 import { emptyStreamCounters } from './stream-counters.ts';
 import { StreamFeedback } from './stream-feedback.ts';
 
-/** The number of the clouds' stream. */
-const CLOUD_STREAM = 0;
 /** Packets leave in bursts of this length, ms. Waking up for each packet would cost more than sending it. */
 const BURST_MS = 2.5;
 /**
@@ -189,6 +187,7 @@ export class StreamSender {
       if (first === 0) this.#beganMs.set(frame, now);
       const { rtpTimestamp, usefulMs, capturedAtMs, codec } = frame;
       const transport = this.#streams.get(frame.stream) ?? this.#transport;
+      let runBytes = 0;
       for (let i = first; i < first + count; i++) {
         const payload = frame.payload(i);
         const marker = i === frame.packets - 1 && frame.marked !== false;
@@ -209,7 +208,10 @@ export class StreamSender {
         this.onPacketSent?.(frame, i, this.#now());
         this.counters.packetsSent++;
         this.counters.bytesSent += wireBytes;
+        runBytes += wireBytes;
       }
+      const { bytesByStream } = this.counters;
+      bytesByStream.set(frame.stream, (bytesByStream.get(frame.stream) ?? 0) + runBytes);
       if (!last) continue;
       if (frame.stream === CLOUD_STREAM) {
         this.#fit.onSent();

@@ -81,8 +81,9 @@ export class OperatorVideos {
     );
   }
 
-  offer(frame: VideoFrame): void {
-    this.#connected?.videos.offer(frame);
+  /** @returns whether it waits to be sent */
+  offer(frame: VideoFrame): boolean {
+    return this.#connected?.videos.offer(frame) ?? false;
   }
 
   /** The pacer dropped a frame of a video; what waits behind it cannot be decoded without it. */

@@ -37,7 +37,7 @@ export class RateTrim {
     return this.factor !== before;
   }
 
-  /** Begins a new measurement, as after a change of size, frame rate or bit rate. */
+  /** Begins a new measurement, as after a change of size or frame rate. */
   reset(): void {
     this.#frames = 0;
     this.#bytes = 0;

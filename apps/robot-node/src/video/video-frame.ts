@@ -1,6 +1,6 @@
 import { VIDEO_CLOCK_RATE, type VideoCodec } from '@farpoint/protocol';
 import { packetiseH264, packetiseVp8, rtpTimestamp } from '@farpoint/rtp';
-import type { OutgoingFrame } from '../transport/outgoing-frame.ts';
+import { CLOUD_STREAM, type OutgoingFrame } from '../transport/outgoing-frame.ts';
 
 /** The payload of a packet, at most, bytes: with all headers, 1,280 bytes fit every path (RFC 8200 §5). */
 const MAX_PAYLOAD_BYTES = 1180;
@@ -86,11 +86,10 @@ export class VideoFrame implements OutgoingFrame {
   release(): void {}
 }
 
-/** The sender's stream 0 carries clouds. */
 export function streamOfVideo(video: number): number {
-  return video + 1;
+  return CLOUD_STREAM + 1 + video;
 }
 
 export function videoOfStream(stream: number): number {
-  return stream - 1;
+  return stream - CLOUD_STREAM - 1;
 }

@@ -65,7 +65,7 @@ describe('VideoHub', () => {
     expect(encoders).toHaveLength(2);
   });
 
-  it('asks an encoder that gives too little for more, and begins anew when the rate changes', () => {
+  it('asks an encoder for more than it shall give if it gives too little, and for less if too much', () => {
     const operator = new FakeOperator('a', 800_000);
     operators = [operator];
     hub.tick(0);
@@ -79,6 +79,33 @@ describe('VideoHub', () => {
     for (let i = 31; i <= 60; i++) encoder.picture(i * 33);
     expect(encoder.formats.at(-1)?.bitsPerSecond).toBeLessThan(450_000);
     expect(hub.streams[0]!.format?.bitsPerSecond).toBe(400_000);
+  });
+
+  it('measures what an encoder gives while the rate changes all the time, but not over a change of size', () => {
+    const operator = new FakeOperator('a', 800_000);
+    operators = [operator];
+    hub.tick(0);
+    const encoder = encoders[0]!;
+    let k = 0;
+    /** 2000 bytes each, of 3000 on average. */
+    const pictures = (count: number) => {
+      for (let i = 0; i < count; i++) encoder.picture(++k * 33);
+    };
+    for (const bitsPerSecond of [760_000, 680_000, 720_000]) {
+      operator.bitsPerSecond = bitsPerSecond;
+      hub.tick(k * 33);
+      pictures(10);
+    }
+    // Half of the difference is corrected at once.
+    expect(encoder.formats.at(-1)?.bitsPerSecond).toBeCloseTo(720_000 * 1.25, -5);
+    pictures(20);
+    // So little that the picture becomes smaller.
+    operator.bitsPerSecond = 70_000;
+    hub.tick(k * 33);
+    expect(encoder.formats.at(-1)?.width).toBeLessThan(640);
+    const { length } = encoder.formats;
+    pictures(10);
+    expect(encoder.formats).toHaveLength(length);
   });
 
   it('claims nothing of the link for a camera without pictures', () => {

@@ -43,20 +43,22 @@ export class VideoSender {
     for (const video of added) this.#needsKeyFrame(video);
   }
 
-  offer(frame: VideoFrame): void {
+  /** @returns whether it waits to be sent */
+  offer(frame: VideoFrame): boolean {
     const { video, codec } = frame;
-    if (!this.wanted.has(video)) return;
+    if (!this.wanted.has(video)) return false;
     if (this.#codecs.get(video)?.has(codec) !== true) {
       this.#decodable.delete(video);
       this.drops['other-codec']++;
-      return;
+      return false;
     }
     if (frame.key) this.#decodable.set(video, codec);
     else if (this.#decodable.get(video) !== codec) {
       this.drops['no-key-frame']++;
-      return;
+      return false;
     }
     this.#enqueue(frame);
+    return true;
   }
 
   /** The pacer dropped a frame: those that follow cannot be decoded. */

@@ -120,8 +120,9 @@ export class VideoStream {
     const next = { ...planned, barcode: wish.barcode };
     if (this.#encoder === null) this.#open(next);
     else if (isWorthTelling(this.#format, next)) {
+      // A mobile link changes the rate more often than a measurement lasts.
+      if (!isSamePicture(this.#format, next)) this.#trim.reset();
       this.#format = next;
-      this.#trim.reset();
       this.#configure(next);
     }
     if (wasPaused && !this.#paused) this.requestKeyFrame();
@@ -206,13 +207,15 @@ export class VideoStream {
 }
 
 function isWorthTelling(now: EncodedFormat | null, next: EncodedFormat): boolean {
-  if (now === null) return true;
-  const { width, height, framesPerSecond, bitsPerSecond, barcode } = now;
   return (
-    next.width !== width ||
-    next.height !== height ||
-    next.framesPerSecond !== framesPerSecond ||
-    next.barcode !== barcode ||
-    Math.abs(next.bitsPerSecond - bitsPerSecond) > bitsPerSecond * RATE_STEP
+    !isSamePicture(now, next) ||
+    now?.barcode !== next.barcode ||
+    Math.abs(next.bitsPerSecond - now.bitsPerSecond) > now.bitsPerSecond * RATE_STEP
+  );
+}
+
+function isSamePicture(now: EncodedFormat | null, next: EncodedFormat): boolean {
+  return (
+    now?.width === next.width && now.height === next.height && now.framesPerSecond === next.framesPerSecond
   );
 }

@@ -1,8 +1,12 @@
 import type { Cue } from './cue-judge.ts';
 
+/** What hands feel: a cue, or that the operator was refused something. */
+export type Felt = Cue | 'refused';
+
 /** How hard, 0–1, and how long. */
-export const cuePulses: Readonly<Record<Cue, { strength: number; ms: number }>> = {
+export const cuePulses: Readonly<Record<Felt, { strength: number; ms: number }>> = {
   slower: { strength: 0.4, ms: 60 },
+  refused: { strength: 0.7, ms: 90 },
   held: { strength: 1, ms: 150 },
   stop: { strength: 1, ms: 400 },
 };
@@ -14,7 +18,7 @@ interface Vibrating {
 }
 
 /** Lets whatever the operator holds vibrate; what cannot stays silent. */
-export function vibrate(cue: Cue, controllers: Iterable<Vibrating | null | undefined>): void {
+export function vibrate(cue: Felt, controllers: Iterable<Vibrating | null | undefined>): void {
   const { strength, ms } = cuePulses[cue];
   let held = false;
   for (const controller of controllers) {

@@ -1,11 +1,18 @@
 /** Lets the operator hear and feel that the robot does less than it is told, wherever they look. */
 import type { RobotClient } from '@farpoint/operator';
+import type { Settings } from '../settings.ts';
 import type { VrSession } from '../view/vr-session.ts';
 import { vibrate } from './cue-haptics.ts';
 import { CueJudge } from './cue-judge.ts';
 import { CueSound } from './cue-sound.ts';
 
-export function giveCues(client: RobotClient, vr: VrSession, now: () => number): void {
+/** @param settings whether cues are given, as it is at each of them */
+export function giveCues(
+  client: RobotClient,
+  vr: VrSession,
+  settings: Pick<Settings, 'cues'>,
+  now: () => number,
+): void {
   let judge = new CueJudge();
   const sound = new CueSound();
   const look = () => {
@@ -21,17 +28,13 @@ export function giveCues(client: RobotClient, vr: VrSession, now: () => number):
       },
       now(),
     );
-    if (cue === null) return;
+    if (cue === null || !settings.cues) return;
     sound.play(cue);
-    vibrate(cue, vr.active.value ? gamepadsOf(vr.inputSources) : (navigator.getGamepads?.() ?? []));
+    vibrate(cue, vr.active.value ? vr.gamepads() : (navigator.getGamepads?.() ?? []));
   };
   client.on('session', () => {
     judge = new CueJudge();
   });
   client.on('telemetry', look);
   client.on('estop', look);
-}
-
-function gamepadsOf(sources: Iterable<XRInputSource>): (Gamepad | undefined)[] {
-  return [...sources].map(({ gamepad }) => gamepad);
 }

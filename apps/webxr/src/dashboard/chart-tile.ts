@@ -1,16 +1,14 @@
 /** A tile with a number over time, drawn by uPlot: at most two points a column, and no more often than it would show. */
 import uPlot from 'uplot';
+import { palette } from '../display/palette.ts';
 import { Curve } from '../telemetry/curve.ts';
 import { shownAt } from '../telemetry/moment.ts';
 import type { RecordedSeries } from '../telemetry/recorder.ts';
 import { ageText, numberText, spanText, withUnit } from './number-words.ts';
 import { part, setText, type Tile, type TileFrame } from './tile.ts';
 
-const GRID = { stroke: '#24303b', width: 1 };
-const TICKS = { stroke: '#24303b', width: 1, size: 4 };
-const TEXT = '#8fa3b3';
-const LINE = '#35c9b5';
-const STALE_LINE = '#5d6d7a';
+const GRID = { stroke: () => palette.line, width: 1 };
+const TICKS = { ...GRID, size: 4 };
 const FONT = '11px system-ui, sans-serif';
 const HEIGHT = 130;
 const AXIS_WIDTH = 44;
@@ -54,18 +52,30 @@ export function chartTile(recorded: () => RecordedSeries | undefined): Tile {
       },
       axes: [
         {
-          ...{ stroke: TEXT, grid: GRID, ticks: TICKS, font: FONT, size: 26, space: 60 },
+          ...{ stroke: () => palette.quiet, grid: GRID, ticks: TICKS, font: FONT, size: 26, space: 60 },
           values: (_, splits) => splits.map((at) => (at === 0 ? 'now' : `−${spanWords(-at)}`)),
           incrs: [5, 10, 30, 60, 120, 300, 600, 1200],
         },
         {
-          ...{ stroke: TEXT, grid: GRID, ticks: TICKS, font: FONT, size: AXIS_WIDTH, space: 26 },
+          ...{
+            stroke: () => palette.quiet,
+            grid: GRID,
+            ticks: TICKS,
+            font: FONT,
+            size: AXIS_WIDTH,
+            space: 26,
+          },
           values: (_, splits) => splits.map((at) => String(Number(at.toPrecision(6)))),
         },
       ],
       series: [
         {},
-        { stroke: () => (stale ? STALE_LINE : LINE), width: 1.5, points: { show: false }, spanGaps: false },
+        {
+          stroke: () => (stale ? palette.stale : palette.good),
+          width: 1.5,
+          points: { show: false },
+          spanGaps: false,
+        },
       ],
     },
     [[], []],

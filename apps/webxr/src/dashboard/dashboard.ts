@@ -1,5 +1,6 @@
 /** The dashboard beside the picture: tiles with the robot's telemetry, arranged by the operator. Loaded when opened. */
 import './dashboard.css';
+import './latency-tile.css';
 import 'uplot/dist/uPlot.min.css';
 import type { RobotSession } from '@farpoint/operator';
 import { effect, type ReadonlySignal, signal } from '@preact/signals-core';
@@ -8,6 +9,7 @@ import type { MapTiles } from '../telemetry/map-tiles.ts';
 import type { Moment } from '../telemetry/moment.ts';
 import type { TelemetryRecorder } from '../telemetry/recorder.ts';
 import { quietButton, selectOf } from '../ui/panel-parts.ts';
+import type { LatencyTileSources } from './latency-tile.ts';
 import { changed, DEFAULT_LAYOUT, moved, placed, TILE_SIZES, WINDOWS_S } from './layout.ts';
 import { ageText, spanText } from './number-words.ts';
 import { loadLayout, storeLayout } from './stored-layout.ts';
@@ -15,7 +17,7 @@ import { part, setText, type TileFrame } from './tile.ts';
 import { TileFrameView } from './tile-frame.ts';
 import { type TileKind, tileKinds } from './tile-kinds.ts';
 
-export interface DashboardParts {
+export interface DashboardParts extends LatencyTileSources {
   readonly element: HTMLElement;
   readonly recorder: TelemetryRecorder;
   readonly mapTiles: MapTiles | null;

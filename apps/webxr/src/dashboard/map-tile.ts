@@ -1,4 +1,5 @@
 /** The tile with the map: where the robot is and has been, by its odometry or by satellite. */
+import { palette } from '../display/palette.ts';
 import type { MapTiles } from '../telemetry/map-tiles.ts';
 import { type ShownValue, shownAt } from '../telemetry/moment.ts';
 import { OWN, type TelemetryRecorder } from '../telemetry/recorder.ts';
@@ -43,7 +44,8 @@ export function mapTile(recorder: TelemetryRecorder, tiles: MapTiles | null): Ti
       act();
       dirty = true;
     });
-    button.ariaLabel = title;
+    // A symbol says nothing to who hears it.
+    if (text.length === 1) button.ariaLabel = title;
     buttons.append(button);
     return button;
   };
@@ -120,7 +122,7 @@ export function mapTile(recorder: TelemetryRecorder, tiles: MapTiles | null): Ti
     const stale = shown?.stale ?? true;
     const yaw = bySatellite || heading === null ? null : heading.value * RADIANS;
     const track = bySatellite ? recorder.fixTrack : recorder.track;
-    const key = `${place?.x} ${place?.y} ${yaw} ${stale} ${track.length}`;
+    const key = `${place?.x} ${place?.y} ${yaw} ${stale} ${track.length} ${palette.version}`;
     if (!dirty && key === painted) return;
     dirty = false;
     painted = key;

@@ -4,6 +4,7 @@ import type { MapTiles } from '../telemetry/map-tiles.ts';
 import { OWN, type TelemetryRecorder } from '../telemetry/recorder.ts';
 import { chartTile } from './chart-tile.ts';
 import { diagnosticsTile } from './diagnostics-tile.ts';
+import { type LatencyTileSources, latencyTile } from './latency-tile.ts';
 import type { PlacedTile } from './layout.ts';
 import { mapTile } from './map-tile.ts';
 import type { Tile } from './tile.ts';
@@ -15,7 +16,7 @@ export interface TileKind extends PlacedTile {
   make(): Tile;
 }
 
-export interface TileSources {
+export interface TileSources extends LatencyTileSources {
   readonly recorder: TelemetryRecorder;
   readonly mapTiles: MapTiles | null;
   session(): RobotSession;
@@ -27,7 +28,7 @@ const SHOWN_CURVES: readonly string[] = [OWN.speed.key, OWN.charge.key];
 const HIDDEN_FIELDS: readonly string[] = ['latitude', 'longitude', 'altitude', 'voltage', 'current'];
 
 /** @returns each as it is by default, in the default order */
-export function tileKinds({ recorder, mapTiles, session }: TileSources): TileKind[] {
+export function tileKinds({ recorder, mapTiles, session, ...latency }: TileSources): TileKind[] {
   const values = ownValues(recorder);
   const value = (id: string, title: string): TileKind => ({
     ...{ id, title, size: 'small', shown: true },
@@ -50,6 +51,7 @@ export function tileKinds({ recorder, mapTiles, session }: TileSources): TileKin
       ...{ id: 'diagnostics', title: 'Diagnostics', size: 'medium', shown: true },
       make: () => diagnosticsTile(session),
     },
+    { id: 'latency', title: 'Latency', size: 'medium', shown: true, make: () => latencyTile(latency) },
     ...curves,
     { id: 'topics', title: 'Topics', size: 'medium', shown: true, make: () => topicsTile(session) },
   ];

@@ -12,11 +12,19 @@ export interface StickResponse {
 export const DEFAULT_STICK_RESPONSE: Readonly<StickResponse> = { deadZone: 0.12, expo: 0.4 };
 
 /** @param deflection −1…1. Anything that is not a finite number counts as 0, because a device may report null axes. */
-export function shapeAxis(deflection: number | null | undefined, response: StickResponse): number {
+export function shapeAxis(
+  deflection: number | null | undefined,
+  { deadZone, expo }: Readonly<StickResponse>,
+): number {
+  return shaped(deflection, deadZone, expo);
+}
+
+/** The same with the response as two numbers. */
+export function shaped(deflection: number | null | undefined, deadZone: number, expo: number): number {
   if (typeof deflection !== 'number' || !Number.isFinite(deflection)) return 0;
   const magnitude = Math.min(Math.abs(deflection), 1);
-  if (magnitude <= response.deadZone) return 0;
-  const t = (magnitude - response.deadZone) / (1 - response.deadZone);
-  const shaped = (1 - response.expo) * t + response.expo * t * t * t;
-  return deflection < 0 ? -shaped : shaped;
+  if (magnitude <= deadZone) return 0;
+  const t = (magnitude - deadZone) / (1 - deadZone);
+  const rise = (1 - expo) * t + expo * t * t * t;
+  return deflection < 0 ? -rise : rise;
 }

@@ -1,9 +1,11 @@
 import { activeInput, toTwist } from '@farpoint/operator';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { STANDARD_MAP } from './controller-map.ts';
 import { shapeAxis } from './dead-zone.ts';
 import { GamepadInput } from './gamepad-input.ts';
 import { HeadsetInput } from './headset-input.ts';
+import { DEFAULT_KEYS } from './key-map.ts';
 import { KeyboardInput } from './keyboard-input.ts';
 
 const RESPONSE = { deadZone: 0.12, expo: 0.4 };
@@ -75,6 +77,19 @@ describe('KeyboardInput', () => {
   });
 });
 
+test('with one key at a time, a key for a direction is the grip as well; other keys do as they were chosen', () => {
+  const keys = new KeyboardInput();
+  keys.key('KeyW', true, 0);
+  keys.setKeys({ ...DEFAULT_KEYS, forward: ['KeyI'] }, true);
+  // Whatever was held counts as released.
+  expect([keys.held, keys.wish.forward]).toEqual([false, 0]);
+  expect(keys.key('KeyW', true, 1)).toBe(false);
+  keys.key('KeyI', true, 2);
+  expect([keys.held, keys.wish.forward]).toEqual([true, 1]);
+  keys.key('KeyI', false, 3);
+  expect([keys.held, keys.wish.forward, keys.readMs]).toEqual([false, 0, 3]);
+});
+
 test('a keyboard is read while the page runs, at a new grip and when it opens', () => {
   const keys = new KeyboardInput();
   keys.key('Space', true, 10);
@@ -116,6 +131,44 @@ describe('GamepadInput', () => {
     expect(held([5])).toBe(true);
     input.release();
     expect([held([5]), held([]), held([5])]).toEqual([false, false, true]);
+  });
+
+  test('an unplugged controller lets go, and drives again only once it has been opened', () => {
+    const input = new GamepadInput();
+    const held = (state: ReturnType<typeof pad> | null) => {
+      input.read(state, 0);
+      return input.held;
+    };
+    expect([
+      held(pad([], [5])),
+      held(null),
+      held(pad([], [5])),
+      held(pad([], [])),
+      held(pad([], [5])),
+    ]).toEqual([...[true, false, false, false, true]]);
+  });
+
+  test('a wheel: a pedal counts once it has been read at its rest; a new map opens the grip', () => {
+    const axis = { axis: 0, centre: 0, least: -1, most: 1, inverted: true, deadZone: 0.1 };
+    const pedal = (index: number) => ({ ...axis, axis: index, centre: 1 });
+    const wheel = {
+      sticks: [{ forward: pedal(1), back: pedal(2), left: axis }],
+      buttons: { ...STANDARD_MAP.buttons, grip: [0], latencyTest: [] },
+    };
+    const input = new GamepadInput();
+    const read = (axes: number[], down: number[]) => {
+      input.read(pad(axes, down), 0, wheel);
+      return { ...input.wish };
+    };
+    // What browsers report before a pedal is touched: half of its way.
+    expect(read([0, 0, 0], [0])).toEqual({ forward: 0, left: 0 });
+    read([0, 1, 1], [0]);
+    expect(read([0, -1, 1], [0])).toEqual({ forward: 1, left: 0 });
+    expect(read([-1, 1, -1], [0])).toEqual({ forward: -1, left: 1 });
+    expect(read([0, -1, -1], [0]).forward).toBe(0);
+    expect(input.held).toBe(true);
+    input.read(pad([0, 1, 1], [0]), 0, { ...wheel });
+    expect(input.held).toBe(false);
   });
 
   test('reports each button once per press', () => {
@@ -178,6 +231,34 @@ describe('HeadsetInput', () => {
     expect(left.held).toBe(false);
   });
 
+  test('says when the driving hand’s stick is pushed without a grip, and not of what is no wish to drive', () => {
+    const input = new HeadsetInput();
+    const pushed = (
+      sources: ReturnType<typeof controller>[],
+      isTracked = true,
+      grabbing = false,
+      inMenu = false,
+    ) => {
+      input.read(sources, 0, () => isTracked, grabbing, inMenu);
+      return input.pushed;
+    };
+    for (const [x, y] of [
+      [0, -1],
+      [-0.5, null],
+    ] as const)
+      expect(pushed([controller('right', 0, x, y)])).toBe(true);
+    expect(pushed([controller('right', 1, 0, -1)])).toBe(false);
+    expect(pushed([controller('right', 0, 0.05, -0.05)])).toBe(false);
+    expect(pushed([controller('left', 0, 0, -1)])).toBe(false);
+    const right = [controller('right', 0, 0, -1)];
+    expect(pushed(right, false)).toBe(false);
+    expect(pushed(right, true, true)).toBe(false);
+    expect(pushed(right, true, false, true)).toBe(false);
+    expect(pushed(right)).toBe(true);
+    input.release();
+    expect(input.pushed).toBe(false);
+  });
+
   test('a hand that is not tracked turns nothing, nor does one without a stick', () => {
     const input = new HeadsetInput();
     input.read([controller('left', 0, 1, 0)], 0, () => false);
@@ -209,12 +290,12 @@ describe('HeadsetInput', () => {
   test('the other hand’s A or X shows the next view, and its stick recentres, once per press', () => {
     const input = new HeadsetInput();
     const read = (...sources: ReturnType<typeof controller>[]) => input.read(sources, 0, tracked);
-    expect(read(controller('left', 0, 0, 0, 4))).toMatchObject({ nextView: true, latencyTest: false });
+    expect(read(controller('left', 0, 0, 0, 4))).toMatchObject({ nextView: true, menu: false });
     expect(read(controller('left', 0, 0, 0, 4))).toMatchObject({ nextView: false });
     expect(read(controller('left', 0, 0, 0, 3))).toMatchObject({ recentre: true, nextRobot: false });
     expect(read(controller('left', 0, 0, 0, 3))).toMatchObject({ recentre: false });
     expect(read(controller('left', 0, 0, 0, 5))).toMatchObject({ estop: true });
-    expect(read(controller('right', 0, 0, 0, 4))).toMatchObject({ nextView: false, latencyTest: true });
+    expect(read(controller('right', 0, 0, 0, 4))).toMatchObject({ nextView: false, menu: true });
     expect(read(controller('right', 0, 0, 0, 3))).toMatchObject({ recentre: false, nextRobot: true });
   });
 
@@ -300,23 +381,74 @@ describe('HeadsetInput', () => {
     expect(input.talks).toBe(false);
   });
 
-  test('A or X starts a latency test, B or Y the emergency stop, once per press', () => {
+  test('A or X opens the menu, B or Y is the emergency stop, once per press', () => {
     const input = new HeadsetInput();
     expect(input.read([controller('right', 0, 0, 0, 4)], 0, tracked)).toMatchObject({
       estop: false,
-      latencyTest: true,
+      menu: true,
       nextRobot: false,
     });
     expect(input.read([controller('right', 0, 0, 0, 5)], 0, tracked)).toMatchObject({
       estop: true,
-      latencyTest: false,
+      menu: false,
       nextRobot: false,
     });
     expect(input.read([controller('right', 0, 0, 0, 5)], 0, tracked)).toMatchObject({
       estop: false,
-      latencyTest: false,
+      menu: false,
       nextRobot: false,
     });
+  });
+
+  test('while the menu is open nothing drives, STOP stops, and sticks and their buttons are the menu’s', () => {
+    const input = new HeadsetInput();
+    const read = (inMenu: boolean, ...sources: ReturnType<typeof controller>[]) =>
+      input.read(sources, 0, tracked, false, inMenu);
+    const fist = controller('right', 1, 0, -1);
+    read(false, fist);
+    expect(input.held).toBe(true);
+    read(true, fist);
+    expect([input.held, input.wish.forward, input.menuStick]).toEqual([false, 0, -1]);
+    // The menu opens by letting go of everything: a stick that is deflected then has not been centred by that.
+    input.release();
+    expect(input.menuStick).toBe(-1);
+    expect(read(true, controller('right', 0, 0, 0, 5)).estop).toBe(true);
+    expect(read(true, controller('right', 0, 0, 0, 3))).toMatchObject({ choose: true, nextRobot: false });
+    read(true, controller('right', 0, 0, 0));
+    expect(read(true, controller('left', 0, 0, 1, 3))).toMatchObject({ choose: true, recentre: false });
+    expect(input.menuStick).toBe(1);
+    expect(read(true, controller('left', 0, 0, 0, 4))).toMatchObject({ menu: true, nextView: false });
+    expect(read(false, controller('right', 0, 0, 0, 3)).choose).toBe(false);
+    // A grip that was squeezed in the menu drives only once it has been opened.
+    read(true, fist);
+    read(false, fist);
+    expect(input.held).toBe(false);
+    read(false, controller('right', 0, 0, 0));
+    read(false, fist);
+    expect(input.held).toBe(true);
+  });
+
+  test('a trigger that is pulled for the menu does not release the emergency stop, also when the menu has closed', () => {
+    const input = new HeadsetInput();
+    const held = (inMenu: boolean, ...sources: ReturnType<typeof controller>[]) =>
+      input.read(sources, 0, tracked, false, inMenu).releaseHeld;
+    const pulled = controller('right', 0, 0, 0, 0);
+    expect(held(true, pulled)).toBe(false);
+    expect(held(false, pulled)).toBe(false);
+    expect(held(false, pulled, controller('left', 0, 0, 0, 0))).toBe(false);
+    expect(held(false, controller('right', 0, 0, 0))).toBe(false);
+    expect(held(false, pulled)).toBe(true);
+    // Opening the menu ends a hold that has begun.
+    expect(held(true, pulled)).toBe(false);
+    expect(held(false, pulled)).toBe(false);
+  });
+
+  test('the stick of a controller that is not tracked moves no mark', () => {
+    const input = new HeadsetInput();
+    input.read([controller('right', 0, 0, 1)], 0, () => false, false, true);
+    expect(input.menuStick).toBe(0);
+    input.read([controller('right', 0, null, null)], 0, tracked, false, true);
+    expect(input.menuStick).toBe(0);
   });
 });
 

@@ -1,7 +1,8 @@
 /**
  * Headset controllers in WebXR's `xr-standard` mapping: the thumbstick is axes 2 and 3, the trigger button 0, squeeze
  * button 1, the thumbstick's press button 3, A/X button 4 and B/Y button 5. One hand drives while it squeezes. The other
- * hand has the view. A bare hand, which has no grip that opens by itself, neither drives nor releases nor speaks.
+ * hand has the view. A bare hand, which has no grip that opens by itself, neither drives nor releases nor speaks. While the
+ * menu is open, sticks and triggers are the menu's; B and Y stop as ever.
  */
 
 import type { DriveInput, DriveWish, PressedButtons } from '@farpoint/operator';
@@ -32,22 +33,32 @@ export interface HeadsetButtons extends PressedButtons {
   readonly nextView: boolean;
   /** Pressed: recentres. */
   readonly recentre: boolean;
+  /** Pressed: opens or closes the menu. */
+  readonly menu: boolean;
+  /** Pressed while the menu is open: does what is marked. */
+  readonly choose: boolean;
 }
 
 export class HeadsetInput implements DriveInput {
   readonly name = 'headset';
   readonly wish: DriveWish = { forward: 0, left: 0 };
   held = false;
+  pushed = false;
   /** Whether the operator speaks: one hand drives, and the other pulls its trigger. */
   talks = false;
   /** Deflection to the right of the other hand's stick, −1…1; 0 while that hand is not tracked. */
   turnStick = 0;
+  /** Deflection backwards of the stick that is pushed most, −1…1: it moves the menu's mark. */
+  menuStick = 0;
   readMs = Number.NEGATIVE_INFINITY;
   readonly #otherHand: Hand;
   #mustOpen = false;
   #hand: string | null = null;
   #estop = false;
-  #latency = false;
+  /** A trigger that was pulled for the menu releases nothing until it has been let go. */
+  #triggerMustOpen = false;
+  #menu = false;
+  #choose = false;
   #nextRobot = false;
   #nextView = false;
   #recentre = false;
@@ -64,6 +75,7 @@ export class HeadsetInput implements DriveInput {
    * be its last state from before it fell asleep, so this does not count as a reading of a hand that drives.
    * @param grabbing whether a hand holds something of the view. Nothing drives meanwhile, nor does a grip that was squeezed
    * meanwhile before it has been opened.
+   * @param inMenu whether the menu is open: then the same holds, and triggers release nothing
    * @returns the buttons that were pressed since the last call, or are held
    */
   read<Source extends XrController>(
@@ -71,15 +83,18 @@ export class HeadsetInput implements DriveInput {
     nowMs: number,
     tracks: Tracks<Source>,
     grabbing = false,
+    inMenu = false,
   ): HeadsetButtons {
     let driving: Source | null = null;
     let estop = false;
-    let latency = false;
+    let [menu, choose] = [false, false];
     let nextRobot = false;
     let nextView = false;
     let recentre = false;
     let trigger = false;
+    let pushed = false;
     this.turnStick = 0;
+    this.menuStick = 0;
     for (const source of sources) {
       const buttons = buttonsOf(source);
       if (buttons === undefined) continue;
@@ -87,6 +102,10 @@ export class HeadsetInput implements DriveInput {
       trigger ||= (buttons[TRIGGER]?.value ?? 0) > 0.5;
       const isAx = buttons[AX_BUTTON]?.pressed === true;
       const isStickPressed = buttons[STICK_PRESS]?.pressed === true;
+      choose ||= isStickPressed;
+      const backwards = source.gamepad?.axes[3];
+      if (typeof backwards === 'number' && Math.abs(backwards) > Math.abs(this.menuStick) && tracks(source))
+        this.menuStick = backwards;
       if (source.handedness === this.#otherHand) {
         nextView ||= isAx;
         recentre ||= isStickPressed;
@@ -95,33 +114,42 @@ export class HeadsetInput implements DriveInput {
         if (typeof deflection === 'number' && tracks(source)) this.turnStick = deflection;
         continue;
       }
-      latency ||= isAx;
+      menu ||= isAx;
       nextRobot ||= isStickPressed;
-      if ((buttons[SQUEEZE]?.value ?? 0) <= 0.5) continue;
+      if ((buttons[SQUEEZE]?.value ?? 0) <= 0.5) {
+        pushed ||= isStickPushed(source) && tracks(source);
+        continue;
+      }
       if (driving === null || source.handedness === this.#hand) driving = source;
     }
-    this.#mustOpen = (this.#mustOpen || grabbing) && driving !== null;
+    this.#mustOpen = (this.#mustOpen || grabbing || inMenu) && driving !== null;
     if (this.#mustOpen) driving = null;
     if (driving === null || tracks(driving)) this.readMs = nowMs;
     this.talks = driving !== null && pullsOther(sources, driving);
     this.held = driving !== null;
+    this.pushed = pushed && !this.held && !grabbing && !inMenu;
     this.#hand = driving?.handedness ?? null;
     const axes = driving?.gamepad?.axes;
     // Some runtimes report unused axes as null; shapeAxis treats these as centred. Forward is −1, right is +1.
     this.wish.forward = -shapeAxis(axes?.[3], DEFAULT_STICK_RESPONSE) + 0;
     this.wish.left = -shapeAxis(axes?.[2], DEFAULT_STICK_RESPONSE) + 0;
+    this.#triggerMustOpen = (this.#triggerMustOpen || inMenu) && trigger;
     const pressed = {
       estop: estop && !this.#estop,
-      latencyTest: latency && !this.#latency,
+      // It is in the menu.
+      latencyTest: false,
+      menu: (menu && !this.#menu) || (inMenu && nextView && !this.#nextView),
+      choose: inMenu && choose && !this.#choose,
       // Pushing a stick easily presses it too.
-      nextRobot: nextRobot && !this.#nextRobot && !this.held,
-      nextView: nextView && !this.#nextView,
-      recentre: recentre && !this.#recentre,
+      nextRobot: nextRobot && !this.#nextRobot && !this.held && !inMenu,
+      nextView: nextView && !this.#nextView && !inMenu,
+      recentre: recentre && !this.#recentre && !inMenu,
       // A fist clenched in fright presses both the grip and the trigger.
-      releaseHeld: trigger && !this.held,
+      releaseHeld: trigger && !this.held && !this.#triggerMustOpen,
     };
     this.#estop = estop;
-    this.#latency = latency;
+    this.#menu = menu;
+    this.#choose = choose;
     this.#nextRobot = nextRobot;
     this.#nextView = nextView;
     this.#recentre = recentre;
@@ -132,6 +160,7 @@ export class HeadsetInput implements DriveInput {
   release(): void {
     this.#mustOpen = true;
     this.held = false;
+    this.pushed = false;
     this.talks = false;
     this.wish.forward = 0;
     this.wish.left = 0;
@@ -143,6 +172,13 @@ export class HeadsetInput implements DriveInput {
 /** The buttons of a controller. The gamepad that some headsets give a bare hand is none. */
 function buttonsOf({ gamepad, hand }: XrController): GamepadState['buttons'] | undefined {
   return hand == null ? gamepad?.buttons : undefined;
+}
+
+function isStickPushed({ gamepad }: XrController): boolean {
+  const { axes } = gamepad ?? {};
+  return (
+    shapeAxis(axes?.[2], DEFAULT_STICK_RESPONSE) !== 0 || shapeAxis(axes?.[3], DEFAULT_STICK_RESPONSE) !== 0
+  );
 }
 
 /** Whether the trigger of a hand other than the driving one is pulled. */

@@ -1,21 +1,30 @@
-/** W, A, S, D or the arrow keys, while Space or Shift is held. Pure: the caller passes in the codes of the keys. */
+/** The keys that drive, while the grip is held. Pure: the caller passes in the codes of the keys. */
 import type { DriveInput, DriveWish } from '@farpoint/operator';
+import { DEFAULT_KEYS, type KeyMap } from './key-map.ts';
 
-const GRIPS: readonly string[] = ['Space', 'ShiftLeft', 'ShiftRight'];
-const FORWARD: readonly string[] = ['KeyW', 'ArrowUp'];
-const BACK: readonly string[] = ['KeyS', 'ArrowDown'];
-const LEFT: readonly string[] = ['KeyA', 'ArrowLeft'];
-const RIGHT: readonly string[] = ['KeyD', 'ArrowRight'];
-const KEYS: ReadonlySet<string> = new Set([...GRIPS, ...FORWARD, ...BACK, ...LEFT, ...RIGHT]);
+const WAYS = ['forward', 'back', 'left', 'right'] as const;
 
 export class KeyboardInput implements DriveInput {
   readonly name = 'keyboard';
   readonly wish: DriveWish = { forward: 0, left: 0 };
   readMs = Number.NEGATIVE_INFINITY;
   readonly #down = new Set<string>();
+  #keys: KeyMap = DEFAULT_KEYS;
+  #oneHanded = false;
 
   get held(): boolean {
-    return this.#any(GRIPS);
+    return this.#any('grip') || (this.#oneHanded && WAYS.some((way) => this.#any(way)));
+  }
+
+  /**
+   * Whatever is held counts as released.
+   *
+   * @param oneHanded whether a key for a direction is the grip as well: held it drives, let go it stops
+   */
+  setKeys(keys: KeyMap, oneHanded: boolean): void {
+    this.#keys = keys;
+    this.#oneHanded = oneHanded;
+    this.releaseAll();
   }
 
   /** Keys stay down between events for as long as the page runs: call this regularly while it does. */
@@ -25,14 +34,14 @@ export class KeyboardInput implements DriveInput {
 
   /** @param code KeyboardEvent.code @param nowMs of now, not of the event @returns whether this input uses the key */
   key(code: string, down: boolean, nowMs: number): boolean {
-    if (!KEYS.has(code)) return false;
+    if (!this.#keys.grip.includes(code) && !WAYS.some((way) => this.#keys[way].includes(code))) return false;
     const wasHeld = this.held;
     if (down) this.#down.add(code);
     else this.#down.delete(code);
     // A new grip and an open one are news of the hand. A repeated key says nothing about the time before it.
     if (!wasHeld || !this.held) this.readMs = nowMs;
-    this.wish.forward = Number(this.#any(FORWARD)) - Number(this.#any(BACK));
-    this.wish.left = Number(this.#any(LEFT)) - Number(this.#any(RIGHT));
+    this.wish.forward = Number(this.#any('forward')) - Number(this.#any('back'));
+    this.wish.left = Number(this.#any('left')) - Number(this.#any('right'));
     return true;
   }
 
@@ -43,7 +52,7 @@ export class KeyboardInput implements DriveInput {
     this.wish.left = 0;
   }
 
-  #any(codes: readonly string[]): boolean {
-    return codes.some((code) => this.#down.has(code));
+  #any(role: 'grip' | (typeof WAYS)[number]): boolean {
+    return this.#keys[role].some((code) => this.#down.has(code));
   }
 }

@@ -1,55 +1,70 @@
 /** Connects the headset with the page: what its hands and buttons do to the view, besides driving. */
 import { effect, untracked } from '@preact/signals-core';
 import type { PageState } from '../state/page-state.ts';
-import { HEADSET_VIEW_WORDS, viewHint } from '../status/headset-words.ts';
+import { HEADSET_VIEW_WORDS } from '../status/headset-words.ts';
 import type { OperatorInputs } from '../ui/operator-inputs.ts';
-import type { PicturePointer } from '../view/picture-pointer.ts';
+import { PicturePointer } from '../view/picture-pointer.ts';
 import type { Stage } from '../view/stage.ts';
+import type { PicturesInVr } from '../view/vr-pictures.ts';
 import type { VrSession } from '../view/vr-session.ts';
+import type { WristPanel } from '../view/wrist-panel.ts';
+import type { ConsoleActions } from './console/console-actions.ts';
+import { VrConsole } from './console/vr-console.ts';
 import { GrabbingHands } from './grabbing-hands.ts';
 import type { HeadsetSettings } from './headset-settings.ts';
 import { HEADSET_VIEWS, type HeadsetView } from './rig-pose.ts';
-import { ViewSign } from './view-sign.ts';
 
 export interface HeadsetParts {
   readonly settings: HeadsetSettings;
   readonly stage: Pick<Stage, 'renderer' | 'rig' | 'camera' | 'headset'>;
   readonly vr: VrSession;
   readonly inputs: OperatorInputs;
-  readonly state: Pick<PageState, 'robot' | 'notices'>;
-  readonly pointer: PicturePointer;
+  readonly state: PageState;
+  readonly panel: WristPanel;
+  readonly pictures: PicturesInVr;
+  readonly actions: Omit<
+    ConsoleActions,
+    'show' | 'toggleReadings' | 'toggleVideo' | 'togglePictures' | 'pressCommand'
+  >;
+  /** Lets the controllers vibrate. */
+  pulse(): void;
 }
 
 export class HeadsetControls {
   readonly #parts: HeadsetParts;
   readonly #hands: GrabbingHands;
-  readonly #sign = new ViewSign();
+  readonly #pointer: PicturePointer;
+  /** On the wrist. */
+  readonly panel: WristPanel;
+  /** Labels, notices and the menu. */
+  readonly console: VrConsole;
 
   constructor(parts: HeadsetParts) {
     this.#parts = parts;
-    const { stage, vr, inputs, state, pointer } = parts;
-    const { renderer, rig, camera, headset } = stage;
+    this.panel = parts.panel;
+    const { stage, vr, pictures } = parts;
+    const { renderer, rig, headset } = stage;
     // A hand that drives, a trigger that releases the emergency stop, or one that chooses a picture holds nothing.
     this.#hands = new GrabbingHands(
       renderer,
       rig,
-      (index) =>
-        headset.view.peek() === 'tabletop' &&
-        !vr.hidden &&
-        !inputs.isHeadsetGripped &&
-        !state.robot.estopLatched.peek() &&
-        !pointer.pointsAtPicture(index),
+      (index) => headset.view.peek() === 'tabletop' && !vr.hidden && this.isTriggerFree(index),
     );
-    camera.add(this.#sign.object);
-    vr.onHidden = () => {
-      inputs.releaseAll();
-      this.#hands.letGo();
-    };
+    this.console = new VrConsole({
+      ...parts,
+      actions: { ...parts.actions, show: (view) => this.show(view) },
+      letGo: () => this.#letGo(),
+    });
+    this.#pointer = new PicturePointer(renderer, rig, {
+      targets: () => this.console.targets(pictures.targets()),
+      onPointed: (hit, ray) => this.console.point(hit, ray),
+      onChosen: (hit) => {
+        if (!this.console.choose(hit)) pictures.choose(hit.object);
+      },
+    });
+    vr.onHidden = () => this.#letGo();
     vr.onRecentre = ({ position, orientation }) => headset.recentre(position, orientation);
     vr.onReset = () => headset.begin();
-    effect(() => {
-      if (!vr.active.value) this.#sign.object.visible = false;
-    });
     let before: HeadsetView | null = null;
     effect(() => {
       const passthrough = vr.passthrough.value;
@@ -69,7 +84,8 @@ export class HeadsetControls {
 
   /** Call this before each display frame in VR. */
   read(): void {
-    const { stage, vr, inputs, pointer } = this.#parts;
+    const { stage, vr, inputs } = this.#parts;
+    const menu = this.console.menu.isOpen.peek();
     const { headset } = stage;
     vr.update();
     headset.floorY = vr.floorY;
@@ -77,10 +93,23 @@ export class HeadsetControls {
     const isTabletop = headset.view.peek() === 'tabletop';
     hands.update(headset.origin, isTabletop && !vr.hidden);
     if (isTabletop) headset.model.follow(hands.a, hands.b);
-    inputs.readHeadset(vr.inputSources, this.#tracks, hands.hold);
+    const pressed = inputs.readHeadset(vr.inputSources, this.#tracks, hands.hold, menu);
+    if (pressed.menu) this.console.toggle();
+    if (pressed.choose) this.console.menu.choose();
+    this.console.steer(inputs.menuStick);
     headset.turnStick = vr.hidden ? 0 : inputs.turnStick;
-    pointer.update();
-    this.#sign.update(performance.now());
+    this.#pointer.update();
+    this.console.update(performance.now());
+  }
+
+  /**
+   * Whether the trigger of this controller, 0 or 1, means nothing by itself now: no grip drives, it releases no emergency
+   * stop, no menu is open, and it points at nothing that it would choose.
+   */
+  isTriggerFree(index: number): boolean {
+    const { inputs, state } = this.#parts;
+    if (inputs.isHeadsetGripped || state.robot.estopLatched.peek()) return false;
+    return !this.console.menu.isOpen.peek() && !this.#pointer.points(index);
   }
 
   /** The next view. Whoever drives lets go: what the hands do is about to look different. */
@@ -90,12 +119,15 @@ export class HeadsetControls {
   }
 
   show(view: HeadsetView): void {
-    const { stage, inputs, state, settings } = this.#parts;
-    inputs.releaseAll();
-    this.#hands.letGo();
+    const { stage, state } = this.#parts;
+    this.#letGo();
     stage.headset.show(view);
     state.notices.tell(`View in the headset: ${HEADSET_VIEW_WORDS[view].toLowerCase()}`);
-    this.#sign.say(HEADSET_VIEW_WORDS[view], viewHint(view, settings.driveHand), performance.now());
+  }
+
+  #letGo(): void {
+    this.#parts.inputs.releaseAll();
+    this.#hands.letGo();
   }
 
   readonly #tracks = (source: XRInputSource): boolean => this.#parts.vr.tracks(source);

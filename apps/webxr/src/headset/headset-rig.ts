@@ -32,7 +32,7 @@ export class HeadsetRig {
   /** To which side the robot's front is, in first person: −1 left, 1 right, 0 in view. */
   frontSide: -1 | 0 | 1 = 0;
   readonly #pose = new RigPose();
-  readonly #heading: ViewHeading;
+  readonly #heading = new ViewHeading();
   readonly #turn: OperatorTurn;
   readonly #amount: VignetteAmount;
   readonly #settings: HeadsetSettings;
@@ -41,9 +41,8 @@ export class HeadsetRig {
 
   constructor(settings: HeadsetSettings) {
     this.#settings = settings;
-    this.#heading = new ViewHeading(settings.turn === 'robot');
     this.#turn = new OperatorTurn(settings);
-    this.#amount = new VignetteAmount(settings.vignette);
+    this.#amount = new VignetteAmount(settings);
   }
 
   /** Where ahead in the room points in the world, radians. */
@@ -101,6 +100,8 @@ export class HeadsetRig {
     const pose = this.#pose;
     const { x, y, z, yaw } = pose;
     const by = this.#turn.by(this.turnStick, elapsedMs);
+    const { turn } = this.#settings;
+    this.#heading.followsRobot = turn === 'robot';
     this.#heading.follow(camera.yaw);
     this.#turnView(by, head);
     this.#setPose(camera, ground);
@@ -110,7 +111,6 @@ export class HeadsetRig {
     const seconds = elapsedMs / 1000;
     const moves = this.#moves && !this.passthrough && this.view.peek() !== 'tabletop' && seconds > 0;
     this.#moves = true;
-    const { turn } = this.#settings;
     // A step is over before anybody could become sick of it.
     const turnRate = moves && turn !== 'snap' ? (pose.yaw - yaw) / seconds : 0;
     const isMoved = moves && turn === 'robot';

@@ -7,7 +7,7 @@ const UP = new Vector3(0, 1, 0);
 
 describe('ViewHeading', () => {
   test('fixed in the world: begins at the robot’s heading and stays there while the robot turns', () => {
-    const heading = new ViewHeading(false);
+    const heading = new ViewHeading();
     heading.follow(0.5);
     heading.follow(2);
     expect(heading.yaw).toBe(0.5);
@@ -20,7 +20,8 @@ describe('ViewHeading', () => {
   });
 
   test('with the robot: turns as it does, and keeps the operator’s own turn', () => {
-    const heading = new ViewHeading(true);
+    const heading = new ViewHeading();
+    heading.followsRobot = true;
     heading.follow(0.5);
     heading.follow(2);
     expect(heading.yaw).toBe(2);
@@ -37,7 +38,7 @@ describe('ViewHeading', () => {
         number,
         fc.array(fc.tuple(number, number, number), { maxLength: 4 }),
         (x, z, turns) => {
-          const heading = new ViewHeading(false);
+          const heading = new ViewHeading();
           heading.follow(x);
           const head = (at: Vector3) =>
             at

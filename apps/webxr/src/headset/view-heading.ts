@@ -9,13 +9,10 @@ export class ViewHeading {
   /** How far turns about the head have moved the operator's origin, m. */
   shiftX = 0;
   shiftZ = 0;
-  readonly #followsRobot: boolean;
+  /** Whether ahead turns with the robot, from where it is. */
+  followsRobot = false;
   #base: number | null = null;
   #own = 0;
-
-  constructor(followsRobot: boolean) {
-    this.#followsRobot = followsRobot;
-  }
 
   /** The robot's next heading becomes the operator's. */
   align(): void {
@@ -27,7 +24,7 @@ export class ViewHeading {
 
   /** @param robotYaw the robot's heading */
   follow(robotYaw: number): void {
-    if (this.#followsRobot || this.#base === null) this.#base = robotYaw;
+    if (this.followsRobot || this.#base === null) this.#base = robotYaw;
     this.yaw = this.#base + this.#own;
   }
 

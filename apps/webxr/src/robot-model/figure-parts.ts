@@ -1,17 +1,19 @@
 /** What is drawn of the robot's model: one geometry for each link, in the link's own axes, with its colours. */
-import type { ModelPlace, ModelShape, RobotModel } from '@farpoint/operator';
+import type { GridMesh, ModelPlace, ModelShape, RobotModel } from '@farpoint/operator';
 import {
   Box3,
   BoxGeometry,
+  BufferAttribute,
   BufferGeometry,
   Color,
   CylinderGeometry,
-  Float32BufferAttribute,
   Matrix4,
   Quaternion,
   SphereGeometry,
   Vector3,
 } from 'three';
+import { placedMesh } from './placed-mesh.ts';
+import type { PlacedTriangles } from './placed-triangles.ts';
 
 /** Flat sides of a round shape: of a usual model, and of one with many shapes. */
 const SIDES = { few: 28, many: 12 };
@@ -25,12 +27,24 @@ export interface FigureParts {
   readonly bounds: Box3;
 }
 
-export function figureParts({ links, shapes }: Pick<RobotModel, 'links' | 'shapes'>): FigureParts {
+interface ColouredTriangles extends PlacedTriangles {
+  readonly colour: number;
+}
+
+export function figureParts({
+  links,
+  shapes,
+  meshes,
+}: Pick<RobotModel, 'links' | 'shapes' | 'meshes'>): FigureParts {
   const sides = shapes.length > MANY_SHAPES ? SIDES.many : SIDES.few;
-  const geometries = Array.from({ length: links.length + 1 }, (_, link) => {
-    const own = shapes.filter((shape) => shape.link === link);
-    return own.length === 0 ? null : joined(own, sides);
+  const hidden = new Set(meshes?.insteadOf);
+  const own = Array.from({ length: links.length + 1 }, (): ColouredTriangles[] => []);
+  shapes.forEach((shape, i) => {
+    if (!hidden.has(i)) own[shape.link]?.push({ ...placedShape(shape, sides), colour: shape.colour });
   });
+  for (const { mesh, link, place, colour } of meshes?.drawings ?? [])
+    own[link]?.push({ ...placedMesh(meshes?.meshes[mesh] as GridMesh, matrixOf(place)), colour });
+  const geometries = own.map((parts) => (parts.length === 0 ? null : joined(parts)));
   const inBase = [new Matrix4()];
   for (const { parent, place } of links)
     inBase.push(new Matrix4().multiplyMatrices(inBase[parent] as Matrix4, matrixOf(place)));
@@ -48,24 +62,36 @@ export function readPlace([x, y, z, qx, qy, qz, qw]: ModelPlace, position: Vecto
   turn.set(qx, qy, qz, qw).normalize();
 }
 
-/** The shapes as one geometry, so that a link is one draw call. */
-function joined(shapes: readonly ModelShape[], sides: number): BufferGeometry {
-  const placed = shapes.map((shape) => {
-    const geometry = geometryOf(shape, sides).toNonIndexed().applyMatrix4(matrixOf(shape.place));
-    return { geometry, colour: new Color(shape.colour) };
-  });
-  const values = (name: string) =>
-    placed.flatMap(({ geometry }) => [...(geometry.getAttribute(name).array as Float32Array)]);
-  const colours = placed.flatMap(({ geometry, colour: { r, g, b } }) =>
-    Array.from({ length: geometry.getAttribute('position').count }, () => [r, g, b]).flat(),
-  );
+/** The parts as one geometry, so that a link is one draw call. */
+function joined(parts: readonly ColouredTriangles[]): BufferGeometry {
+  const length = parts.reduce((sum, { positions }) => sum + positions.length, 0);
+  const [positions, normals, colours] = [0, 1, 2].map(() => new Float32Array(length)) as [
+    ...[Float32Array, Float32Array, Float32Array],
+  ];
+  let at = 0;
+  for (const part of parts) {
+    positions.set(part.positions, at);
+    normals.set(part.normals, at);
+    const { r, g, b } = new Color(part.colour);
+    for (const end = at + part.positions.length; at < end; at += 3) {
+      colours[at] = r;
+      colours[at + 1] = g;
+      colours[at + 2] = b;
+    }
+  }
   const made = new BufferGeometry();
-  made.setAttribute('position', new Float32BufferAttribute(values('position'), 3));
-  made.setAttribute('normal', new Float32BufferAttribute(values('normal'), 3));
-  made.setAttribute('color', new Float32BufferAttribute(colours, 3));
+  made.setAttribute('position', new BufferAttribute(positions, 3));
+  made.setAttribute('normal', new BufferAttribute(normals, 3));
+  made.setAttribute('color', new BufferAttribute(colours, 3));
   made.computeBoundingBox();
   made.computeBoundingSphere();
   return made;
+}
+
+function placedShape(shape: ModelShape, sides: number): PlacedTriangles {
+  const geometry = geometryOf(shape, sides).toNonIndexed().applyMatrix4(matrixOf(shape.place));
+  const [positions, normals] = ['position', 'normal'].map((name) => geometry.getAttribute(name).array);
+  return { positions: positions as Float32Array, normals: normals as Float32Array };
 }
 
 function geometryOf({ form, size }: ModelShape, sides: number): BufferGeometry {

@@ -1,6 +1,6 @@
 /** What is drawn of the robot's model, where, and when it is hidden. */
 import { RobotModel } from '@farpoint/operator';
-import type { ModelPart } from '@farpoint/protocol';
+import { encodeModelMeshes, type ModelPart } from '@farpoint/protocol';
 import { Group, type Mesh, PerspectiveCamera, Vector3 } from 'three';
 import { beforeEach, expect, test } from 'vitest';
 import { RobotFigures } from './robot-figures.ts';
@@ -99,7 +99,7 @@ test('it is not drawn from the robot’s own eyes, nor while the eyes are inside
   expect(figures.shown.drawn).toBe(false);
   figures.show(model);
   figures.place(false, cameraAt(2, 2, 2));
-  expect(figures.shown).toEqual({ links: 2, shapes: 3, positions: [0, 0], drawn: true });
+  expect(figures.shown).toEqual({ links: 2, shapes: 3, meshes: 0, positions: [0, 0], drawn: true });
   figures.place(true, cameraAt(2, 2, 2));
   expect(figures.shown.drawn).toBe(false);
   figures.place(false, cameraAt(0.1, 0, 0.25));
@@ -119,4 +119,40 @@ test('a model that is gone is not drawn, and joints alone build nothing', () => 
   figures.show(null);
   expect(figures.known).toBe(false);
   expect(meshesIn(body)).toEqual([]);
+});
+
+test('meshes are drawn in their places, and not the shapes that stood for them', () => {
+  figures.show(model);
+  expect(figures.shown).toMatchObject({ shapes: 3, meshes: 0 });
+  const bytes = encodeModelMeshes({
+    // The base's box.
+    insteadOf: [0],
+    meshes: [
+      {
+        ...{ min: [-0.5, -0.5, 0], step: 1 / 4095 },
+        vertices: Uint16Array.of(0, 0, 0, 4095, 0, 0, 0, 4095, 0),
+        triangles: Uint16Array.of(0, 1, 2),
+      },
+    ],
+    drawings: [
+      { mesh: 0, link: 0, place: [0, 0, 0.5, 0, 0, 0, 1], colour: 0x00ff00 },
+      { mesh: 0, link: 2, place: [0, 0, 0, 0, 0, 0, 1], colour: 0xff0000 },
+    ],
+  });
+  const data = Buffer.from(bytes).toString('base64');
+  model.takeMeshes({ type: 'modelMeshes', model: 1, count: bytes.length, at: 0, data });
+  figures.show(model);
+  expect(figures.shown).toMatchObject({ links: 2, shapes: 2, meshes: 2 });
+  const [base, arm, finger] = meshesIn(body) as [Mesh, Mesh, Mesh];
+  expect(meshesIn(body)).toHaveLength(3);
+  expect(middleOf(base)).toEqual([0, 0, 0.5]);
+  expect(middleOf(arm)).toEqual([0.15, 0, 0.2]);
+  const [positions, colours, normals] = ['position', 'color', 'normal'].map((name) =>
+    base.geometry.getAttribute(name),
+  );
+  expect(positions?.count).toBe(3);
+  expect([...(colours?.array ?? [])]).toEqual([0, 1, 0, 0, 1, 0, 0, 1, 0]);
+  expect([...(normals?.array ?? [])].map((n) => n + 0)).toEqual([0, 0, 1, 0, 0, 1, 0, 0, 1]);
+  // The ball that was there, and a triangle.
+  expect(finger.geometry.getAttribute('position').count).toBeGreaterThan(3);
 });

@@ -24,6 +24,16 @@ const GHOST = {
 /** Eyes that are nearer to the model than this see into it, metres. */
 const NEAR_M = 0.1;
 
+/** What is drawn of the model. */
+export interface ShownModel {
+  links: number;
+  shapes: number;
+  meshes: number;
+  /** Of the moving links: radians or metres. */
+  positions: readonly number[];
+  drawn: boolean;
+}
+
 export class RobotFigures {
   readonly #solid = new RobotFigure(new MeshLambertMaterial({ vertexColors: true }));
   readonly #ghost = new RobotFigure(new MeshLambertMaterial(GHOST));
@@ -57,11 +67,13 @@ export class RobotFigures {
     return this.#bounds !== null;
   }
 
-  /** What is drawn: moving links, shapes, where the joints are, and whether it is hidden at present. */
-  get shown(): { links: number; shapes: number; positions: readonly number[]; drawn: boolean } {
-    const { links = [], shapes = [] } = this.known ? (this.#model ?? {}) : {};
+  /** What is drawn: moving links, shapes, meshes, where the joints are, and whether it is hidden at present. */
+  get shown(): ShownModel {
+    const { links = [], shapes = [], meshes = null } = this.known ? (this.#model ?? {}) : {};
+    const shapesDrawn = shapes.length - (meshes?.insteadOf.length ?? 0);
     return {
-      ...{ links: links.length, shapes: shapes.length, positions: this.#positions },
+      ...{ links: links.length, shapes: shapesDrawn, meshes: meshes?.drawings.length ?? 0 },
+      positions: this.#positions,
       drawn: this.#solid.object.visible,
     };
   }
@@ -97,7 +109,7 @@ export class RobotFigures {
     this.#model = model;
     this.#changes = model?.changes ?? 0;
     this.#disposed?.();
-    const parts = figureParts(model ?? { links: [], shapes: [] });
+    const parts = figureParts(model ?? { links: [], shapes: [], meshes: null });
     this.#disposed = () => {
       for (const geometry of parts.geometries) geometry?.dispose();
     };

@@ -166,12 +166,34 @@ test('shows what has become of STOP, also without a session', () => {
 test('shows who drives, and with which device', () => {
   const bench = new Bench();
   const { client, state } = bench;
+  client.enter('live');
   expect(state.driving.line.value.text).toBe('Nobody is driving');
   client.driver.holder = 'you';
   client.say('lease', { type: 'lease', holder: 'you' });
   expect(state.driving.line.value.text).toBe('You have control');
   Object.assign(client.driver, { stream: { held: true }, input: { name: 'keyboard' } });
   expect(bench.pass(250).state.driving.line.value.text).toBe('You are driving (keyboard)');
+});
+
+test('a silent robot: nothing is live at once, and the banner says so', () => {
+  const bench = new Bench();
+  const { client, state } = bench;
+  client.enter('live');
+  client.driver.holder = 'you';
+  bench.pass(100);
+  expect([state.robot.heard.value, state.driving.line.value.text]).toEqual([true, 'You have control']);
+  bench.nowMs = 399;
+  state.watchSilence(bench.nowMs);
+  expect(state.robot.heard.value).toBe(true);
+  bench.nowMs = 420;
+  state.watchSilence(bench.nowMs);
+  expect([state.robot.heard.value, state.robot.speed.value]).toEqual([false, null]);
+  expect(state.driving.line.value).toEqual({ text: 'The robot does not hear you', tone: 'warning' });
+  expect(state.link.banner.value).toBe(null);
+  expect(bench.pass(700).state.link.banner.value?.title).toBe('Connection lost');
+  client.heardAtMs = bench.nowMs;
+  state.watchSilence(bench.nowMs);
+  expect([state.robot.heard.value, state.link.banner.value]).toEqual([true, null]);
 });
 
 test('figures change only with the next sample', () => {

@@ -5,15 +5,21 @@
  */
 import type { RobotClient } from '@farpoint/operator';
 import { computed, effect, type ReadonlySignal, type Signal, signal } from '@preact/signals-core';
+import { EventLog } from '../events/event-log.ts';
+import { LatencyLog } from '../latency/latency-log.ts';
 import type { PanelPlacements } from '../panels/panel-placements.ts';
+import { PeopleState } from '../people/people-state.ts';
 import { CameraPictures } from '../pictures/camera-pictures.ts';
 import type { CameraView } from '../pictures/camera-view.ts';
+import { CommandsState } from '../robot-commands/commands-state.ts';
 import type { Settings } from '../settings.ts';
 import { SoundState } from '../sound/sound-state.ts';
 import type { PageStats } from '../status/page-stats.ts';
+import type { Words } from '../status/tone.ts';
 import { VideoViews } from '../video/video-views.ts';
 import { type DrivingState, drivingState } from './driving-state.ts';
 import { Enlarged } from './enlarged.ts';
+import { isHeard } from './heard.ts';
 import { LinkPriority } from './link-priority.ts';
 import { type LinkState, linkState } from './link-state.ts';
 import type { Notices } from './notices.ts';
@@ -36,6 +42,9 @@ const SAMPLED = [
   'estop',
   'stop',
   'alarm',
+  'operators',
+  'handover',
+  'chatLine',
 ] as const;
 
 export interface PageStateParts {
@@ -43,6 +52,8 @@ export interface PageStateParts {
   readonly settings: Pick<Settings, 'signalingFault' | 'pointScale' | 'barcode'>;
   readonly notices: Notices;
   readonly placements: PanelPlacements;
+  /** Share of the robot's greatest speed that the operator has chosen; without it, all of it. */
+  readonly chosenShare?: ReadonlySignal<number> | undefined;
   /** Current figures of the stream and of the drawing. */
   figures(): PageStats;
   /** Page's clock, ms. */
@@ -55,6 +66,8 @@ export class PageState {
   readonly link: LinkState;
   readonly robot: RobotState;
   readonly driving: DrivingState;
+  /** The other operators at the robot. */
+  readonly people: PeopleState;
   readonly figures: ReadonlySignal<PageStats>;
   /** The sensors of a robot that has several, and which of them should send clouds. */
   readonly sensors = new Switches();
@@ -75,6 +88,12 @@ export class PageState {
   readonly placements: PanelPlacements;
   /** The robot's microphone, and the operator's voice. */
   readonly sound: SoundState;
+  /** What the robot does by a button. */
+  readonly commands: CommandsState;
+  /** Latency tests, and what they measured. */
+  readonly latency: LatencyLog;
+  /** What has happened on this page. */
+  readonly events = new EventLog(() => Date.now());
   /** When the values that change with time were read last: page's clock, ms. */
   readonly sampledAtMs: ReadonlySignal<number>;
   /** Size of the points, relative to the patch of surface that each stands for. */
@@ -83,13 +102,18 @@ export class PageState {
   readonly looking = signal(true);
   readonly #samples = new Sampler();
   readonly #now: () => number;
+  readonly #clientLink: RobotClient['link'];
+  #heard = false;
 
-  constructor({ client, settings, notices, placements, figures, now, newCanvas }: PageStateParts) {
+  constructor(parts: PageStateParts) {
+    const { client, settings, notices, placements, figures, now, newCanvas } = parts;
     this.#now = now;
+    this.#clientLink = client.link;
     this.notices = notices;
     this.link = linkState(client, this.#samples, settings.signalingFault);
-    this.robot = robotState(client, this.#samples);
+    this.robot = robotState(client, this.#samples, parts.chosenShare);
     this.driving = drivingState(client, this.#samples);
+    this.people = new PeopleState(client, this.#samples);
     this.figures = this.#samples.of(figures);
     this.sampledAtMs = this.#samples.atMs;
     this.pictures = new CameraPictures(this.cameras, this.sampledAtMs, newCanvas);
@@ -106,10 +130,26 @@ export class PageState {
     this.staged = new Staged(this.views, this.link.live);
     this.placements = placements;
     this.sound = new SoundState(client);
+    const after = (ms: number, act: () => void) => void setTimeout(act, ms);
+    const tell = ({ text, tone }: Words) => notices.tell(text, tone);
+    this.commands = new CommandsState({ client, tell, now, after });
+    this.latency = new LatencyLog({
+      test: (startedAtMs) => client.latencyTest(startedAtMs),
+      offsetMs: () => client.link.session.clock.offsetMs,
+      ...{ now, epochMs: () => Date.now(), after },
+    });
     this.pointScale = signal(settings.pointScale);
     this.sample();
     this.#listen(client);
     this.#ask(client, settings.barcode);
+  }
+
+  /** Call it often: that the robot falls silent shows at once. */
+  watchSilence(nowMs: number): void {
+    const heard = isHeard(this.#clientLink, nowMs);
+    if (heard === this.#heard) return;
+    this.#heard = heard;
+    this.sample();
   }
 
   /** Updates the signals now. Also called a few times a second, for values that change with time. */
@@ -146,7 +186,9 @@ export class PageState {
       this.sensors.set([]);
       this.rings.value = new Map();
       this.videos.clear();
+      this.people.reset();
     });
+    client.on('chatLine', ({ number, agoS }) => this.people.onLine(number, agoS));
     client.on('cameras', (cameras) => this.cameras.set(cameras));
     client.on('videos', (videos) => this.videos.list(videos));
     client.on('sensors', (sensors) => this.sensors.set(sensors));

@@ -1,17 +1,33 @@
 /** What the robot has reported in this session. */
 import type { RobotClient } from '@farpoint/operator';
+import type { ReadonlySignal } from '@preact/signals-core';
 import { nearView } from '../near-field/near-view.ts';
 import { alarmWords, raisedFirst } from '../status/alarm-words.ts';
+import { latchedStop } from '../status/estop-words.ts';
 import { motionWords, obstacleGuardWords, speedWords } from '../status/motion-words.ts';
 import { readingsWithNavigation } from '../status/navigation-words.ts';
+import { isHeard } from './heard.ts';
 import type { Sampler } from './sampler.ts';
+import { steady } from './steady.ts';
 
 export type RobotState = ReturnType<typeof robotState>;
 
-export function robotState({ link, stops, driver }: RobotClient, samples: Sampler) {
+/** @param chosenShare share of its greatest speed that the operator has chosen */
+export function robotState(
+  { link, stops, driver }: RobotClient,
+  samples: Sampler,
+  chosenShare?: ReadonlySignal<number>,
+) {
+  const heard = samples.of((atMs) => isHeard(link, atMs));
   return {
+    /** What it reports is live; otherwise it is the last that was heard. */
+    heard,
     /** `null` before the robot's welcome. */
     name: samples.of(() => link.session.welcome?.name ?? null),
+    /** What must be known of it: whether it plays files, or records. */
+    about: steady(samples.of(() => (link.phase === 'live' ? link.session.about : null))),
+    /** Whether it has anything that velocities move; one that does not say has. */
+    drives: samples.of(() => link.session.about?.drives ?? true),
     telemetry: samples.of(() => link.session.telemetry),
     readings: samples.of((atMs) => readingsWithNavigation(link.session, atMs)),
     /** The alarms that are raised, the worst first. */
@@ -25,6 +41,15 @@ export function robotState({ link, stops, driver }: RobotClient, samples: Sample
     /** Who has a session; `null` if the robot does not say. */
     operators: samples.of(() => link.session.operators),
     estop: samples.of(() => link.session.estop),
+    /** Who pressed STOP, and who may release it; `null` while it is not latched. */
+    latchedStop: steady(
+      samples.of(() => {
+        const { estop, estopCause: cause, lease, welcome } = link.session;
+        if (link.phase !== 'live') return null;
+        const role = welcome?.access?.role ?? null;
+        return latchedStop({ estop, cause, holder: driver.holder, driver: lease.driver ?? null, role });
+      }),
+    ),
     /**
      * What has become of this operator's STOP. Through a bridge the page itself says that it is latched, and numbers no
      * latches: then nothing is called confirmed.
@@ -32,26 +57,30 @@ export function robotState({ link, stops, driver }: RobotClient, samples: Sample
     stop: samples.of(() =>
       stops.status === 'confirmed' && link.session.estop.latch === undefined ? 'none' : stops.status,
     ),
-    /** Why it does less than its driver asks for; `null` if it does not. */
-    motion: samples.of(() => motionWords(link.session.telemetry?.motion)),
+    /** Why it does less than its driver asks for; `null` if it does not, or nobody knows. */
+    motion: samples.of(() => (heard.value ? motionWords(link.session.telemetry?.motion) : null)),
     /** That it does not look where it goes; `null` if it does, or does not say. */
     obstacleGuard: samples.of(() => {
       const guard = link.session.telemetry?.motion?.obstacleGuard;
       return guard === undefined || guard === 'on' ? null : obstacleGuardWords[guard];
     }),
     /** What is near it; `null` while nobody can tell. */
-    near: samples.of((atMs) => nearView(link.session.near, atMs, link.session.clock.offsetMs)),
+    near: samples.of((atMs) => {
+      const view = nearView(link.session.near, atMs, link.session.clock.offsetMs);
+      return view === null || heard.value ? view : { ...view, stale: true };
+    }),
     /** Whether it is one that tells what is near it. */
     tellsNear: samples.of(
       () => link.phase === 'live' && link.session.telemetry?.motion?.obstacleGuard !== undefined,
     ),
     /** Which heights matter to it; `null` if it does not say. */
     heights: samples.of(() => link.session.welcome?.body?.heights ?? null),
-    /** How fast it is, how fast it may go and why; `null` before it has said so. */
+    /** How fast it is, how fast it may go and why; `null` while nobody knows. */
     speed: samples.of(() => {
       const { telemetry, welcome } = link.session;
-      if (telemetry === null || welcome === null) return null;
-      return speedWords(telemetry, welcome.limits.maxLinear, driver.stream.asked);
+      if (telemetry === null || welcome === null || !heard.value) return null;
+      const share = chosenShare?.peek() ?? 1;
+      return speedWords(telemetry, welcome.limits.maxLinear, driver.stream.asked, share);
     }),
     /** The most that it drives, m/s. */
     maxLinear: samples.of(() => link.session.welcome?.limits.maxLinear ?? 0),

@@ -16,6 +16,7 @@ const telemetry = {
 } as Telemetry;
 const open = { type: 'estop', latched: false } as const;
 const session = {
+  heard: true,
   name: 'Rover',
   telemetry,
   estop: open,
@@ -62,6 +63,43 @@ describe('the table of figures', () => {
     expect(bare.map(({ name }) => name)).toEqual(['Points', 'Rate', 'Loss', 'Round trip', 'Frame age']);
   });
 
+  test.each([
+    [1, '260 ms (1 test)'],
+    [2, 'median 260 ms (2 tests)'],
+    // Of 19, the 95th percentile by nearest rank is the slowest.
+    [19, 'median 260 ms (19 tests)'],
+    [20, 'median 260 ms  p95 300 ms (20 tests)'],
+  ])('after %i latency tests, no more is claimed than they show', (count, words) => {
+    const mtpMs = { count, p50: 260, p95: 300, p99: 310, max: 320 };
+    const facts = sessionFacts({ ...session, figures: { ...figures, mtpMs } as PageStats });
+    expect(facts.find(({ name }) => name === 'Motion to photon')?.value).toBe(words);
+  });
+
+  test('without a word from the robot, no figure claims to be live', () => {
+    const seen = {
+      ...figures,
+      mtpMs: { count: 30, p50: 90, p95: 120 },
+      remembered: { points: 5, oldestS: 3 },
+    } as PageStats;
+    const unheard = sessionFacts({ ...session, figures: seen, heard: false });
+    expect(unheard.map(({ name }) => name)).toEqual(
+      sessionFacts({ ...session, figures: seen }).map(({ name }) => name),
+    );
+    expect(unheard.filter(({ value }) => value !== '–').map(({ name }) => name)).toEqual([
+      'Robot',
+      'Remembered',
+      'Motion to photon',
+    ]);
+    expect(unheard.every(({ tone }) => tone === undefined)).toBe(true);
+    // What says how old it is does not claim to be live.
+    const readings = [
+      { topic: '/plan', label: 'Path', text: '5 m, 3 s old: not drawn', tone: 'warning', tellsAge: true },
+      { topic: '/t', label: 'Motor', text: '40 °C', tone: 'neutral' },
+    ] as const;
+    const aged = values(sessionFacts({ ...session, readings, heard: false }));
+    expect([aged.Path, aged.Motor]).toEqual(['5 m, 3 s old: not drawn', '–']);
+  });
+
   test('says what a slow computer leaves out', () => {
     const slow = { ...figures, pointsPerFrame: 210_040, drawnOneOf: 8 };
     expect(values(sessionFacts({ ...session, figures: slow })).Drawn).toBe(
@@ -95,21 +133,37 @@ describe('the table of figures', () => {
   });
 });
 
-test('on the wrist: how to release while the stop is on, otherwise the battery and the next robot', () => {
+test('on the wrist: how to release while the stop is on, otherwise how to drive and to stop, whatever is read', () => {
   const words = { text: 'Live', tone: 'good' } as const;
   const facts = {
+    heard: true,
     ...{ link: words, driving: words, telemetry, estopLatched: false, figures, estopAtRobot: false },
     ...{ stop: null, afterGap: 'let-go' as const, driveHand: 'right' as const, view: null },
-    ...{ speed: null, near: null, hazards: null },
+    ...{ speed: null, near: null, hazards: null, readings: true },
   };
   const lines = wristLines({ ...facts, alarm: null, nextRobot: { id: 'b', name: 'B' } });
   expect(lines.map(({ text }) => text)).toEqual([
     'Live',
     'Stationary',
     'Live',
-    '12.3k points  10/s  3.2 Mbit/s',
+    'Battery 20 %  12.3k points  10/s  3.2 Mbit/s',
     'rtt 42 ms  frame –  loss 0.0 %',
-    'Battery 20 %  press right stick: B',
+    'Squeeze right: drive  B: stop  press right stick: B',
+  ]);
+  const unheard = wristLines({ ...facts, heard: false, alarm: null, nextRobot: null });
+  expect(unheard.map(({ text }) => text)).toEqual([
+    'Live',
+    'Live',
+    'points –',
+    'rtt –  frame –  loss –',
+    'Squeeze right: drive  B: stop',
+  ]);
+  const few = wristLines({ ...facts, readings: false, alarm: null, nextRobot: null });
+  expect(few.map(({ text }) => text)).toEqual([
+    'Live',
+    'Stationary',
+    'Live',
+    'Squeeze right: drive  B: stop',
   ]);
   const speed = { text: '0.50 m/s, at most 1.00', tone: 'neutral' } as const;
   const near = { text: '0.3 m ahead left', tone: 'bad' } as const;
@@ -117,7 +171,7 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
   expect(aware.slice(1, 4).map(({ text }) => text)).toEqual(['Stationary', speed.text, near.text]);
   expect(aware).toHaveLength(8);
   const tinted = wristLines({ ...facts, hazards: 'Red: would hit', alarm: null, nextRobot: null });
-  expect(tinted.at(-1)?.text).toBe('Red: would hit  Battery 20 %');
+  expect(tinted.at(-1)?.text).toBe('Red: would hit  Squeeze right: drive  B: stop');
   const atRobot = wristLines({
     ...facts,
     alarm: null,
@@ -129,6 +183,8 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
   const stopped = wristLines({ ...facts, alarm: null, nextRobot: null, estopLatched: true });
   expect(stopped.at(-1)?.tone).toBe('bad');
   const alarm = { text: 'The battery is low', tone: 'bad' } as const;
+  const quiet = { ...facts, readings: false, nextRobot: null };
+  expect(wristLines({ ...quiet, alarm })).toContainEqual(alarm);
   const alarmed = wristLines({ ...facts, alarm, nextRobot: null, estopLatched: true });
   expect(alarmed).toHaveLength(6);
   expect(alarmed).toContainEqual(alarm);

@@ -1,5 +1,5 @@
 /** The contents of the table of figures over the picture. */
-import type { AfterGap, EstopState, Telemetry } from '@farpoint/operator';
+import type { AfterGap, Distribution, EstopState, Telemetry } from '@farpoint/operator';
 import { BitRate } from '@farpoint/timing';
 import { motionWords, speedLimitWords } from './motion-words.ts';
 import type { PageStats } from './page-stats.ts';
@@ -12,9 +12,13 @@ export interface Fact {
   name: string;
   value: string;
   tone?: Tone;
+  /** The value says how old it is. */
+  tellsAge?: true;
 }
 
 export interface SessionFacts {
+  /** Something has come from the robot just now: otherwise no figure is live. */
+  heard: boolean;
   /** The robot's name; `null` before its welcome. */
   name: string | null;
   telemetry: Telemetry | null;
@@ -27,7 +31,20 @@ export interface SessionFacts {
   figures: PageStats;
 }
 
-export function sessionFacts({
+/** What stands in place of a figure that is not live. */
+export const NO_FIGURE = '–';
+/** What stays true without a word from the robot. */
+const OF_THE_PAGE: readonly string[] = ['Robot', 'Remembered', 'Motion to photon'];
+
+export function sessionFacts(session: SessionFacts): Fact[] {
+  const facts = heardFacts(session);
+  if (session.heard) return facts;
+  return facts.map((fact) =>
+    fact.tellsAge === true || OF_THE_PAGE.includes(fact.name) ? fact : { name: fact.name, value: NO_FIGURE },
+  );
+}
+
+function heardFacts({
   name,
   telemetry,
   estop,
@@ -83,10 +100,11 @@ function telemetryFacts(
  * gets a row of its own, with its topic in the name.
  */
 function addReadings(facts: Fact[], readings: readonly ShownReading[]): void {
-  for (const { topic, label, text, tone } of readings) {
+  for (const { topic, label, text, tone, tellsAge } of readings) {
+    const said = { value: text, tone, ...(tellsAge === true ? { tellsAge } : {}) };
     const there = facts.find(({ name }) => name === label);
-    if (there !== undefined && label === 'Battery') Object.assign(there, { value: text, tone });
-    else facts.push({ name: there === undefined ? label : `${label} (${topic})`, value: text, tone });
+    if (there !== undefined && label === 'Battery') Object.assign(there, said);
+    else facts.push({ name: there === undefined ? label : `${label} (${topic})`, ...said });
   }
 }
 
@@ -105,10 +123,18 @@ function streamFacts(figures: PageStats): Fact[] {
     { name: 'Frame age', value: ms(figures.frameLatencyMs?.p50) },
   ];
   if (figures.mtpMs !== null) {
-    const { p50, p95 } = figures.mtpMs;
-    facts.push({ name: 'Motion to photon', value: `${ms(p50)}  p95 ${ms(p95)}` });
+    facts.push({ name: 'Motion to photon', value: latencyWords(figures.mtpMs) });
   }
   return facts;
+}
+
+/** Of fewer tests, the 95th percentile is the slowest test and no percentile. */
+const LEAST_FOR_P95 = 20;
+
+function latencyWords({ count, p50, p95 }: Distribution): string {
+  if (count === 1) return `${ms(p50)} (1 test)`;
+  const slow = count < LEAST_FOR_P95 ? '' : `  p95 ${ms(p95)}`;
+  return `median ${ms(p50)}${slow} (${count} tests)`;
 }
 
 /** What is left out because this computer is too slow. */
@@ -152,5 +178,5 @@ export function mbps({ bitsPerSecond }: PageStats): string {
 }
 
 export function ms(value: number | null | undefined): string {
-  return value === null || value === undefined ? '–' : `${value.toFixed(0)} ms`;
+  return value === null || value === undefined ? NO_FIGURE : `${value.toFixed(0)} ms`;
 }

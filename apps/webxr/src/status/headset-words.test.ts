@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { HEADSET_VIEWS } from '../headset/rig-pose.ts';
-import { viewFact, viewHint } from './headset-words.ts';
+import { viewFact } from './headset-words.ts';
 
 test('says which view is shown, unless it is the usual one, and the scale of a model', () => {
   expect(HEADSET_VIEWS.map((view) => viewFact(view, 0.05))).toEqual([
@@ -9,8 +9,4 @@ test('says which view is shown, unless it is the usual one, and the scale of a m
     'Tabletop 1:20',
   ]);
   expect(viewFact('tabletop', 1)).toBe('Tabletop 1:1');
-});
-
-test('says in each view which hand drives', () => {
-  for (const view of HEADSET_VIEWS) expect(viewHint(view, 'left')).toContain('squeeze left: drive');
 });

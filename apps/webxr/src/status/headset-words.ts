@@ -1,5 +1,4 @@
 /** What the headset says about its views. */
-import type { Hand } from '../headset/headset-settings.ts';
 import type { HeadsetView } from '../headset/rig-pose.ts';
 
 export const HEADSET_VIEW_WORDS: Readonly<Record<HeadsetView, string>> = {
@@ -7,14 +6,6 @@ export const HEADSET_VIEW_WORDS: Readonly<Record<HeadsetView, string>> = {
   'over-shoulder': 'Over the shoulder',
   tabletop: 'Tabletop',
 };
-
-/** What the hands do in a view. @param driveHand the hand that drives */
-export function viewHint(view: HeadsetView, driveHand: Hand): string {
-  const drive = `squeeze ${driveHand}: drive`;
-  return view === 'tabletop'
-    ? `Trigger: move · both: turn, scale · ${drive}`
-    : `Other stick: turn · ${drive}`;
-}
 
 /** The view, unless it is the usual one. @param scale metres in the room of one metre of the world */
 export function viewFact(view: HeadsetView, scale: number): string | null {

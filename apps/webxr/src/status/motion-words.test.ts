@@ -51,6 +51,11 @@ test('the speed is told with what it may be now, and with why it may not be more
   // Who does not drive is not told what bounds another's wish.
   expect(told({ factor: 0.5, reasons: ['obstacle-near'] }, null).text).toBe('0.42 m/s, at most 1.00');
   expect(speedWords({ twist, motion: undefined }, 1.2, asked).text).toBe('0.42 m/s, at most 1.20');
+  // What the operator has chosen, unless the robot allows less.
+  const slower = { factor: 1, reasons: [], mostLinear: 0.8, viewAgeMs: 90, obstacleGuard: 'on' } as const;
+  const said = (share: number) => speedWords({ twist, motion: slower }, 1.2, asked, share).text;
+  expect(said(0.5)).toBe('0.42 m/s, at most 0.60, as chosen');
+  expect(said(0.75)).toBe('0.42 m/s, at most 0.80: what you see is 90 ms old');
 });
 
 test('every intervention has a reason in few words', () => {

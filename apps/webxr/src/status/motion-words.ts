@@ -67,11 +67,13 @@ const limitReasons: Record<Intervention, Explain> = {
  * How fast the robot is, how fast it may go now, and why not faster.
  *
  * @param maxLinear the most that it ever drives, m/s @param asked what its driver asks for; `null` if nobody here drives
+ * @param chosenShare share of `maxLinear` that the operator has chosen
  */
 export function speedWords(
   { twist, motion }: Pick<Telemetry, 'twist' | 'motion'>,
   maxLinear: number,
   asked: Readonly<Twist> | null,
+  chosenShare = 1,
 ): Words {
   const { x, y } = twist.linear;
   const speed = `${Math.hypot(x, y).toFixed(2)} m/s`;
@@ -85,11 +87,13 @@ export function speedWords(
     const bound = wish === 0 ? 'slower' : `at most ${most.toFixed(2)}`;
     return { text: `${speed}, ${bound}: ${why}`, tone: 'warning' };
   }
-  if (motion !== undefined && motion.mostLinear < maxLinear) {
+  const chosen = chosenShare * maxLinear;
+  if (motion !== undefined && motion.mostLinear < chosen) {
     const why = `what you see is ${age(motion.viewAgeMs)} old`;
     return { text: `${speed}, at most ${motion.mostLinear.toFixed(2)}: ${why}`, tone: 'warning' };
   }
-  return { text: `${speed}, at most ${maxLinear.toFixed(2)}`, tone: 'neutral' };
+  const own = chosenShare < 1 ? ', as chosen' : '';
+  return { text: `${speed}, at most ${chosen.toFixed(2)}${own}`, tone: 'neutral' };
 }
 
 /** The robot says all the time that it does not look where it goes. */

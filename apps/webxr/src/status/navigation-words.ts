@@ -13,14 +13,20 @@ export function readingsWithNavigation(
     const shown = shownReading(aged);
     if (aged.reading.level !== 'ok') return shown;
     const text = textOf(aged);
-    const words =
-      aged.reading.topic === plannedPath.topic
-        ? pathWords(text, pathView(plannedPath, nowMs))
-        : aged.reading.topic === map.topic
-          ? mapWords(text, mapView(map, nowMs))
-          : null;
-    return words === null ? shown : { ...shown, ...words };
+    const { topic } = aged.reading;
+    if (topic === plannedPath.topic) {
+      const view = pathView(plannedPath, nowMs);
+      return said(shown, pathWords(text, view), view?.stale === true);
+    }
+    return topic === map.topic ? said(shown, mapWords(text, mapView(map, nowMs)), true) : shown;
   });
+}
+
+/** @param words `null`: nothing else is known */
+function said(shown: ShownReading, words: Words | null, tellsAge: boolean): ShownReading {
+  if (words === null) return shown;
+  const { tellsAge: _, ...others } = shown;
+  return { ...others, ...words, ...(tellsAge ? { tellsAge } : {}) };
 }
 
 /** @param text what the robot says of it */

@@ -48,7 +48,9 @@ export class PageStatistics {
   readonly #frames = new RateMeter();
   readonly #points = new RateMeter();
   readonly #display = new RateMeter();
+  readonly #offered = new RateMeter();
   #displayFrames = 0;
+  #heldFrames = 0;
   /** Set by what governs the drawing. */
   drawnOneOf = 1;
   /** Set by what draws the remembered world. */
@@ -70,15 +72,26 @@ export class PageStatistics {
     this.#render.add(renderMs);
   }
 
+  /** A picture could have been drawn, and waits for a whole frame of the robot. */
+  onHeld(): void {
+    this.#heldFrames++;
+  }
+
   /** Call this a few times a second. */
   tick(drawn: DrawnCounts, nowMs: number): void {
     this.#frames.update(drawn.frames, nowMs);
     this.#points.update(drawn.points, nowMs);
     this.#display.update(this.#displayFrames, nowMs);
+    this.#offered.update(this.#displayFrames + this.#heldFrames, nowMs);
   }
 
   get displayFramesPerSecond(): number {
     return this.#display.perSecond;
+  }
+
+  /** Display frames a second in which a picture was drawn or could have been. */
+  get offeredFramesPerSecond(): number {
+    return this.#offered.perSecond;
   }
 
   snapshot(

@@ -1,6 +1,6 @@
 import type { Operators } from '@farpoint/operator';
 import { expect, it } from 'vitest';
-import { shownPeople } from './people-words.ts';
+import { type PeopleFacts, shownPeople as shown } from './people-words.ts';
 
 const here: Operators = {
   type: 'operators',
@@ -10,6 +10,12 @@ const here: Operators = {
     { number: 2, name: 'Wim', role: 'watch', drives: false, you: false },
   ],
 };
+
+const facts: PeopleFacts = {
+  ...{ operators: here, role: 'drive', holder: 'other', waits: false, drivesMinutes: null },
+};
+const shownPeople = (operators: Operators | null, supervises: boolean) =>
+  shown({ ...facts, operators, role: supervises ? 'supervise' : 'drive' });
 
 it('names everybody, and says who drives', () => {
   const { line, persons } = shownPeople(here, false);
@@ -32,5 +38,34 @@ it('counts those who are not listed, and says nothing where the robot does not t
   expect(
     shownPeople({ ...here, operators: you === undefined ? [] : [{ ...you, drives: true }] }, true).line,
   ).toBe('Only you are here: you drive');
-  expect(shownPeople(null, true)).toEqual({ line: null, persons: [] });
+  expect(shownPeople(null, true)).toEqual({ line: null, persons: [], mayAsk: false });
+});
+
+it('offers the drive to who may drive, and asks for it, one at a time', () => {
+  const offers = (change: Partial<PeopleFacts>) =>
+    shown({ ...facts, ...change }).persons.map(({ mayOffer }) => mayOffer);
+  expect(offers({})).toEqual([false, false, false]);
+  expect(offers({ holder: 'you' })).toEqual([false, true, false]);
+  expect(offers({ holder: 'you', waits: true })).toEqual([false, false, false]);
+  const asks = (change: Partial<PeopleFacts>) => shown({ ...facts, ...change }).mayAsk;
+  expect([asks({}), asks({ role: null })]).toEqual([true, true]);
+  expect([
+    asks({ holder: 'nobody' }),
+    asks({ holder: 'you' }),
+    asks({ role: 'watch' }),
+    asks({ waits: true }),
+  ]).toEqual(Array(4).fill(false));
+});
+
+it('says for how long the driver drives, who is not heard from, and whose name nothing proves', () => {
+  const [sue, grace, wim] = here.operators;
+  if (sue === undefined || grace === undefined || wim === undefined) throw new Error('nobody is here');
+  const operators: Operators = { ...here, operators: [sue, grace, { ...wim, claimed: true, away: true }] };
+  expect(shown({ ...facts, operators, drivesMinutes: 12 }).persons.map(({ text }) => text)).toEqual([
+    'Sue (you, supervisor)',
+    'Grace (driving for 12 min)',
+    '“Wim” (watching, not heard from)',
+  ]);
+  const alone: Operators = { ...here, operators: [{ ...sue, claimed: true }] };
+  expect(shown({ ...facts, operators: alone }).line).toBeNull();
 });

@@ -8,6 +8,8 @@ export interface ShownReading {
   label: string;
   text: string;
   tone: Tone;
+  /** The text says how old it is. */
+  tellsAge?: true;
 }
 
 /** From this age on, the text includes the reading's age, unless the topic's own rate is known, ms. */
@@ -29,5 +31,6 @@ export function shownReading({ reading, ageMs, intervalMs }: AgedReading): Shown
     ...{ topic, label },
     text: old ? `${text} (${Math.round(ageMs / 1000)} s ago)` : text,
     tone: old && level === 'ok' ? 'warning' : tones[level],
+    ...(old ? { tellsAge: true } : {}),
   };
 }

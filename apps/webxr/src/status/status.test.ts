@@ -9,6 +9,7 @@ const live = {
   robotListed: true,
   lastLoss: null,
   maxOperators: null,
+  here: null,
   grantLeftMs: null,
   silentMs: 20,
   pointsSilentMs: 20,
@@ -35,6 +36,11 @@ describe('words', () => {
     expect(wordsOfLoss('robot-full', unsaid)).toContain('full');
     const waiting = { ...live, phase: 'waiting', lastLoss: 'robot-full', maxOperators: 4 } as const;
     expect(linkWords(waiting).text).toContain('4 operators at most');
+    const here = 'Ada (drives), Bob';
+    expect(linkWords({ ...waiting, here }).text).toBe(
+      'The robot is full (4 of 4): Ada (drives), Bob. Trying again…',
+    );
+    expect(wordsOfLoss('robot-full', { maxOperators: 2, lossDetail: here })).toContain('(2 of 2): Ada');
     expect(linkWords({ ...waiting, robotListed: false }).text).toContain('offline');
     expect(linkWords({ ...waiting, lastLoss: 'silent' }).text).toBe('Connecting…');
   });
@@ -58,6 +64,10 @@ describe('words', () => {
       text: expect.stringContaining('ends in 60 s'),
       tone: 'warning',
     });
+    expect(linkWords({ ...live, silentMs: 400 })).toEqual({
+      text: 'Waiting for the robot…',
+      tone: 'warning',
+    });
     // That the robot is out of reach is worse.
     expect(linkWords({ ...live, grantLeftMs: 9000, silentMs: 4000 }).tone).toBe('bad');
     const waiting = { ...live, phase: 'waiting' } as const;
@@ -65,7 +75,9 @@ describe('words', () => {
   });
 
   test('says by name who drives, and what a grant allows', () => {
-    const facts = { holder: 'other', driver: 'Grace', role: 'drive', device: null, gripLost: null } as const;
+    const grace = { holder: 'other', driver: 'Grace', role: 'drive' } as const;
+    const facts = { ...grace, heard: true, device: null, gripLost: null } as const;
+    expect(holderWords({ ...facts, heard: false }).tone).toBe('warning');
     expect(holderWords(facts).text).toBe('Grace is driving');
     expect(holderWords({ ...facts, driver: null }).text).toBe('Someone else is driving');
     expect(holderWords({ ...facts, holder: 'nobody', role: 'watch' }).text).toContain('lets you watch');

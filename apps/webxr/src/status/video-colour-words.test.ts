@@ -4,7 +4,15 @@ import type { VideoColourState } from '../video/video-colour.ts';
 import { videoColourWords } from './video-colour-words.ts';
 
 const words = (state: VideoColourState, share = 0, use: PictureUse | null = null) =>
-  videoColourWords({ state, share, use, pictures: {} });
+  videoColourWords({
+    state,
+    share,
+    use,
+    pictures: {},
+    clouds: { followed: 0, painted: 0 },
+    heldMs: null,
+    claimed: [],
+  });
 
 test('what paints the surface is said, and why the video does not', () => {
   expect(words('painted', 1)).toBe('from the video');

@@ -10,6 +10,7 @@ import {
 } from '@farpoint/operator';
 import type { AfterGap, CommandRejection, DriveState, LeaseState, Role } from '@farpoint/protocol';
 import { grantEndsWords } from './access-words.ts';
+import { SILENT_MS, UNHEARD_MS } from './silence.ts';
 import type { Words } from './tone.ts';
 
 export type { Tone, Words } from './tone.ts';
@@ -62,6 +63,7 @@ export const gripLossWords: Record<GripLoss, string> = {
   'late-reading': 'The grip was not read in time, so the robot stops. Let go of it, then drive.',
   'hands-away': 'The page or the headset was left with the grip held. Let go of it, then drive.',
   'path-lost': 'The connection was lost while you held the grip. Let go of it, then drive.',
+  'handed-over': 'You have the drive now. Let go of the grip, then press it anew to drive.',
   'let-go': 'The robot was let go of. Let go of the grip, too, before you drive again.',
 };
 
@@ -98,6 +100,8 @@ const lossWords: Record<Exclude<SessionLoss, 'robot-full'>, string> = {
 };
 
 export interface DrivingFacts {
+  /** Something has come from the robot just now. */
+  heard: boolean;
   holder: LeaseState['holder'];
   /** The driver's name, by its grant. */
   driver: string | null;
@@ -110,7 +114,8 @@ export interface DrivingFacts {
 }
 
 /** Who drives. */
-export function holderWords({ holder, driver, role, device, gripLost }: DrivingFacts): Words {
+export function holderWords({ heard, holder, driver, role, device, gripLost }: DrivingFacts): Words {
+  if (!heard) return { text: 'The robot does not hear you', tone: 'warning' };
   if (holder === 'other') return { text: `${driver ?? 'Someone else'} is driving`, tone: 'warning' };
   if (role === 'watch') return { text: 'Nobody is driving. Your grant lets you watch', tone: 'neutral' };
   if (gripLost !== null && device === null)
@@ -129,14 +134,17 @@ export interface LossFacts {
 
 /** Why a session ended. */
 export function wordsOfLoss(loss: SessionLoss, { maxOperators, lossDetail }: LossFacts): string {
-  if (loss === 'robot-full') return fullWords(maxOperators);
+  if (loss === 'robot-full') return fullWords(maxOperators, lossDetail);
   // Who did it is what matters.
   if (loss === 'ended-by-supervisor' && lossDetail !== null)
     return `${lossDetail}. Choose the robot to connect again.`;
   return lossWords[loss];
 }
 
-function fullWords(maxOperators: number | null): string {
+/** @param here who is there, as far as the robot says */
+function fullWords(maxOperators: number | null, here: string | null): string {
+  if (maxOperators !== null && here !== null)
+    return `The robot is full (${maxOperators} of ${maxOperators}): ${here}. Trying again…`;
   if (maxOperators === null) return 'The robot is full: it accepts no more operators. Trying again…';
   const operators = maxOperators === 1 ? 'one operator' : `${maxOperators} operators`;
   return `The robot is full: it accepts ${operators} at most. Trying again…`;
@@ -153,6 +161,8 @@ export interface LinkFacts {
   lastLoss: SessionLoss | null;
   /** How many operators the robot takes; `null` if it has not said so. */
   maxOperators: number | null;
+  /** Who is there, if it is full and says so. */
+  here: string | null;
   /** Until the operator's grant ends, ms; `null` if the robot asks for none. */
   grantLeftMs: number | null;
   /** Time since the last message or point from the robot, ms. */
@@ -163,7 +173,6 @@ export interface LinkFacts {
   rateByReports: boolean;
 }
 
-const SILENT_MS = 1000;
 const NO_POINTS_MS = 3000;
 
 /** The state of the link in one line. */
@@ -179,7 +188,7 @@ export function linkWords(facts: LinkFacts): Words {
       if (facts.lastLoss !== null && finalLosses.has(facts.lastLoss))
         return { text: wordsOfLoss(facts.lastLoss, { maxOperators: null, lossDetail: null }), tone: 'bad' };
       return facts.lastLoss === 'robot-full'
-        ? { text: fullWords(facts.maxOperators), tone: 'warning' }
+        ? { text: fullWords(facts.maxOperators, facts.here), tone: 'warning' }
         : { text: 'Connecting…', tone: 'neutral' };
     case 'opening':
       return { text: 'Connecting to the robot…', tone: 'neutral' };
@@ -191,6 +200,7 @@ export function linkWords(facts: LinkFacts): Words {
           tone: 'bad',
         };
       }
+      if (facts.silentMs >= UNHEARD_MS) return { text: 'Waiting for the robot…', tone: 'warning' };
       if (grantEnds !== null) return grantEnds;
       if (facts.pointsSilentMs >= NO_POINTS_MS) {
         return { text: 'Connected, but no points are arriving.', tone: 'warning' };

@@ -1,13 +1,15 @@
 /** The lines of text on the wrist panel. */
 import type { AfterGap, RobotListing, Telemetry } from '@farpoint/operator';
 import type { Hand } from '../headset/headset-settings.ts';
-import { lossTone, mbps, ms } from './facts.ts';
+import { lossTone, mbps, ms, NO_FIGURE } from './facts.ts';
 import { motionWords } from './motion-words.ts';
 import type { PageStats } from './page-stats.ts';
 import { viewLead } from './view-words.ts';
 import { driveStateWords, type Words } from './words.ts';
 
 export interface WristFacts {
+  /** Something has come from the robot just now: otherwise no figure is live. */
+  heard: boolean;
   link: Words;
   driving: Words;
   telemetry: Telemetry | null;
@@ -32,53 +34,47 @@ export interface WristFacts {
   /** The worst alarm and how many others there are; `null` if none is raised. */
   alarm: Words | null;
   figures: PageStats;
+  /** Whether figures are wanted; without them, what asks for attention stays. */
+  readings: boolean;
 }
 
-export function wristLines({
-  link,
-  driving,
-  telemetry,
-  speed,
-  near,
-  estopLatched,
-  estopAtRobot,
-  stop,
-  afterGap,
-  nextRobot,
-  driveHand,
-  view,
-  hazards,
-  alarm,
-  figures,
-}: WristFacts): Words[] {
-  const { pointsPerFrame, framesPerSecond, minRttMs, frameLatencyMs, lossRate } = figures;
-  const thousands = (pointsPerFrame / 1000).toFixed(1);
-  const battery = telemetry?.battery;
+export function wristLines(facts: WristFacts): Words[] {
+  const {
+    heard,
+    link,
+    driving,
+    telemetry,
+    speed,
+    near,
+    estopLatched,
+    estopAtRobot,
+    stop,
+    afterGap,
+    nextRobot,
+    driveHand,
+    view,
+    hazards,
+    alarm,
+    readings,
+  } = facts;
+  const urgent = (stop?.tone === 'good' ? null : stop) ?? alarm ?? stop;
   const hints = [
     ...[view, hazards].filter((hint) => hint !== null),
-    battery === undefined
-      ? `Squeeze ${driveHand}: drive  B: stop`
-      : `Battery ${Math.round(battery.percentage * 100)} %`,
+    // How to drive and how to stop: no reading takes their place.
+    `Squeeze ${driveHand}: drive  B: stop`,
     ...(nextRobot === null ? [] : [`press ${driveHand} stick: ${nextRobot.name}`]),
   ];
   return [
     link,
-    ...(telemetry === null
+    ...(telemetry === null || !heard
       ? []
       : [motionWords(telemetry.motion) ?? driveStateWords(telemetry.drive, afterGap)]),
     ...[speed, near].filter((words) => words !== null),
     driving,
     // An unconfirmed STOP, an alarm or a confirmed STOP takes the place of the line that matters least.
-    (stop?.tone === 'good' ? null : stop) ??
-      alarm ??
-      stop ?? {
-        text: `${thousands}k points  ${framesPerSecond.toFixed(0)}/s  ${mbps(figures)} Mbit/s`,
-        tone: 'neutral',
-      },
-    {
-      text: `rtt ${ms(minRttMs)}  frame ${ms(frameLatencyMs?.p50)}  loss ${(lossRate * 100).toFixed(1)} %${viewLead(figures.view)}`,
-      tone: lossTone(figures),
-    },
+    ...[urgent ?? (readings ? streamLine(facts) : null), readings ? linkLine(facts) : null].filter(
+      (words) => words !== null,
+    ),
     estopLatched
       ? {
           text: estopAtRobot ? 'Released at the robot only' : 'Release: open hand, hold trigger 1 s',
@@ -86,4 +82,24 @@ export function wristLines({
         }
       : { text: hints.join('  '), tone: 'neutral' },
   ];
+}
+
+/** What comes of the battery, the points and the link's rate. */
+function streamLine({ heard, telemetry, figures }: WristFacts): Words {
+  if (!heard) return { text: `points ${NO_FIGURE}`, tone: 'neutral' };
+  const { pointsPerFrame, framesPerSecond } = figures;
+  const battery = telemetry?.battery;
+  const charge = battery === undefined ? '' : `Battery ${Math.round(battery.percentage * 100)} %  `;
+  const points = `${(pointsPerFrame / 1000).toFixed(1)}k points  ${framesPerSecond.toFixed(0)}/s`;
+  return { text: `${charge}${points}  ${mbps(figures)} Mbit/s`, tone: 'neutral' };
+}
+
+function linkLine({ heard, figures }: WristFacts): Words {
+  if (!heard) return { text: `rtt ${NO_FIGURE}  frame ${NO_FIGURE}  loss ${NO_FIGURE}`, tone: 'neutral' };
+  const { minRttMs, frameLatencyMs, lossRate, view } = figures;
+  const loss = `${(lossRate * 100).toFixed(1)} %${viewLead(view)}`;
+  return {
+    text: `rtt ${ms(minRttMs)}  frame ${ms(frameLatencyMs?.p50)}  loss ${loss}`,
+    tone: lossTone(figures),
+  };
 }

@@ -4,16 +4,10 @@
  */
 import { bodyYaw } from '@farpoint/cloud-view';
 import type { Quantity, RobotClient, Samples, Telemetry } from '@farpoint/operator';
+import { LINK_EVERY_MS, type LinkStats, linkSamples } from './link-series.ts';
 import { Series } from './series.ts';
+import type { SeriesDescription } from './series-description.ts';
 import { Track } from './track.ts';
-
-/** What describes a series to people. */
-export interface SeriesDescription {
-  /** Identifies it among the robot's, in every session. */
-  readonly key: string;
-  readonly label: string;
-  readonly unit: string;
-}
 
 export interface RecordedSeries extends SeriesDescription {
   readonly series: Series;
@@ -55,8 +49,12 @@ export class TelemetryRecorder {
   #robotId: string | null = null;
   #newestMs = Number.NEGATIVE_INFINITY;
 
-  /** @param now page's clock, ms */
-  constructor(client: Pick<RobotClient, 'on'>, now: () => number) {
+  /** When the link was sampled last, robot's clock, ms, and the frames seen until then. */
+  #linkMs = Number.NEGATIVE_INFINITY;
+  #framesSeen = 0;
+
+  /** @param now page's clock, ms @param link the figures of the link; without it, nothing is recorded of it */
+  constructor(client: Pick<RobotClient, 'on'>, now: () => number, link?: { peek(): LinkStats }) {
     client.on('session', () => this.#byNumber.clear());
     client.on('welcome', ({ robotId }) => {
       if (this.#robotId !== null && robotId !== this.#robotId) this.clear();
@@ -66,6 +64,8 @@ export class TelemetryRecorder {
     client.on('telemetry', (telemetry) => {
       this.heardMs = now();
       this.#take(telemetry);
+      // With the robot's state: on a silent link nothing is recorded of it, as nothing is known.
+      if (link !== undefined) this.#takeLink(telemetry.timeMs, link.peek());
     });
     client.on('samples', (samples) => this.#sample(samples));
   }
@@ -96,6 +96,7 @@ export class TelemetryRecorder {
     this.track.clear();
     this.fixTrack.clear();
     this.#newestMs = Number.NEGATIVE_INFINITY;
+    this.#linkMs = Number.NEGATIVE_INFINITY;
     this.revision++;
   }
 
@@ -123,6 +124,14 @@ export class TelemetryRecorder {
     if (battery === undefined || this.ofField('percentage', '%') !== null) return;
     this.#add(OWN.charge, timeMs, battery.percentage * 100);
     this.#add(OWN.voltage, timeMs, battery.voltage);
+  }
+
+  #takeLink(timeMs: number, stats: LinkStats): void {
+    if (timeMs - this.#linkMs < LINK_EVERY_MS) return;
+    this.#linkMs = timeMs;
+    for (const [description, value] of linkSamples(stats, this.#framesSeen))
+      this.#add(description, timeMs, value);
+    this.#framesSeen = stats.frameStages?.framesSeen ?? 0;
   }
 
   #sample({ timeMs, samples }: Samples): void {
@@ -159,5 +168,6 @@ export class TelemetryRecorder {
     this.track.clear();
     this.fixTrack.clear();
     this.#newestMs = Number.NEGATIVE_INFINITY;
+    this.#linkMs = Number.NEGATIVE_INFINITY;
   }
 }

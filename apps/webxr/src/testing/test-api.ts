@@ -13,6 +13,7 @@ import type {
   VideoCodec,
 } from '@farpoint/operator';
 import type { DriveState, LatencyFrame } from '@farpoint/protocol';
+import type { MarkedGoal } from '../goals/goal-marker.ts';
 import type { HeadsetView } from '../headset/rig-pose.ts';
 import type { NearHit } from '../near-field/directions.ts';
 import type { RobotFigures } from '../robot-model/robot-figures.ts';
@@ -20,6 +21,7 @@ import type { PageStats } from '../status/page-stats.ts';
 import type { DrivePath } from '../view/drive-path.ts';
 import type { NearRing } from '../view/near-ring.ts';
 import type { ViewFigures } from '../view/predicted-view.ts';
+import type { ConsoleProbe } from './console-probe.ts';
 
 export interface PageState {
   signaling: SignalingState;
@@ -29,6 +31,8 @@ export interface PageState {
   lastLoss: SessionLoss | null;
   robotId: string | null;
   robotListed: boolean;
+  /** Since the last word or point from the robot. */
+  silentMs: number;
   /** The line that the page shows about the link. */
   link: string;
   /** The last notice that the page showed: a refusal or failure. */
@@ -39,6 +43,8 @@ export interface PageState {
   battery: number | null;
   /** base_link in the world, REP-103: metres, radians. */
   body: { x: number; y: number; z: number; yaw: number } | null;
+  /** When the robot measured that, ms on its clock. */
+  measuredMs: number | null;
   /** m/s and rad/s, as measured by the robot. */
   velocity: { linear: number; angular: number } | null;
   /** Whether commands are being sent, and from which device. */
@@ -52,6 +58,14 @@ export interface PageState {
   near: NearProbe;
   /** What is drawn of the navigator's path and map: number of points, and of cells that are not unknown. */
   navigation: { pathPoints: number; mapCells: number };
+  /** What has become of the goal, where it is marked, whether the next click is one, and what the headset says there. */
+  goal: {
+    armed: boolean;
+    state: string | null;
+    reason: string | null;
+    marked: MarkedGoal | null;
+    said: string;
+  };
   /** What is drawn of the robot's model: moving links, shapes, where the joints are (rad, m), and whether it is in view. */
   model: RobotFigures['shown'];
   vr: boolean;
@@ -61,7 +75,7 @@ export interface PageState {
   view: { x: number; y: number; z: number; yaw: number } & ViewFigures;
 }
 
-export type { PageStats };
+export type { ConsoleProbe, PageStats };
 
 /** What the page shows of what is near the robot. */
 export interface NearProbe {
@@ -187,6 +201,8 @@ export interface FarpointTestApi {
   wrist(): { text: string; tone: string }[] | null;
   /** `null` outside VR. */
   headset(): HeadsetProbe | null;
+  /** What the operator reads in the headset besides the wrist; `null` outside VR. */
+  console(): ConsoleProbe | null;
   cameras(): CameraProbe[];
   sound(): SoundProbe;
   videos(): VideoProbe[];
@@ -217,6 +233,8 @@ export interface FarpointTestApi {
    * robot's clock as the page estimates it, accurate to half of `minRttMs`.
    */
   recordedPackets(): { values: number[]; minRttMs: number | null };
+  /** Where a place on the floor is on the screen, as shares of the canvas from the top left; `null` if it is behind. */
+  floorOnScreen(place: { x: number; y: number }): { x: number; y: number } | null;
   /** Colour of one pixel after the next display frame. x and y are shares of the canvas, from the top left. */
   pixel(x: number, y: number): Promise<[number, number, number]>;
 }

@@ -4,8 +4,10 @@ import { bodyYaw, opticalYaw } from '@farpoint/cloud-view';
 import { LATENCY_TEST_COLOUR, type Pose, SOUND_MEDIA, sequenceDelta32 } from '@farpoint/protocol';
 import { Quaternion, Vector3 } from 'three';
 import type { App } from '../app.ts';
+import { onScreen } from '../goals/floor-pick.ts';
 import { nearestHits } from '../near-field/directions.ts';
 import { nearDetails, nearWords } from '../status/near-words.ts';
+import { consoleProbe, wristProbe } from './console-probe.ts';
 import { PacketRecord } from './packet-record.ts';
 import { PresentationRecord } from './presentation-record.ts';
 import { ScriptInput } from './script-input.ts';
@@ -43,12 +45,14 @@ export function installTestApi(app: App): void {
         robotId: link.robotId,
         robotListed: link.robotListed,
         link: app.state.link.line.value.text,
+        silentMs: app.client.link.silentMs(performance.now()),
         notice: app.state.notices.last.value?.text ?? null,
         holder: driver.holder,
         estop: estop.latched,
         drive: telemetry?.drive ?? null,
         battery: telemetry?.battery?.percentage ?? null,
         body: telemetry === null ? null : flatPose(telemetry.pose),
+        measuredMs: telemetry?.timeMs ?? null,
         velocity:
           telemetry === null
             ? null
@@ -59,6 +63,13 @@ export function installTestApi(app: App): void {
         path: app.stage.path.shown,
         near: nearProbe(app),
         navigation: { pathPoints: stage.plan.shown, mapCells: stage.floorMap.shown },
+        goal: {
+          armed: app.goals.armed.value,
+          state: client.goals.status?.state ?? null,
+          reason: client.goals.status?.reason ?? null,
+          marked: stage.goal.shown,
+          said: app.goals.headset?.said ?? '',
+        },
         model: stage.figures.shown,
         vr: app.vr.active.value,
         scene: { gridM: stage.grid.object.position.y, reachM: stage.look.reach },
@@ -97,7 +108,8 @@ export function installTestApi(app: App): void {
     limitBandwidth: (bitsPerSecond) => link.limitBandwidth(bitsPerSecond),
     shareLink: ({ cloud, videos }) => client.shareLink(cloud, videos),
     probe: () => probe(app),
-    wrist: () => app.wrist?.shown?.map(({ text, tone }) => ({ text, tone })) ?? null,
+    wrist: () => wristProbe(app),
+    console: () => (app.vr.active.value ? consoleProbe(app) : null),
     headset: () => (app.vr.active.value ? headsetProbe(app) : null),
     cameras: () =>
       app.state.pictures.views.value.map(({ camera, canvas, newest, ageMs, failures }) => ({
@@ -152,6 +164,11 @@ export function installTestApi(app: App): void {
       for (let i = 2; i < values.length; i += 3)
         values[i] = (values[i] as number) + (clock.offsetMs ?? Number.NaN);
       return { values, minRttMs: clock.minRttMs };
+    },
+    floorOnScreen: (place) => {
+      const ground = client.telemetry?.pose.position.z ?? 0;
+      const shown = onScreen({ camera: stage.viewCamera, world: stage.world }, place, ground);
+      return shown === null ? null : { x: (1 + shown.right) / 2, y: (1 - shown.up) / 2 };
     },
     pixel: (x, y) =>
       new Promise((resolve) => {

@@ -5,6 +5,7 @@ import type { OperatorAccess, ReadResult } from '../access/operator-access.ts';
 import { grantFaultWords, grantWords } from '../status/access-words.ts';
 import type { Words } from '../status/words.ts';
 import { elements } from './elements.ts';
+import { openDialog } from './open-dialog.ts';
 
 export interface AccessDialogParts {
   readonly access: OperatorAccess;
@@ -79,7 +80,7 @@ export class AccessDialog {
     settings.close('cancel');
     this.#robots.value = this.#parts.known.all();
     accessText.value = text;
-    if (!access.open) access.showModal();
+    openDialog(access);
     if (window.isSecureContext) {
       void this.#parts.access.makeKey().then(async () => {
         await this.#take();

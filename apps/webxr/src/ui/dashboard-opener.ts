@@ -48,6 +48,8 @@ export class DashboardOpener {
     });
     effect(() => {
       if (shown.value) this.#load();
+      // Nobody could see further tests go on, nor end them.
+      else state.latency.abort();
     });
     effect(() => {
       const loaded = this.#dashboard.value;
@@ -72,6 +74,8 @@ export class DashboardOpener {
             mapTiles: settings.mapTiles,
             alarms: state.robot.alarms,
           },
+          ...{ latency: state.latency, figures: state.figures },
+          ...{ heard: state.robot.heard, telemetry: state.robot.telemetry },
           session: () => client.link.session,
           momentAt: (nowMs) => this.#momentAt(nowMs),
           close: () => {

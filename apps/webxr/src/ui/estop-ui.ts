@@ -6,7 +6,10 @@
 import type { RobotClient, StopStatus } from '@farpoint/operator';
 import { effect } from '@preact/signals-core';
 import type { ReleaseControl, ReleaseHold } from '../drive/release-hold.ts';
+import type { PageState } from '../state/page-state.ts';
 import type { RobotState } from '../state/robot-state.ts';
+import { LATCHED_TITLE, type LatchedStop, stopButtonWords } from '../status/estop-words.ts';
+import { eventWords } from '../status/event-words.ts';
 import { stopWords } from '../status/words.ts';
 import { elements } from './elements.ts';
 
@@ -14,11 +17,15 @@ export class EstopUi {
   readonly #client: RobotClient;
   readonly #robot: RobotState;
   readonly #hold: ReleaseHold;
+  readonly #notices: PageState['notices'];
+  readonly #events: PageState['events'];
 
-  constructor(client: RobotClient, robot: RobotState, hold: ReleaseHold) {
+  constructor(client: RobotClient, { robot, notices, events }: PageState, hold: ReleaseHold) {
     this.#client = client;
     this.#robot = robot;
     this.#hold = hold;
+    this.#notices = notices;
+    this.#events = events;
   }
 
   start(): void {
@@ -37,8 +44,10 @@ export class EstopUi {
     // A long touch must not open a menu.
     estopRelease.addEventListener('contextmenu', (event) => event.preventDefault());
     effect(() => showStop(this.#robot.stop.value));
-    effect(() => showLatched(this.#robot.estopLatched.value));
-    effect(() => showWhere(this.#robot.estopAtRobot.value));
+    const { latchedStop, estopAtRobot } = this.#robot;
+    effect(() => showLatched(latchedStop.value, estopAtRobot.value));
+    effect(() => showWhere(estopAtRobot.value));
+    followHeight(elements.stopBand);
     effect(() => showProgress(this.#hold.progress.value));
   }
 
@@ -48,25 +57,42 @@ export class EstopUi {
   }
 
   hold(control: ReleaseControl, down: boolean): void {
-    this.#hold.set(control, down);
+    if (!this.#hold.set(control, down)) return;
+    const stop = this.#robot.latchedStop.peek();
+    if (stop !== null && !stop.mayRelease) this.#notices.tell(stop.release, 'warning');
   }
 
   /** @param away the operator cannot see the page or is not at its controls */
   tick(nowMs: number, away: boolean): void {
     if (away) this.#hold.letGo();
-    const { estopLatched, estopAtRobot } = this.#robot;
-    const mayRelease = estopLatched.value && !estopAtRobot.value;
-    if (this.#hold.tick(nowMs, mayRelease)) this.#client.releaseEstop();
+    const mayRelease = this.#robot.latchedStop.peek()?.mayRelease === true;
+    if (!this.#hold.tick(nowMs, mayRelease)) return;
+    this.#client.releaseEstop();
+    this.#events.mark(eventWords.releaseAsked, this.#robot.name.peek());
   }
 }
 
-function showLatched(latched: boolean): void {
-  const { estop, estopRelease, latency } = elements;
+function showLatched(stop: LatchedStop | null, atRobot: boolean): void {
+  const { estop, estopRelease, latency, stopBand, stopTitle, stopWhy, stopHow } = elements;
+  const latched = stop !== null;
   estop.setAttribute('aria-pressed', String(latched));
-  estop.querySelector('span')!.textContent = latched ? 'engaged' : 'emergency';
-  estopRelease.hidden = !latched;
+  estop.querySelector('span')!.textContent = stopButtonWords[latched ? 'latched' : 'clear'];
+  // A stop at the robot keeps the control, which then says where it is released.
+  estopRelease.hidden = !latched || !(stop.mayRelease || atRobot);
   // The release control needs its place, and a robot that cannot drive has nothing to measure.
   latency.hidden = latched;
+  stopBand.hidden = !latched;
+  stopTitle.textContent = latched ? LATCHED_TITLE : '';
+  stopWhy.textContent = stop?.why ?? '';
+  stopHow.textContent = stop?.release ?? '';
+}
+
+/** What is below the band makes room for it. */
+function followHeight(band: HTMLElement): void {
+  const observer = new ResizeObserver(() => {
+    document.documentElement.style.setProperty('--stop-band', `${band.offsetHeight}px`);
+  });
+  observer.observe(band);
 }
 
 /** A stop at the robot itself is released there, by nobody here. */

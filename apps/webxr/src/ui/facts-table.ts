@@ -1,11 +1,24 @@
-/** The table of figures over the picture. Its rows are created once; only their texts change. */
+/**
+ * The table of figures over the picture. Its rows are created once; only their texts change. On a small screen it is
+ * one line until the operator opens it.
+ */
 import type { Fact } from '../status/facts.ts';
+import { figuresLine } from '../status/figures-line.ts';
 import { elements } from './elements.ts';
 
 const rows = new Map<string, { term: HTMLElement; value: HTMLElement }>();
 let shownNames = '';
 
+elements.factsFold.addEventListener('click', () => {
+  const open = elements.hud.dataset.facts !== 'open';
+  elements.hud.dataset.facts = open ? 'open' : 'folded';
+  elements.factsFold.ariaExpanded = String(open);
+});
+
 export function showFacts(facts: readonly Fact[]): void {
+  const line = figuresLine(facts);
+  if (elements.factsFold.textContent !== line.text) elements.factsFold.textContent = line.text;
+  elements.factsFold.dataset.tone = line.tone;
   for (const { name, value, tone } of facts) {
     let row = rows.get(name);
     if (row === undefined) {

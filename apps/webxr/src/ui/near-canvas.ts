@@ -1,5 +1,6 @@
 /** The near field as a small picture seen from above, the robot's heading up. */
 import { NEAR_SECTORS, type RobotBody } from '@farpoint/protocol';
+import { palette } from '../display/palette.ts';
 import { radiusAt, reachOf } from '../near-field/around-footprint.ts';
 import type { NearView } from '../near-field/near-view.ts';
 import { hatchedStretch, hitColour, NEAR_COLOURS } from '../view/near-ring.ts';
@@ -27,7 +28,7 @@ export function drawNear(canvas: HTMLCanvasElement, body: RobotBody, view: NearV
       context.lineTo(middle - radius * Math.sin(i * SECTOR), middle - radius * Math.cos(i * SECTOR));
     }
   };
-  context.strokeStyle = '#24303b';
+  context.strokeStyle = palette.line;
   context.lineWidth = 1;
   for (const metres of [...MARKS_M, SHOWN_M]) {
     context.beginPath();
@@ -63,7 +64,7 @@ export function drawNear(canvas: HTMLCanvasElement, body: RobotBody, view: NearV
   context.beginPath();
   for (const { x, y } of footprint) context.lineTo(middle - y * perMetre, middle - x * perMetre);
   context.closePath();
-  context.fillStyle = view === null || view.stale ? NEAR_COLOURS.stale : '#35c9b5';
+  context.fillStyle = view === null || view.stale ? NEAR_COLOURS.stale : palette.good;
   context.fill();
 }
 

@@ -15,7 +15,7 @@ export function showNotices({ shown, failure }: Notices): void {
     const { failure: panel } = elements;
     panel.hidden = failure.value === null;
     if (failure.value === null) return;
-    panel.querySelector('h1')!.textContent = failure.value.title;
+    panel.querySelector('h2')!.textContent = failure.value.title;
     panel.querySelector('p')!.textContent = failure.value.text;
   });
 }

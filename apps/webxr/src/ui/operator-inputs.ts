@@ -1,13 +1,22 @@
 /** Every input device of the page. Held inputs count as released when the page no longer receives their events. */
 import type { DriveInput, PressedButtons } from '@farpoint/operator';
-import { GamepadInput } from '../drive/gamepad-input.ts';
-import { HeadsetInput, type Tracks, type XrController } from '../drive/headset-input.ts';
+import { effect } from '@preact/signals-core';
+import { GamepadInput, type PadButtons } from '../drive/gamepad-input.ts';
+import { type HeadsetButtons, HeadsetInput, type Tracks, type XrController } from '../drive/headset-input.ts';
+import { controllerKey } from '../drive/input-choices.ts';
+import { InputSettings } from '../drive/input-settings.ts';
+import { type KeyMap, type KeyRole, roleOf } from '../drive/key-map.ts';
 import { KeyboardInput } from '../drive/keyboard-input.ts';
 import type { ReleaseControl } from '../drive/release-hold.ts';
+import { ScaledInput } from '../drive/speed-choice.ts';
+import { loadInputs, storeInputs } from '../drive/stored-inputs.ts';
 import { TouchJoystick } from '../drive/touch-joystick.ts';
 import type { Hand } from '../headset/headset-settings.ts';
 import type { TalkControl } from '../sound/talk-hold.ts';
+import { controllerName, controllerNotices } from '../status/input-words.ts';
 import { elements } from './elements.ts';
+import { isDialogOpen } from './open-dialog.ts';
+import { takesText } from './takes-text.ts';
 
 export type Action =
   | 'estop'
@@ -20,26 +29,30 @@ export type Action =
   | 'dashboard'
   | 'predict'
   | 'swap'
-  | 'next-robot';
+  | 'go-to'
+  | 'next-robot'
+  | 'save-scene'
+  | 'save-clip'
+  | 'help'
+  | 'faster'
+  | 'slower';
 
-/** Stops the robot wherever the focus is, except in a text field. */
-const STOP_KEY = 'KeyX';
-const ACTION_KEYS: Readonly<Record<string, Action>> = {
-  KeyL: 'latency-test',
-  KeyC: 'recentre',
-  KeyV: 'view',
-  KeyT: 'from-above',
-  KeyH: 'hazards',
-  KeyE: 'enlarge',
-  KeyB: 'dashboard',
-  KeyF: 'swap',
-  KeyP: 'predict',
-  KeyN: 'next-robot',
-};
-/** Hold to release the emergency stop. Enter on the release control does the same. */
-const RELEASE_KEY = 'KeyR';
-/** Hold to speak. */
-const TALK_KEY = 'KeyM';
+/** The keys with these roles do something at once. */
+const ACTIONS: ReadonlySet<string> = new Set<Action>([
+  ...([
+    'latency-test',
+    'recentre',
+    'view',
+    'from-above',
+    'hazards',
+    'enlarge',
+    'dashboard',
+    'predict',
+  ] as const),
+  ...(['swap', 'go-to', 'next-robot', 'save-scene', 'save-clip', 'help', 'faster', 'slower'] as const),
+]);
+/** How many controllers are read. */
+const PADS = 8;
 
 export interface InputPort {
   /** A grip or a stick changed. */
@@ -51,12 +64,17 @@ export interface InputPort {
   onTalk(control: TalkControl, held: boolean): void;
   /** Whether there is a robot to drive. */
   mayDrive(): boolean;
+  /** A controller came that nobody has set up, or one went. */
+  tell(text: string): void;
 }
 
 export class OperatorInputs {
   readonly all: readonly DriveInput[];
+  /** What keys and controllers do. */
+  readonly settings = new InputSettings(loadInputs(), storeInputs);
   readonly #keyboard = new KeyboardInput();
-  readonly #gamepad = new GamepadInput();
+  /** By their number in the browser. */
+  readonly #pads = Array.from({ length: PADS }, () => new GamepadInput());
   readonly #headset: HeadsetInput;
   readonly #touch: TouchJoystick;
   readonly #port: InputPort;
@@ -66,7 +84,18 @@ export class OperatorInputs {
     this.#port = port;
     this.#headset = new HeadsetInput(driveHand);
     this.#touch = new TouchJoystick(elements.joystick, elements.knob, () => port.onChange());
-    this.all = [this.#headset, this.#touch, this.#gamepad, this.#keyboard];
+    const { settings } = this;
+    this.all = [this.#headset, this.#touch, ...this.#pads, this.#keyboard].map(
+      (device) => new ScaledInput(device, settings.speed),
+    );
+    effect(() => this.#keyboard.setKeys(settings.keys.value, settings.oneHanded.value));
+    window.addEventListener('gamepadconnected', ({ gamepad }) => {
+      if (settings.isUnknown(controllerKey(gamepad)))
+        port.tell(controllerNotices.unknown(controllerName(gamepad.id)));
+    });
+    window.addEventListener('gamepaddisconnected', ({ gamepad }) => {
+      port.tell(controllerNotices.unplugged(controllerName(gamepad.id)));
+    });
     window.addEventListener('keydown', (event) => this.#onKey(event, true));
     window.addEventListener('keyup', (event) => this.#onKey(event, false));
     window.addEventListener('blur', () => this.releaseAll());
@@ -79,7 +108,7 @@ export class OperatorInputs {
     this.#keyboard.releaseAll();
     this.#touch.release();
     this.#headset.release();
-    this.#gamepad.release();
+    for (const pad of this.#pads) pad.release();
     for (const control of ['key', 'pointer', 'headset'] as const) {
       this.#port.onRelease(control, false);
       this.#port.onTalk(control, false);
@@ -95,8 +124,19 @@ export class OperatorInputs {
     this.#keyboard.runs(nowMs);
     this.#touch.runs(nowMs);
     const pads = navigator.getGamepads?.() ?? [];
-    const pad = pads.find((candidate) => candidate?.mapping === 'standard') ?? null;
-    this.#buttons(this.#gamepad.read(pad, nowMs), 'gamepad');
+    // Whoever sets up a controller moves it.
+    const settingUp = isDialogOpen();
+    let releaseHeld = false;
+    for (const [index, input] of this.#pads.entries()) {
+      const pad = pads[index] ?? null;
+      const isThere = pad !== null && pad.connected !== false;
+      const map = isThere ? this.settings.mapOf(controllerKey(pad)) : undefined;
+      const pressed = input.read(isThere ? pad : null, nowMs, map);
+      if (settingUp) input.release();
+      releaseHeld ||= pressed.releaseHeld && !settingUp;
+      this.#buttons(pressed, settingUp);
+    }
+    this.#port.onRelease('gamepad', releaseHeld);
   }
 
   /** Whether the headset's grip is held. */
@@ -109,46 +149,63 @@ export class OperatorInputs {
     return this.#headset.turnStick;
   }
 
-  /** Call this before each display frame in VR. @param grabbing whether a hand holds something of the view */
+  /** Deflection backwards of the stick that moves the menu's mark in the headset, −1…1. */
+  get menuStick(): number {
+    return this.#headset.menuStick;
+  }
+
+  /**
+   * Call this before each display frame in VR.
+   *
+   * @param grabbing whether a hand holds something of the view @param inMenu whether the menu is open
+   * @returns the buttons that were pressed; what the page itself knows has been done
+   */
   readHeadset<Source extends XrController>(
     sources: Iterable<Source>,
     tracks: Tracks<Source>,
     grabbing: boolean,
-  ): void {
+    inMenu: boolean,
+  ): HeadsetButtons {
     const wasHeld = this.#headset.held;
-    const pressed = this.#headset.read(sources, performance.now(), tracks, grabbing);
-    this.#buttons(pressed, 'headset');
+    const pressed = this.#headset.read(sources, performance.now(), tracks, grabbing, inMenu);
+    this.#buttons(pressed, false);
+    this.#port.onRelease('headset', pressed.releaseHeld);
     if (pressed.nextView) this.#port.onAction('view', performance.now());
     if (pressed.recentre) this.#port.onAction('recentre', performance.now());
     this.#port.onTalk('headset', this.#headset.talks);
     if (wasHeld !== this.#headset.held) this.#port.onChange();
+    return pressed;
   }
 
-  #buttons(pressed: PressedButtons, control: ReleaseControl): void {
+  /** @param onlyStop whether the others do nothing now */
+  #buttons(pressed: PressedButtons & Partial<PadButtons>, onlyStop: boolean): void {
     if (pressed.estop) this.#port.onAction('estop', performance.now());
-    this.#port.onRelease(control, pressed.releaseHeld);
+    if (onlyStop) return;
     if (pressed.latencyTest) this.#port.onAction('latency-test', performance.now());
     if (pressed.nextRobot) this.#port.onAction('next-robot', performance.now());
+    if (pressed.faster === true) this.#port.onAction('faster', performance.now());
+    if (pressed.slower === true) this.#port.onAction('slower', performance.now());
   }
 
   #onKey(event: KeyboardEvent, down: boolean): void {
     const { target } = event;
-    const typing = target instanceof HTMLInputElement && target.type !== 'range';
-    const elsewhere = target instanceof HTMLInputElement || elements.settings.open;
+    const role = roleOfKey(this.settings.keys.peek(), event);
+    const typing = takesText(target);
+    const elsewhere = typing || isDialogOpen();
     const driving = this.#port.mayDrive() && !elsewhere;
     // A released key counts as released wherever the focus is by now.
     if (!down) {
-      if (event.code === RELEASE_KEY || event.code === 'Enter') this.#port.onRelease('key', false);
-      if (event.code === TALK_KEY) this.#port.onTalk('key', false);
+      if (role === 'release' || event.code === 'Enter') this.#port.onRelease('key', false);
+      if (role === 'talk') this.#port.onTalk('key', false);
       if (!this.#keyboard.key(event.code, false, performance.now())) return;
       if (driving) event.preventDefault();
       this.#port.onChange();
       return;
     }
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (!typing && this.#onEstopKey(event)) return;
+    if (!typing && this.#onEstopKey(event, role)) return;
     if (elsewhere) return;
-    const choosing = target instanceof HTMLSelectElement;
+    const choosing = target instanceof HTMLSelectElement || target instanceof HTMLInputElement;
     if (choosing && event.code.startsWith('Arrow')) return;
     // They move a panel that has the focus, unless somebody drives.
     if (isPanelKey(event) && !this.#keyboard.held) return;
@@ -158,30 +215,30 @@ export class OperatorInputs {
       if (!event.repeat) this.#port.onChange();
       return;
     }
-    if (event.code === TALK_KEY && driving) {
+    if (role === 'talk' && driving) {
       if (choosing) event.preventDefault();
       if (!event.repeat) this.#port.onTalk('key', true);
       return;
     }
-    const action = ACTION_KEYS[event.code];
-    if (action === undefined) return;
+    // Where it has done something already, it is no key of the page.
+    if (role === undefined || !isAction(role) || event.defaultPrevented) return;
     // A letter would also select an entry of the list.
     if (choosing) event.preventDefault();
-    if (!event.repeat) this.#port.onAction(action, event.timeStamp);
+    if (!event.repeat) this.#port.onAction(role, event.timeStamp);
   }
 
   /**
    * Handles the keys of the emergency stop, which take precedence over all others. @returns whether it was one of
    * them
    */
-  #onEstopKey(event: KeyboardEvent): boolean {
+  #onEstopKey(event: KeyboardEvent, role: KeyRole | undefined): boolean {
     const { target, code } = event;
     const { estop, estopRelease } = elements;
     const isSpaceOnControl = code === 'Space' && (target === estop || target === estopRelease);
-    const isRelease = code === RELEASE_KEY || (code === 'Enter' && target === estopRelease);
-    if (code === STOP_KEY || isSpaceOnControl) {
+    const isRelease = role === 'release' || (code === 'Enter' && target === estopRelease);
+    if (role === 'estop' || isSpaceOnControl) {
       if (!event.repeat) this.#port.onAction('estop', event.timeStamp);
-    } else if (isRelease && !elements.settings.open) {
+    } else if (isRelease && !isDialogOpen()) {
       // Key repeat is not a new press.
       if (!event.repeat) this.#port.onRelease('key', true);
     } else return false;
@@ -191,6 +248,15 @@ export class OperatorInputs {
   }
 }
 
+/** A question mark asks for help, wherever it is on the keyboard. */
+function roleOfKey(keys: KeyMap, { code, key }: KeyboardEvent): KeyRole | undefined {
+  return roleOf(keys, code) ?? (key === '?' ? 'help' : undefined);
+}
+
 function isPanelKey({ target, code }: KeyboardEvent): boolean {
   return target instanceof HTMLElement && target.dataset.panel !== undefined && code.startsWith('Arrow');
+}
+
+function isAction(role: KeyRole): role is KeyRole & Action {
+  return ACTIONS.has(role);
 }

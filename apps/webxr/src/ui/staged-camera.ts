@@ -19,7 +19,7 @@ export function showStagedCamera(
     if (view === shown) return;
     if (shown !== null) {
       stage.replaceWith(shown.canvas);
-      document.body.prepend(stage);
+      cameraStage.before(stage);
     }
     cameraStage.replaceChildren(label);
     shown = view;

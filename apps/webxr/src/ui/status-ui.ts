@@ -1,6 +1,7 @@
 /** Shows the link, who drives, and the session's figures. */
 import { effect } from '@preact/signals-core';
 import type { PageState } from '../state/page-state.ts';
+import { aboutWords, withoutWheelsWords } from '../status/about-words.ts';
 import { alarmLine } from '../status/alarm-words.ts';
 import { sessionFacts } from '../status/facts.ts';
 import type { ShownReading } from '../status/shown-readings.ts';
@@ -11,8 +12,15 @@ import { showFacts } from './facts-table.ts';
 export function showStatus({ link, driving, robot, figures }: PageState): void {
   effect(() => setPill(elements.link, link.line.value));
   effect(() => {
+    const banner = link.banner.value;
+    elements.banner.role = banner?.urgent === false ? 'status' : 'alert';
+    elements.banner.hidden = banner === null;
+    setText(elements.bannerTitle, banner?.title ?? '');
+    setText(elements.bannerText, banner?.text ?? '');
+  });
+  effect(() => {
     const connected = link.connected.value;
-    elements.robots.hidden = connected;
+    elements.robots.hidden = connected && link.missingRobotId.value === null;
     elements.disconnect.hidden = !connected;
     elements.view.hidden = !connected;
   });
@@ -29,12 +37,18 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
     elements.hud.hidden = !live;
   });
   effect(() => {
-    setPill(elements.holder, driving.line.value);
-    elements.take.hidden = !driving.mayTake.value;
+    const drives = robot.drives.value;
+    setPill(elements.holder, drives ? driving.line.value : withoutWheelsWords);
+    elements.take.hidden = !drives || !driving.mayTake.value;
     elements.release.hidden = driving.holder.value !== 'you';
-    const watches = driving.role.value === 'watch';
+    const watches = !drives || driving.role.value === 'watch';
     elements.joystick.hidden = watches;
     elements.driveHint.hidden = watches;
+  });
+  effect(() => {
+    const words = aboutWords(robot.about.value);
+    elements.about.hidden = words.length === 0;
+    elements.about.replaceChildren(...words.map(pillOf));
   });
   effect(() => showWords(elements.motionState, robot.motion.value));
   effect(() => showWords(elements.obstacleGuard, robot.obstacleGuard.value));
@@ -46,6 +60,7 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
       tone === 'neutral' && componentTopics.value.includes(topic);
     showFacts(
       sessionFacts({
+        heard: robot.heard.value,
         ...{ name: name.value, telemetry: telemetry.value, estop: estop.value },
         afterGap: robot.afterGap.value,
         maxLinear: robot.maxLinear.value,
@@ -59,6 +74,13 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
 function showWords(element: HTMLElement, words: Words | null): void {
   element.hidden = words === null;
   if (words !== null) setPill(element, words);
+}
+
+function pillOf(words: Words): HTMLElement {
+  const pill = document.createElement('span');
+  pill.className = 'pill';
+  setPill(pill, words);
+  return pill;
 }
 
 function setPill(element: HTMLElement, words: Words): void {

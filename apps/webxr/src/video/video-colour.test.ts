@@ -14,6 +14,7 @@ const FRONT: VideoDescription = { name: 'Front', mid: '1', codec: 'H264' };
 class FakePaint {
   on = true;
   share = 0;
+  frames = { followed: 0, painted: 0 };
   use: PictureUse = 'matched';
   readonly expected: number[] = [];
   readonly taken: [CameraPicture, number][] = [];
@@ -31,16 +32,23 @@ class Bench {
   readonly view = { paint: this.paint, isSurface: true, colouring: { mode: 'captured' } };
   readonly wanted = signal(true);
   readonly switches = new Switches();
-  readonly hold = { exact: false };
+  readonly hold = { exact: false, stats: { aheadMs: null, heldMs: null } };
   readonly feed: Pick<VideoFeed, 'onFrame'> = { onFrame: null };
   readonly colour: VideoColour;
+  readonly sent: unknown[] = [];
   readonly #listeners: [string, (event: never) => void][] = [];
 
   constructor({ synchronised = true, videos = [FRONT, DEPTH] } = {}) {
     const on = (type: string, listener: (event: never) => void) => this.#listeners.push([type, listener]);
+    const sendSession = (message: unknown) => this.sent.push(message);
     this.colour = new VideoColour({
-      ...{ client: { on } as unknown as RobotClient, feed: this.feed, hold: this.hold, synchronised },
+      ...{
+        client: { on, link: { sendSession } } as unknown as RobotClient,
+        feed: this.feed,
+        hold: this.hold,
+      },
       ...{ views: { switches: this.switches }, wanted: this.wanted },
+      settings: { synchronised, coarse: true },
       clouds: signal([this.view as unknown as CloudView]),
     });
     this.say('session', 1);
@@ -149,4 +157,48 @@ test('it is said why the video does not paint', () => {
   expect(bench.state(100)).toBe('switched-off');
   bench.say('session', 2);
   expect(bench.state(100)).toBe('not-offered');
+});
+
+describe('the robot is told that the video paints the cloud', () => {
+  const paintFor = (bench: Bench, fromMs: number, forMs: number) => {
+    for (let nowMs = fromMs; nowMs < fromMs + forMs; nowMs += 25) {
+      if (nowMs % 100 === 0) {
+        bench.frame(1, nowMs, nowMs);
+        bench.paint.frames.followed++;
+        bench.paint.frames.painted++;
+      }
+      bench.colour.tick(nowMs);
+    }
+  };
+
+  test('while it does, by the sensor’s number', () => {
+    const bench = new Bench();
+    paintFor(bench, 0, 4000);
+    expect(bench.sent).toEqual([
+      { type: 'painted', sensors: [0] },
+      { type: 'painted', sensors: [0] },
+    ]);
+    expect(bench.colour.figures.claimed).toEqual([0]);
+  });
+
+  const changes: Record<string, (bench: Bench) => void> = {
+    'the operator switches it off': ({ wanted }) => {
+      wanted.value = false;
+    },
+    'the video is hidden': ({ switches }) => switches.set([FRONT]),
+    'the cloud is drawn as points': ({ view }) => {
+      view.isSurface = false;
+    },
+    'its colours show heights': ({ view }) => {
+      view.colouring.mode = 'height';
+    },
+  };
+
+  test.each(Object.entries(changes))('no longer, at once, when %s', (_, change) => {
+    const bench = new Bench();
+    paintFor(bench, 0, 4000);
+    change(bench);
+    bench.colour.tick(4000);
+    expect(bench.sent.at(-1)).toEqual({ type: 'painted', sensors: [] });
+  });
 });

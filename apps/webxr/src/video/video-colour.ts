@@ -5,7 +5,9 @@
 import type { CloudView, PictureUse } from '@farpoint/cloud-view';
 import type { Batch, RobotClient, VideoDescription } from '@farpoint/operator';
 import { effect, type ReadonlySignal } from '@preact/signals-core';
+import type { Settings } from '../settings.ts';
 import type { CloudHold } from './cloud-hold.ts';
+import { PaintedHint } from './painted-hint.ts';
 import type { VideoFeed } from './video-feed.ts';
 import type { VideoImage } from './video-image.ts';
 import type { VideoViews } from './video-views.ts';
@@ -39,17 +41,23 @@ export interface VideoColourFigures {
   use: PictureUse | null;
   /** What became of the video's pictures since the session began. */
   pictures: Partial<Record<PictureUse, number>>;
+  /** Of the first sensor's clouds, how many a newer one has followed, and how many of those the video painted by then. */
+  clouds: { followed: number; painted: number };
+  /** How long clouds were held for videos, median, ms; `null`: no video was shown. */
+  heldMs: number | null;
+  /** The sensors, by number, whose clouds the robot may send with coarse colours: the video paints them. */
+  claimed: readonly number[];
 }
 
 export interface VideoColourParts {
-  readonly client: Pick<RobotClient, 'on'>;
+  readonly client: Pick<RobotClient, 'on'> & { readonly link: Pick<RobotClient['link'], 'sendSession'> };
   readonly feed: Pick<VideoFeed, 'onFrame'>;
-  readonly hold: Pick<CloudHold, 'exact'>;
+  readonly hold: Pick<CloudHold, 'exact' | 'stats'>;
   readonly views: Pick<VideoViews, 'switches'>;
   /** What draws each sensor's cloud, by sensor number. */
   readonly clouds: ReadonlySignal<readonly Pick<CloudView, 'paint' | 'isSurface' | 'colouring'>[]>;
-  /** Whether videos and clouds are shown in step. */
-  readonly synchronised: boolean;
+  /** Whether videos and clouds are shown in step, and the robot may code colours coarsely while the video paints. */
+  readonly settings: Pick<Settings, 'synchronised' | 'coarse'>;
   /** Whether the operator wants it. */
   readonly wanted: ReadonlySignal<boolean>;
 }
@@ -67,11 +75,16 @@ export class VideoColour {
   #cameMs = Number.NEGATIVE_INFINITY;
   #matchedMs = Number.NEGATIVE_INFINITY;
   #nowMs = 0;
+  readonly #hint: PaintedHint;
 
   constructor(parts: VideoColourParts) {
     this.#parts = parts;
-    const { client, feed, clouds, synchronised, wanted } = parts;
+    const { client, feed, clouds, settings, wanted } = parts;
+    this.#hint = new PaintedHint((sensors) =>
+      client.link.sendSession({ type: 'painted', sensors: [...sensors] }),
+    );
     client.on('session', () => {
+      this.#hint.clear();
       this.#videos = [];
       this.#pictures = {};
       this.#use = null;
@@ -84,19 +97,37 @@ export class VideoColour {
     client.on('cloud', (batch) => this.#expect(batch));
     feed.onFrame = (video, image, captureMs, nowMs) => this.#take(video, image, captureMs, nowMs);
     effect(() => {
-      for (const { paint } of clouds.value) paint.on = synchronised && wanted.value;
+      for (const { paint } of clouds.value) paint.on = settings.synchronised && wanted.value;
     });
   }
 
-  /** Call this a few times a second. Clouds wait for their own pictures only while some come after them. */
+  /** Call this at least every 50 ms. Clouds wait for their own pictures only while some come after them. */
   tick(nowMs: number): void {
     this.#nowMs = nowMs;
     this.#parts.hold.exact = nowMs - this.#matchedMs < SILENT_MS && this.#share !== null;
+    const { clouds, views, settings } = this.#parts;
+    if (!settings.coarse) return;
+    const watched = views.switches.wanted.peek();
+    this.#hint.tick(
+      clouds.peek().map(({ paint, isSurface, colouring }, sensor) => ({
+        possible:
+          paint.on &&
+          isSurface &&
+          colouring.mode === 'captured' &&
+          watched.includes(this.#videoOf(sensor)) &&
+          nowMs - this.#cameMs < SILENT_MS,
+        frames: paint.frames,
+      })),
+      nowMs,
+    );
   }
 
   get figures(): VideoColourFigures {
     const pictures = { ...this.#pictures };
-    return { state: this.#state, share: this.#share ?? 0, use: this.#use, pictures };
+    const { sensors: claimed } = this.#hint;
+    const clouds = { ...(this.#parts.clouds.peek()[0]?.paint.frames ?? { followed: 0, painted: 0 }) };
+    const heldMs = this.#parts.hold.stats.heldMs?.p50 ?? null;
+    return { state: this.#state, share: this.#share ?? 0, use: this.#use, pictures, clouds, heldMs, claimed };
   }
 
   /** Of the robot's list, the video that paints a sensor's clouds; −1: none. */
@@ -113,13 +144,13 @@ export class VideoColour {
   }
 
   get #state(): VideoColourState {
-    const { clouds, views, synchronised, wanted } = this.#parts;
+    const { clouds, views, settings, wanted } = this.#parts;
     const all = clouds.peek();
     const sensor = all.findIndex((_, number) => this.#videoOf(number) >= 0);
     const view = all[sensor];
     if (view === undefined) return 'not-offered';
     if (!wanted.peek()) return 'switched-off';
-    if (!synchronised) return 'not-in-step';
+    if (!settings.synchronised) return 'not-in-step';
     if ((this.#share ?? 0) > LEAST_SHARE) return 'painted';
     if (!views.switches.wanted.peek().includes(this.#videoOf(sensor))) return 'not-watched';
     if (!view.isSurface) return 'no-surface';
@@ -138,10 +169,10 @@ export class VideoColour {
   }
 
   #take(video: number, { image, width, height }: VideoImage, captureMs: number, nowMs: number): void {
-    const { clouds, synchronised, wanted } = this.#parts;
+    const { clouds, settings, wanted } = this.#parts;
     const sensor = this.#videos[video]?.ofSensor;
     const view = sensor === undefined ? undefined : clouds.peek()[sensor];
-    if (view === undefined || !synchronised || !wanted.peek()) return;
+    if (view === undefined || !settings.synchronised || !wanted.peek()) return;
     this.#cameMs = nowMs;
     const use = view.paint.take({ image, width, height }, stampUs(captureMs));
     this.#use = use;

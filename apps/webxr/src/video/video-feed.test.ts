@@ -31,7 +31,7 @@ class Bench {
     this.feed = new VideoFeed({
       client: client as unknown as RobotClient,
       views: this.views,
-      synchronised: options.synchronised ?? true,
+      settings: { synchronised: options.synchronised ?? true },
       presented: this.presented,
       now: () => this.nowMs,
       receiver:

@@ -1,5 +1,5 @@
 /** The frame loop. Decides when a picture is drawn, and how coarsely if the machine cannot keep up. */
-import { type CloudView, DrawGate, DrawingGovernor, GpuCompletion } from '@farpoint/cloud-view';
+import { type CloudView, DrawGate, DrawingGovernor, GpuCompletion, possibleFps } from '@farpoint/cloud-view';
 import type { RobotClient } from '@farpoint/operator';
 import type { Settings } from '../settings.ts';
 import type { PageStatistics } from '../status/page-stats.ts';
@@ -45,6 +45,7 @@ export class FrameLoop {
       client.drawEvery(settings.drawEvery, settings.drawEvery);
       clouds.every = settings.drawEvery;
     }
+    stage.resolution = settings.resolution;
     stage.renderer.setAnimationLoop((nowMs) => this.#frame(nowMs));
   }
 
@@ -57,17 +58,19 @@ export class FrameLoop {
   govern(nowMs: number): void {
     const { client, clouds, settings, stage, stats } = this.#parts;
     followScene(stage, clouds.all.peek());
+    const { displayFramesPerSecond: drawn, offeredFramesPerSecond: offered } = stats;
+    const possible = possibleFps(drawn, offered, this.#gate.costMs);
     if (document.hidden || client.phase !== 'live') this.#governor.pause();
-    else if (this.#governor.update(stats.displayFramesPerSecond, nowMs)) {
+    else if (this.#governor.update(possible, nowMs)) {
       const { scale, every } = this.#governor.step;
-      stage.resolution = scale;
+      stage.resolution = settings.resolution * scale;
       // A sampled cloud is not thinned further: a few thousand points are not what slows the machine down.
       if (settings.drawEvery === null) {
         client.drawEvery(every);
         clouds.every = every;
-        stats.drawnOneOf = clouds.drawnOneOf(every);
       }
     }
+    if (settings.drawEvery === null) stats.drawnOneOf = clouds.drawnOneOf(this.#governor.step.every);
   }
 
   #frame(nowMs: number): void {
@@ -82,7 +85,10 @@ export class FrameLoop {
     const beganMs = performance.now();
     cloud.update(beganMs);
     clouds.update(beganMs);
-    if (!inVr && !this.#gate.mayDraw(cloud.endedFrame, beganMs)) return;
+    if (!inVr && !this.#gate.mayDraw(cloud.endedFrame, beganMs)) {
+      stats.onHeld();
+      return;
+    }
     this.#gate.onDraw(cloud.endedFrame, beganMs);
     if (inVr) this.#parts.readHeadset();
     stage.predicted?.update(performance.now());

@@ -5,6 +5,7 @@
 import { type ReadonlySignal, signal } from '@preact/signals-core';
 import { Group } from 'three';
 import type { CameraView } from '../pictures/camera-view.ts';
+import { PANEL_ORDER } from './panel-order.ts';
 import { PictureSheet } from './picture-sheet.ts';
 import { SheetCaption } from './sheet-caption.ts';
 
@@ -29,9 +30,9 @@ export class FrontPicture {
     const before = this.#sheet.peek();
     if (before?.view === view) return;
     before?.dispose();
-    const sheet = view === null ? null : new PictureSheet(view);
+    const sheet = view === null ? null : new PictureSheet(view, PANEL_ORDER.frontPicture);
     this.#caption?.dispose();
-    this.#caption = view === null ? null : new SheetCaption(view);
+    this.#caption = view === null ? null : new SheetCaption(view, PANEL_ORDER.frontPicture);
     if (sheet !== null) this.object.add(sheet.mesh);
     if (this.#caption !== null) this.object.add(this.#caption.mesh);
     this.#sheet.value = sheet;

@@ -1,6 +1,7 @@
-/** Lets the operator choose a picture in VR: by pointing at it and pulling the trigger. */
+/** Lets the operator choose a panel in VR, or a row of it: by pointing at it and pulling the trigger, or pinching. */
 import {
   type Group,
+  type Intersection,
   Mesh,
   MeshBasicMaterial,
   type Object3D,
@@ -9,13 +10,25 @@ import {
   RingGeometry,
   type WebGLRenderer,
 } from 'three';
+import { drawOverWorld, PANEL_ORDER } from './panel-order.ts';
 
 const FARTHEST_M = 4;
 const RING_M = 0.008;
 
-/** Calls `onChosen` with the object that the trigger was pulled at. */
+/** What a ray hits. */
+export type PointerHit = Intersection<Object3D>;
+
+export interface Pointed {
+  /** What can be pointed at now. */
+  targets(): readonly Object3D[];
+  /** The trigger was pulled at it. */
+  onChosen(hit: PointerHit): void;
+  /** This ray, 0 or 1, is at it in this display frame. */
+  onPointed(hit: PointerHit, ray: number): void;
+}
+
 export class PicturePointer {
-  readonly #targets: () => readonly Object3D[];
+  readonly #pointed: Pointed;
   readonly #rays: readonly Object3D[];
   readonly #raycaster = new Raycaster();
   readonly #rig: Group;
@@ -23,28 +36,23 @@ export class PicturePointer {
   /** Where a ray hits a picture. */
   readonly #rings: readonly Mesh[];
 
-  constructor(
-    renderer: WebGLRenderer,
-    rig: Group,
-    targets: () => readonly Object3D[],
-    onChosen: (object: Object3D) => void,
-  ) {
-    this.#targets = targets;
+  constructor(renderer: WebGLRenderer, rig: Group, pointed: Pointed) {
+    this.#pointed = pointed;
     this.#rig = rig;
     this.#rays = [0, 1].map((index) => renderer.xr.getController(index));
     this.#rings = this.#rays.map(() => {
-      const material = new MeshBasicMaterial({ color: 0x35c9b5, depthTest: false });
+      const material = new MeshBasicMaterial({ color: 0x35c9b5 });
       const ring = new Mesh(new RingGeometry(RING_M / 2, RING_M), material);
       ring.visible = false;
-      ring.renderOrder = 1;
+      drawOverWorld(ring, PANEL_ORDER.pointer);
       rig.add(ring);
       return ring;
     });
     for (const ray of this.#rays) {
       rig.add(ray);
       ray.addEventListener('select' as never, () => {
-        const object = this.#hit(ray)?.object;
-        if (object !== undefined) onChosen(object);
+        const hit = this.#hit(ray);
+        if (hit !== undefined) pointed.onChosen(hit);
       });
     }
   }
@@ -56,24 +64,25 @@ export class PicturePointer {
       const hit = ray.visible ? this.#hit(ray) : undefined;
       ring.visible = hit !== undefined;
       if (hit === undefined) continue;
+      this.#pointed.onPointed(hit, index);
       ring.position.copy(ring.parent!.worldToLocal(hit.point));
       hit.object.getWorldQuaternion(ring.quaternion);
       ring.quaternion.premultiply(ring.parent!.getWorldQuaternion(this.#turn).invert());
     }
   }
 
-  /** Whether this controller points at a picture. */
-  pointsAtPicture(index: number): boolean {
+  /** Whether this controller points at anything that can be chosen. */
+  points(index: number): boolean {
     const ray = this.#rays[index];
     return ray !== undefined && this.#hit(ray) !== undefined;
   }
 
-  #hit(ray: Object3D) {
+  #hit(ray: Object3D): PointerHit | undefined {
     ray.updateWorldMatrix(true, false);
     // The operator's metre may be many of the world's.
     this.#raycaster.far = FARTHEST_M * this.#rig.scale.x;
     this.#raycaster.setFromXRController(ray as never);
-    const shown = this.#targets().filter(({ visible }) => visible);
+    const shown = this.#pointed.targets().filter(({ visible }) => visible);
     return this.#raycaster.intersectObjects([...shown], false)[0];
   }
 }

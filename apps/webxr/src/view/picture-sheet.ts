@@ -1,6 +1,7 @@
 /** A camera's picture on a flat sheet in VR. */
 import { CanvasTexture, LinearFilter, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace } from 'three';
 import type { CameraView } from '../pictures/camera-view.ts';
+import { drawOverWorld, type PanelOrder } from './panel-order.ts';
 
 const STALE_COLOUR = 0x555555;
 const FRESH_COLOUR = 0xffffff;
@@ -15,7 +16,7 @@ export class PictureSheet {
   /** Number of the picture that is on the GPU. */
   #picture = 0;
 
-  constructor(view: CameraView) {
+  constructor(view: CameraView, order: PanelOrder) {
     this.view = view;
     this.#texture = new CanvasTexture(view.canvas);
     this.#texture.colorSpace = SRGBColorSpace;
@@ -23,6 +24,7 @@ export class PictureSheet {
     this.#texture.generateMipmaps = false;
     this.#texture.minFilter = LinearFilter;
     this.mesh = new Mesh(new PlaneGeometry(1, 1), new MeshBasicMaterial({ map: this.#texture }));
+    drawOverWorld(this.mesh, order);
     this.mesh.visible = false;
   }
 

@@ -54,9 +54,11 @@ export class SensorClouds {
     for (const view of this.#all.peek()) view.every = every;
   }
 
-  /** Of how many points about one is drawn if one of `every` is wanted. */
+  /** Of how many points about one is drawn if one of `every` is wanted. Samples of a cloud are not thinned further. */
   drawnOneOf(every: number): number {
-    return this.#parts.first.isSurface ? strideFor(every) ** 2 : every;
+    const { isSurface, isThinned } = this.#parts.first;
+    if (isSurface) return strideFor(every) ** 2;
+    return isThinned ? every : 1;
   }
 
   /** Call this in the frame loop, before rendering. */

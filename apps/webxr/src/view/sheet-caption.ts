@@ -2,6 +2,7 @@
 import { CanvasTexture, LinearFilter, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace } from 'three';
 import type { CameraView } from '../pictures/camera-view.ts';
 import { cameraWords } from '../status/camera-words.ts';
+import { drawOverWorld, type PanelOrder } from './panel-order.ts';
 
 const WIDTH = 512;
 const HEIGHT = 56;
@@ -13,7 +14,7 @@ export class SheetCaption {
   readonly #texture: CanvasTexture;
   #shown = '';
 
-  constructor(view: CameraView) {
+  constructor(view: CameraView, order: PanelOrder) {
     this.#view = view;
     const canvas = document.createElement('canvas');
     Object.assign(canvas, { width: WIDTH, height: HEIGHT });
@@ -23,6 +24,7 @@ export class SheetCaption {
     this.#texture.generateMipmaps = false;
     this.#texture.minFilter = LinearFilter;
     this.mesh = new Mesh(new PlaneGeometry(1, 1), new MeshBasicMaterial({ map: this.#texture }));
+    drawOverWorld(this.mesh, order);
   }
 
   /**

@@ -3,6 +3,7 @@
 import { bodyYaw, type CloudView, opticalYaw, RobotWorld } from '@farpoint/cloud-view';
 import type { RobotBody } from '@farpoint/protocol';
 import { type Camera, Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import { GoalMarker } from '../goals/goal-marker.ts';
 import { FrontPointer } from '../headset/front-pointer.ts';
 import { HeadsetRig } from '../headset/headset-rig.ts';
 import { DEFAULT_HEADSET, type HeadsetSettings } from '../headset/headset-settings.ts';
@@ -52,6 +53,8 @@ export class Stage {
   /** What the robot's own navigator has planned, and its map. */
   readonly plan = new PlannedPathLine();
   readonly floorMap = new FloorMap();
+  /** Where the robot is to go. */
+  readonly goal = new GoalMarker();
   /** Where the robot is when the picture is shown; `null`: the view follows the clouds. */
   predicted: PredictedView | null = null;
   /** From above, the robot's heading is up; otherwise north. */
@@ -87,6 +90,7 @@ export class Stage {
     this.scene.background = new Color(BACKGROUND);
     this.#marker.object.add(this.near.object, this.path.object);
     this.world.add(this.#marker.object, this.#ghost.object, this.plan.object, this.floorMap.object);
+    this.world.add(this.goal.object);
     this.figures = new RobotFigures(this.#marker.object, this.#ghost.object, this.world);
     this.rig.add(this.camera, this.headset.front);
     this.camera.add(this.#vignette.object, this.#front.object);

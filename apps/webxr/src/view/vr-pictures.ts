@@ -1,8 +1,8 @@
 /** Shows the cameras' pictures in VR: beside the wrist panel, and the one that is enlarged or fills the view. */
 import { effect, type ReadonlySignal } from '@preact/signals-core';
+import type { Object3D } from 'three';
 import type { PageState } from '../state/page-state.ts';
 import { FrontPicture } from './front-picture.ts';
-import { PicturePointer } from './picture-pointer.ts';
 import type { Stage } from './stage.ts';
 import type { WristPanel } from './wrist-panel.ts';
 import { WristPictures } from './wrist-pictures.ts';
@@ -10,13 +10,19 @@ import { WristPictures } from './wrist-pictures.ts';
 export interface VrPicturesParts {
   readonly state: PageState;
   readonly panel: WristPanel;
-  readonly stage: Pick<Stage, 'renderer' | 'rig' | 'headset'>;
+  readonly stage: Pick<Stage, 'headset'>;
   /** Whether VR is active. */
   readonly active: ReadonlySignal<boolean>;
 }
 
-/** @returns the pointer, which is to be updated before each display frame in VR */
-export function showPicturesInVr({ state, panel, stage, active }: VrPicturesParts): PicturePointer {
+/** What a trigger can be pulled at. */
+export interface PicturesInVr {
+  targets(): readonly Object3D[];
+  /** Shows this picture larger, if it is one. */
+  choose(object: Object3D): void;
+}
+
+export function showPicturesInVr({ state, panel, stage, active }: VrPicturesParts): PicturesInVr {
   const { views, enlarged, staged } = state;
   const wrist = new WristPictures();
   const front = new FrontPicture();
@@ -42,14 +48,12 @@ export function showPicturesInVr({ state, panel, stage, active }: VrPicturesPart
     if (active.value) front.update();
   });
   const sheets = () => [...front.sheets, ...wrist.sheets];
-  return new PicturePointer(
-    stage.renderer,
-    stage.rig,
-    () => sheets().map(({ mesh }) => mesh),
-    (object) => {
+  return {
+    targets: () => sheets().map(({ mesh }) => mesh),
+    choose(object) {
       const view = sheets().find(({ mesh }) => mesh === object)?.view;
       // The trigger releases the emergency stop while that is on.
       if (view !== undefined && !state.robot.estopLatched.peek()) state.nextSize(view);
     },
-  );
+  };
 }

@@ -68,6 +68,20 @@ export class VrSession {
       await session.updateTargetFrameRate(rate).catch(() => {});
   }
 
+  /** Ends the session, if there is one. */
+  leave(): void {
+    // One that has just ended by itself says so.
+    void this.#renderer.xr
+      .getSession()
+      ?.end()
+      .catch(() => {});
+  }
+
+  /** The controllers, for what lets them vibrate. */
+  gamepads(): (Gamepad | undefined)[] {
+    return [...this.inputSources].map(({ gamepad }) => gamepad);
+  }
+
   /** Refresh rate of the display, Hz; `null` outside a session or where the headset does not say. */
   get frameRate(): number | null {
     return this.#renderer.xr.getSession()?.frameRate ?? null;

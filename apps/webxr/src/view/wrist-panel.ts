@@ -15,6 +15,7 @@ import {
 import type { Hand } from '../headset/headset-settings.ts';
 import type { Tone } from '../status/words.ts';
 import { fitText } from './fitted-text.ts';
+import { drawOverWorld, PANEL_ORDER } from './panel-order.ts';
 
 const WIDTH = 512;
 const HEIGHT = 376;
@@ -61,8 +62,9 @@ export class WristPanel {
     this.#texture.colorSpace = SRGBColorSpace;
     const mesh = new Mesh(
       new PlaneGeometry(PANEL_M, (PANEL_M * HEIGHT) / WIDTH),
-      new MeshBasicMaterial({ map: this.#texture, transparent: true, opacity: 0.92 }),
+      new MeshBasicMaterial({ map: this.#texture, opacity: 0.92 }),
     );
+    drawOverWorld(mesh, PANEL_ORDER.wrist);
     this.#group.add(mesh);
     this.#group.visible = false;
     const rest = (): void => {
@@ -92,6 +94,12 @@ export class WristPanel {
   addBeside(object: Object3D): void {
     const inwards = this.#hand === 'left' ? 1 : -1;
     object.position.set(inwards * (PANEL_M + GAP_M), (-PANEL_M * HEIGHT) / WIDTH / 2, 0);
+    this.#group.add(object);
+  }
+
+  /** Adds an object below the panel, from its upper edge on. It moves with the panel. */
+  addBelow(object: Object3D): void {
+    object.position.set(0, (-PANEL_M * HEIGHT) / WIDTH / 2 - GAP_M / 2, 0);
     this.#group.add(object);
   }
 

@@ -2,6 +2,7 @@
 import { type ReadonlySignal, signal } from '@preact/signals-core';
 import { Group } from 'three';
 import type { CameraView } from '../pictures/camera-view.ts';
+import { PANEL_ORDER } from './panel-order.ts';
 import { PictureSheet } from './picture-sheet.ts';
 import { SheetCaption } from './sheet-caption.ts';
 
@@ -30,7 +31,8 @@ export class WristPictures {
       caption.dispose();
     }
     this.#shown.value = views.slice(0, MOST_SHOWN).map((view) => {
-      const [sheet, caption] = [new PictureSheet(view), new SheetCaption(view)];
+      const order = PANEL_ORDER.wristPicture;
+      const [sheet, caption] = [new PictureSheet(view, order), new SheetCaption(view, order)];
       this.object.add(sheet.mesh, caption.mesh);
       return { sheet, caption };
     });

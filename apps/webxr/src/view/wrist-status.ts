@@ -22,6 +22,8 @@ export interface WristStatusParts {
   readonly active: ReadonlySignal<boolean>;
   /** Progress of the hold that releases the emergency stop, 0–1. */
   readonly releaseProgress: ReadonlySignal<number>;
+  /** Whether all readings are wanted. */
+  readonly readings: ReadonlySignal<boolean>;
 }
 
 export function showOnWrist({
@@ -32,6 +34,7 @@ export function showOnWrist({
   driveHand,
   active,
   releaseProgress,
+  readings,
 }: WristStatusParts): void {
   const { link, driving, robot, figures } = state;
   effect(() => {
@@ -41,6 +44,7 @@ export function showOnWrist({
     if (!active.value) return;
     panel.show(
       wristLines({
+        heard: robot.heard.value,
         ...{ link: link.line.value, driving: driving.line.value, telemetry: robot.telemetry.value },
         ...{ estopLatched: robot.estop.value.latched, nextRobot: link.nextRobot.value },
         speed: robot.speed.value,
@@ -51,6 +55,7 @@ export function showOnWrist({
         hazards: hazardHint(appearance.hazards.value, robot.heights.value),
         alarm: alarmLine(robot.alarms.value),
         figures: figures.value,
+        readings: readings.value,
       }),
     );
   });

@@ -58,7 +58,7 @@ export class WatchApp {
     this.#views = new VideoViews(this.#nowMs, () => document.createElement('canvas'));
     this.#enlarged = new Enlarged(this.#views.views);
     this.videos = new VideoFeed({
-      ...{ client: watcher, views: this.#views, synchronised, presented: null },
+      ...{ client: watcher, views: this.#views, settings, presented: null },
       // Its frames tell the timestamps with which the relay's were paired.
       receiver: videoReceiver('native'),
       captureMs: (video, { rtpTimestamp }) =>

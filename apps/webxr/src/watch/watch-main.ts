@@ -1,17 +1,14 @@
+import '../ui/theme.css';
 import '../ui/style.css';
 import '../ui/picture-panels.css';
 import './watch.css';
 import { transformSupport } from '@farpoint/operator';
+import { applyDisplay } from '../display/stored-display.ts';
 import type { Failure } from '../state/notices.ts';
 import { failureWords } from '../status/words.ts';
+import { byId } from '../ui/by-id.ts';
 import { WatchApp } from './watch-app.ts';
 import { readWatchSettings } from './watch-settings.ts';
-
-function byId<T extends HTMLElement>(id: string, kind: new () => T): T {
-  const element = document.getElementById(id);
-  if (!(element instanceof kind)) throw new Error(`the page has no <${kind.name}> with id ${id}`);
-  return element;
-}
 
 const link = byId('link', HTMLElement);
 
@@ -19,7 +16,7 @@ function fail({ title, text }: Failure): void {
   const panel = byId('failure', HTMLElement);
   panel.hidden = false;
   link.hidden = true;
-  (panel.querySelector('h1') as HTMLElement).textContent = title;
+  (panel.querySelector('h2') as HTMLElement).textContent = title;
   (panel.querySelector('p') as HTMLElement).textContent = text;
 }
 
@@ -56,4 +53,5 @@ function start(): void {
   }
 }
 
+applyDisplay();
 start();

@@ -4,6 +4,7 @@ import { readJanusMessage } from '@farpoint/janus/message';
 import {
   decodeBandwidth,
   decodeJson,
+  decodeModelMeshes,
   decodeStreamSwitch,
   type JsonCodec,
   nearSectors,
@@ -60,6 +61,12 @@ export const messageTargets: readonly FuzzTarget[] = [
       const cells = new Uint8Array(message.width * message.height);
       for (const [index, runs] of message.tiles) writeTile(message, index, runs, cells);
     },
+  },
+  {
+    name: 'model-meshes',
+    seeds: () => vectors('protocol', 'model-meshes'),
+    run: (input) => void decodeModelMeshes(input),
+    refusals: ['ProtocolError'],
   },
   codec('robot-control', 'robot-control', robotControlCodec),
   codec('robot-to-service', 'signaling-robot-to-service', robotToServiceCodec),

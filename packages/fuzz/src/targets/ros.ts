@@ -1,4 +1,6 @@
 import { encapsulationFault } from '@farpoint/dds/encapsulation';
+import { readObj, readStl } from '@farpoint/meshes';
+import { binaryStl, textStl, torus } from '@farpoint/meshes/testing';
 import { decompressLz4 } from '@farpoint/recording/lz4';
 import { cloudMessage } from '@farpoint/recording/testing';
 import {
@@ -13,6 +15,12 @@ import {
   PointCloud2Decoder,
   readUrdf,
 } from '@farpoint/ros';
+import {
+  connectionHeader,
+  readConnectionHeader,
+  readServiceAnswer,
+  readServiceReply,
+} from '@farpoint/ros/ros1';
 import type { FuzzTarget } from '../fuzz-target.ts';
 
 const ROOM = new Float32Array(4 * 4096);
@@ -87,6 +95,24 @@ function message(
 }
 
 export const rosTargets: readonly FuzzTarget[] = [
+  {
+    name: 'ros1-service-header',
+    seeds: () => [connectionHeader({ callerid: '/base', md5sum: '*', error: 'none' })],
+    run: (input) => void readConnectionHeader(input),
+    refusals: ['RosFault'],
+  },
+  {
+    name: 'ros1-service-answer',
+    seeds: () => [
+      Uint8Array.of(0, 2, 0, 0, 0, 110, 111),
+      Uint8Array.of(1, 7, 0, 0, 0, 1, 2, 0, 0, 0, 111, 107),
+    ],
+    run: (input) => {
+      const answer = readServiceAnswer(input);
+      if (answer?.ok === true) readServiceReply('std_srvs/Trigger', answer.payload);
+    },
+    refusals: ['RosFault'],
+  },
   message(
     'ros-point-cloud',
     'sensor_msgs/msg/PointCloud2',
@@ -144,6 +170,20 @@ export const rosTargets: readonly FuzzTarget[] = [
     seeds: () => [Buffer.from(URDF)],
     run: (input) => void readUrdf(Buffer.from(input).toString()),
     refusals: ['UrdfFault'],
+    maxBytes: 8192,
+  },
+  {
+    name: 'stl',
+    seeds: () => [binaryStl(torus(4, 3)), textStl(torus(3, 3))],
+    run: (input) => void readStl(input),
+    refusals: ['MeshFault'],
+    maxBytes: 8192,
+  },
+  {
+    name: 'obj',
+    seeds: () => [Buffer.from('v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 .5e1\nvn 0 0 1\nf 1/1/1 2//1 3 -1\n')],
+    run: (input) => void readObj(input),
+    refusals: ['MeshFault'],
     maxBytes: 8192,
   },
   {

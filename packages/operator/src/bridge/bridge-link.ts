@@ -6,6 +6,7 @@ import { RobotSession } from '../session/robot-session.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
 import type { SignalingState } from '../signaling/signaling-state.ts';
+import { noStatusFeed } from '../signaling/status-feed.ts';
 import { BridgeSession, type BridgeSessionActions } from './bridge-session.ts';
 import type { BridgeAddress } from './bridge-settings.ts';
 import { BridgeSocket } from './bridge-socket.ts';
@@ -88,6 +89,7 @@ export class BridgeLink implements RobotLink {
   get signaling(): SignalingState {
     return this.#control.open && this.#telemetry.open ? 'ready' : 'waiting';
   }
+  readonly statusFeed = noStatusFeed;
   get robots(): readonly RobotListing[] {
     return this.#bridge.robots;
   }

@@ -12,6 +12,7 @@ export function forwardedEvents(emitter: Emitter<RobotEvents>) {
     onGrantExpires: (inS) => emitter.emit('grantExpires', inS),
     onRejected: (rejected) => emitter.emit('commandRejected', rejected),
     onOperators: (operators) => emitter.emit('operators', operators),
+    onChatLine: (line) => emitter.emit('chatLine', line),
     onSensors: (sensors) => emitter.emit('sensors', sensors),
     onRings: (rings) => emitter.emit('rings', rings),
     onTelemetry: (telemetry) => emitter.emit('telemetry', telemetry),

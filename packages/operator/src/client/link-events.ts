@@ -1,10 +1,13 @@
 /** Passes the link's events to a client's parts and listeners. */
 import type { CloudReceiver } from '../cloud/cloud-receiver.ts';
+import type { RobotCommands } from '../commands/robot-commands.ts';
 import type { Driver } from '../drive/driver.ts';
+import type { GoalDrive } from '../drive/goal-drive.ts';
 import type { SeenView } from '../drive/seen-view.ts';
 import type { LatencyProbe } from '../latency/latency-probe.ts';
 import type { RobotLinkEvents } from '../link/robot-link.ts';
 import type { PictureFeed } from '../pictures/picture-feed.ts';
+import { givesYou } from '../session/robot-people.ts';
 import type { RobotSound } from '../sound/robot-sound.ts';
 import type { StreamStatistics } from '../statistics/stream-statistics.ts';
 import type { StopDelivery } from '../stop/stop-delivery.ts';
@@ -16,6 +19,8 @@ import type { RobotEvents } from './robot-events.ts';
 /** The client's parts. They are read when an event comes, because some are created after the link. */
 export interface LinkedClient {
   readonly driver: Driver;
+  readonly goals: GoalDrive;
+  readonly commands: RobotCommands;
   readonly latency: LatencyProbe;
   readonly statistics: StreamStatistics;
   readonly seen: SeenView;
@@ -40,6 +45,8 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
     ...forwardedEvents(emitter),
     onPhase: (phase) => {
       if (phase !== 'live') {
+        client.goals.reset();
+        client.commands.reset();
         client.driver.reset();
         client.latency.fail('no-session');
         if (phase === 'none') sound.reset();
@@ -50,6 +57,7 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
     },
     onPath: (up) => {
       if (!up) sound.release();
+      if (!up) client.goals.cancel('link-lost');
       client.driver.onPath(performance.now());
       emitter.emit('path', up);
     },
@@ -66,6 +74,7 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
     onWelcome: (welcome) => {
       parts.tellFormats();
       client.driver.onLimits(welcome.limits);
+      client.goals.onOffer(welcome.goals ?? null);
       emitter.emit('welcome', welcome);
     },
     onLease: (lease) => {
@@ -73,6 +82,13 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
       client.latency.onLease();
       emitter.emit('lease', lease);
     },
+    onHandover: (handover) => {
+      if (givesYou(handover)) client.driver.onHandedOver(performance.now());
+      emitter.emit('handover', handover);
+    },
+    onGoalState: (state) => client.goals.onState(state),
+    onRobotCommand: (command) => client.commands.onCommand(command),
+    onCommandAnswer: (answer) => client.commands.onAnswer(answer),
     onEstop: (estop) => {
       client.stops.onState(estop);
       emitter.emit('estop', estop);

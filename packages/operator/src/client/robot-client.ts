@@ -2,8 +2,10 @@
 import type { OperatorSessionMessage, RobotListing, Telemetry } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
 import { ReadableFormats } from '../cloud/readable-formats.ts';
-import { Driver } from '../drive/driver.ts';
-import { presentRobot, RobotSwitch } from '../drive/robot-switch.ts';
+import type { RobotCommands } from '../commands/robot-commands.ts';
+import type { Driver } from '../drive/driver.ts';
+import type { GoalDrive } from '../drive/goal-drive.ts';
+import { presentRobot, type RobotSwitch } from '../drive/robot-switch.ts';
 import { SeenView } from '../drive/seen-view.ts';
 import type { DriveWish } from '../drive/velocity-mapping.ts';
 import { WishInput } from '../drive/wish-input.ts';
@@ -15,13 +17,14 @@ import type { SessionPhase } from '../session/session-keeper.ts';
 import type { RobotSound } from '../sound/robot-sound.ts';
 import { StreamStatistics, type StreamStats } from '../statistics/stream-statistics.ts';
 import { StopDelivery } from '../stop/stop-delivery.ts';
+import { clientDrive } from './client-drive.ts';
 import type { RobotClientOptions } from './client-options.ts';
 import { clientParts } from './client-parts.ts';
 import { type ClientParts, linkEvents } from './link-events.ts';
+import type { PeopleRequests } from './people-requests.ts';
 import type { RobotEvents } from './robot-events.ts';
 
-const TICK_MS = 25;
-const STATISTICS_MS = 250;
+const [TICK_MS, STATISTICS_MS] = [25, 250];
 
 /**
  * An operator's connection to robots. Events report what robots send; methods send what the operator wants. Use
@@ -32,6 +35,12 @@ export class RobotClient {
   readonly link: RobotLink;
   /** Which device drives, and who holds the lease. */
   readonly driver: Driver;
+  /** Sends the robot to a place on the floor. */
+  readonly goals: GoalDrive;
+  /** Gives the commands that the robot allows, such as lights. */
+  readonly commands: RobotCommands;
+  /** Asks for the drive, offers it, and talks to the other operators. */
+  readonly people: PeopleRequests;
   /** What is on the operator's screen, which each command tells the robot. */
   readonly seen = new SeenView();
   /** Gets STOP to the robot. */
@@ -45,7 +54,6 @@ export class RobotClient {
   /** When points last arrived or the session's phase last changed, `performance.now()`. */
   pointsAtMs = 0;
   readonly #parts: ClientParts;
-  readonly #emitter: ClientParts['emitter'];
   readonly #wish = new WishInput();
   readonly #switch: RobotSwitch;
   #timer: ReturnType<typeof setInterval> | undefined;
@@ -65,32 +73,25 @@ export class RobotClient {
         this.link.sendReport(report);
       },
     });
-    this.#emitter = this.#parts.emitter;
+    const { emitter } = this.#parts;
     this.statistics = new StreamStatistics(ageOf);
     this.sound = this.#parts.sound;
     this.link = openLink(options, this.#parts.receiver.worker, linkEvents(this, this.#parts));
-    this.driver = new Driver([...(options.inputs ?? []), this.#wish], {
-      sendCommand: (command) => this.link.sendCommand(this.seen.stamp(command)),
-      sendSession: (message) => this.link.sendSession(message),
-      onOtherDrives: () => this.#emitter.emit('otherDrives', undefined),
-      onGripLost: (loss) => this.#emitter.emit('gripLost', loss),
-    });
-    this.stops = new StopDelivery(this.link, (status) => this.#emitter.emit('stop', status));
+    const drive = clientDrive([...(options.inputs ?? []), this.#wish], this, emitter);
+    ({ driver: this.driver, goals: this.goals, commands: this.commands } = drive);
+    [this.people, this.#switch] = [drive.people, drive.robots];
+    this.stops = new StopDelivery(this.link, (status) => emitter.emit('stop', status));
     this.latency = new LatencyProbe(this.link, this.driver, (result) => {
       this.statistics.onResult(result);
       const { id, frameNumber, mtpMs, firstMs } = result;
       this.link.sendSession({ type: 'latencyMeasured', id, frameNumber, mtpMs, firstMs });
-      this.#emitter.emit('latency', result);
-    });
-    this.#switch = new RobotSwitch({
-      letGo: () => this.driver.letGo(performance.now()),
-      connect: (robotId) => this.link.connect(robotId),
+      emitter.emit('latency', result);
     });
   }
 
   /** Calls `listener` for each event of the type ({@link RobotEvents}). @returns a function that removes it */
   on<Type extends keyof RobotEvents>(type: Type, listener: (event: RobotEvents[Type]) => void): () => void {
-    return this.#emitter.on(type, listener);
+    return this.#parts.emitter.on(type, listener);
   }
 
   /** Connects to the signaling service, and stays connected. */
@@ -117,7 +118,7 @@ export class RobotClient {
     return this.link.phase;
   }
 
-  /** The robots that the service lists now. */
+  /** Those that the service lists now. */
   get robots(): readonly RobotListing[] {
     return this.link.robots;
   }
@@ -275,8 +276,7 @@ export class RobotClient {
   /** Called by the client's own timer, and by an app that has just read its devices. @param nowMs `performance.now()` */
   tick(nowMs: number): void {
     this.#wish.lapse(nowMs);
-    this.stops.tick(nowMs);
-    this.driver.tick(nowMs);
+    for (const part of [this.stops, this.driver, this.goals, this.commands]) part.tick(nowMs);
     this.#switch.tick(presentRobot(this.link, this.driver.holder), nowMs);
     this.latency.tick(nowMs);
     if (nowMs < this.#statisticsDueMs) return;
@@ -286,7 +286,7 @@ export class RobotClient {
 
   #onBatch(batch: Batch): void {
     const type = batch.sensor === 0 ? 'cloud' : (`cloud:${batch.sensor}` as const);
-    if (!this.#emitter.emit(type, batch)) this.release(batch);
+    if (!this.#parts.emitter.emit(type, batch)) this.release(batch);
     this.pointsAtMs = performance.now();
     this.link.onPoints(this.pointsAtMs);
   }

@@ -1,9 +1,11 @@
 import type {
   Alarm,
   Cameras,
+  ChatLine,
   CommandRejected,
   Diagnostics,
   EstopState,
+  Handover,
   LeaseState,
   MapTiles,
   NearField,
@@ -11,6 +13,7 @@ import type {
   PlannedPath,
   Quantity,
   Reading,
+  RobotCommand,
   RobotListing,
   Samples,
   SensorRings,
@@ -21,6 +24,9 @@ import type {
   Welcome,
 } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
+import type { CommandResult } from '../commands/robot-commands.ts';
+import type { DriveInput } from '../drive/drive-input.ts';
+import type { GoalStatus } from '../drive/goal-drive.ts';
 import type { GripLoss } from '../drive/grips.ts';
 import type { LatencyResult } from '../latency/latency-test.ts';
 import type { Picture } from '../pictures/picture-feed.ts';
@@ -56,8 +62,15 @@ export interface RobotEvents {
   grantExpires: number;
   /** Who drives. */
   lease: LeaseState;
-  /** Who has a session with the robot, and who of them drives; from robots that ask for grants. */
+  /** Who has a session with the robot, and who of them drives. */
   operators: Operators;
+  /**
+   * A request for the drive or an offer of it that this operator has made or is to answer ({@link RobotClient.people}), or
+   * what has become of it.
+   */
+  handover: Handover;
+  /** An operator said a line; after the welcome, the last ones that were said before. It is text, never markup. */
+  chatLine: ChatLine;
   /** The robot refused a command. */
   commandRejected: CommandRejected;
   /** The emergency stop, latched or released. */
@@ -66,8 +79,16 @@ export interface RobotEvents {
   stop: StopStatus;
   /** The grip was pressed, but another operator drives. */
   otherDrives: undefined;
+  /** What has become of the robot's goal ({@link RobotClient.goals}); `null`: there is none. */
+  goal: GoalStatus | null;
+  /** The robot's commands ({@link RobotClient.commands}), whenever something of them changes. */
+  commands: readonly RobotCommand[];
+  /** What became of a command that was given here. */
+  commandResult: CommandResult;
   /** A grip that was held counts as released until it has been opened. */
   gripLost: GripLoss;
+  /** A stick or key asks for motion, but the grip of this device is not held. Once for each push. */
+  gripMissing: DriveInput['name'];
   /** Pose, velocity, drive state, battery; 20 times a second. */
   telemetry: Telemetry;
   /** A reading of one of the robot's sensors or topics. */

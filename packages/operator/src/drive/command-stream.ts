@@ -3,12 +3,21 @@
  * rate. When the grip is released, it sends a few zero commands, since any of them may be lost, and then nothing. Time
  * is an argument.
  */
-import { type Command, type DriveLimits, nextSequence32, type Twist, zeroTwist } from '@farpoint/protocol';
+import {
+  type Command,
+  type DriveLimits,
+  type GoalHold,
+  nextSequence32,
+  type Twist,
+  zeroTwist,
+} from '@farpoint/protocol';
 import { type DriveWish, intoTwist, REST, toTwist } from './velocity-mapping.ts';
 
 export const COMMANDS_PER_SECOND = 40;
 /** Number of zero commands sent after the grip is released. */
 export const STOP_REPEATS = 4;
+/** Number of commands that show an open grip after {@link CommandStream.showOpen}: the robot may still be braking. */
+const OPEN_REPEATS = COMMANDS_PER_SECOND;
 /** Number of zero commands before motion after {@link CommandStream.restFirst}, since one may be lost. */
 export const FIRST_RESTS = 2;
 
@@ -75,6 +84,13 @@ export class CommandStream {
     this.#restsLeft = FIRST_RESTS;
   }
 
+  /** The robot must see an open grip: tells it so for a second, or until a grip is pressed. */
+  showOpen(): void {
+    this.#held = false;
+    this.#stopsLeft = OPEN_REPEATS;
+    this.#nextMs = 0;
+  }
+
   /** The velocity that the hand asks for now, the same object each time; `null` while it drives nothing. */
   get asked(): Twist | null {
     if (!this.#held || this.#limits === null || this.#lease === null) return null;
@@ -89,14 +105,26 @@ export class CommandStream {
       this.#stopsLeft = 0;
       return null;
     }
-    // The robot limits commands per second; a fifth is left for other messages and jitter.
-    const perSecond = Math.min(COMMANDS_PER_SECOND, this.#limits.maxCommandsPerSecond * 0.8);
-    // 2 ms less, so that a timer that fires slightly early still sends this command.
-    this.#nextMs = nowMs + 1000 / perSecond - 2;
+    this.#nextMs = nowMs + this.intervalMs;
     const command = this.#make(nowMs, this.#limits, this.#lease);
     if (!this.#held) this.#stopsLeft--;
     else if (this.#restsLeft > 0) this.#restsLeft--;
     return command;
+  }
+
+  /** The least time between two commands, ms. */
+  get intervalMs(): number {
+    // The robot limits commands per second; a fifth is left for other messages and jitter.
+    const most = (this.#limits?.maxCommandsPerSecond ?? COMMANDS_PER_SECOND) * 0.8;
+    // 2 ms less, so that a timer that fires slightly early still sends this command.
+    return 1000 / Math.min(COMMANDS_PER_SECOND, most) - 2;
+  }
+
+  /** Makes the hold of a goal, which counts like a command. @returns `null` without a lease */
+  hold(nowMs: number, goal: number): GoalHold | null {
+    if (this.#lease === null) return null;
+    this.#sequence = nextSequence32(this.#sequence);
+    return { type: 'goalHold', goal, sequence: this.#sequence, timeMs: nowMs, lease: this.#lease };
   }
 
   /**

@@ -3,6 +3,7 @@ import type { Command, DriveLimits, LeaseState, OperatorSessionMessage } from '@
 import { CommandStream } from './command-stream.ts';
 import { activeInput, type DriveInput } from './drive-input.ts';
 import { type GripLoss, Grips } from './grips.ts';
+import { MissingGrip } from './missing-grip.ts';
 import { REST } from './velocity-mapping.ts';
 
 export interface DriverPort {
@@ -12,6 +13,8 @@ export interface DriverPort {
   onOtherDrives(): void;
   /** A grip that was held counts as released until it has been opened. */
   onGripLost?(loss: GripLoss): void;
+  /** A stick is pushed, but the grip of its device is not held. */
+  onGripMissing?(device: DriveInput['name']): void;
 }
 
 /** While the grip is held and nobody drives, the lease is requested at this interval. */
@@ -34,6 +37,7 @@ export class Driver {
   #suspended = false;
   #toldOther = false;
   readonly #grips = new Grips();
+  readonly #missing = new MissingGrip();
   readonly #holds = (input: DriveInput) => this.#grips.holds(input);
 
   /**
@@ -62,6 +66,11 @@ export class Driver {
       if (loss !== null) return loss;
     }
     return null;
+  }
+
+  /** Whether a grip is held, also one that counts as released: a hand is on the stick. */
+  get isGripped(): boolean {
+    return this.#inputs.some(({ held }) => held);
   }
 
   /** Who holds the lease, by the robot's latest message. */
@@ -95,6 +104,11 @@ export class Driver {
    */
   set suspended(suspended: boolean) {
     this.#suspended = suspended;
+  }
+
+  /** Whether the page is hidden or has lost the focus, as it was said last. */
+  get suspended(): boolean {
+    return this.#suspended;
   }
 
   /**
@@ -138,6 +152,18 @@ export class Driver {
   }
 
   /**
+   * Another operator has handed the drive to this one. Each grip that is held counts as released until it has been opened,
+   * and the robot is shown that: it demands it.
+   *
+   * @param nowMs `performance.now()`
+   */
+  onHandedOver(nowMs: number): void {
+    this.#grips.lose(this.#inputs, 'handed-over');
+    this.stream.showOpen();
+    this.tick(nowMs);
+  }
+
+  /**
    * Takes the devices' states and sends what is due. Call it at the stream's rate, and at once when a grip or stick
    * changes. A pause of more than 100 ms between two readings of a device makes its grip count as released.
    *
@@ -146,6 +172,8 @@ export class Driver {
   tick(nowMs: number): void {
     const lost = this.#grips.update(this.#inputs, nowMs, this.#suspended);
     if (lost !== null) this.#port.onGripLost?.(lost);
+    const open = this.#suspended ? null : this.#missing.update(this.#inputs, nowMs);
+    if (open !== null) this.#port.onGripMissing?.(open.name);
     this.#input = activeInput(this.#inputs, this.#input, this.#holds);
     const held = this.#input !== null;
     this.stream.set(held, this.#input?.wish ?? REST, this.#input?.readMs ?? null);

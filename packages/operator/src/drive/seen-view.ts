@@ -1,5 +1,5 @@
 /** What is on the operator's screen: the newest capture that has been drawn. The robot judges its age by its own clock. */
-import { type Command, pointsOfBytes, sequenceDelta32, stampUsOf } from '@farpoint/protocol';
+import { type Command, type GoalHold, pointsOfBytes, sequenceDelta32, stampUsOf } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
 
 /** A cloud counts as seen when this share of its points is drawn: of a poor link, some are always missing. */
@@ -77,8 +77,8 @@ export class SeenView {
       this.#seenUs = newer(this.#seenUs, stampUsOf(captureMs));
   }
 
-  /** The command with what its giver sees. */
-  stamp(command: Command): Command {
+  /** The command, or the hold of a goal, with what its giver sees. */
+  stamp<T extends Command | GoalHold>(command: T): T {
     return this.#seenUs === null ? command : { ...command, seenUs: this.#seenUs };
   }
 }

@@ -1,5 +1,6 @@
 /** Latency from a frame's capture to the end of the display frame that shows its last points. No clock here. */
 import { sequenceDelta32 } from '@farpoint/protocol';
+import { type FrameStages, FrameStageWindow } from './frame-stages.ts';
 import { type Distribution, SampleWindow } from './sample-window.ts';
 
 /** Age of a capture timestamp at a local time, ms; `null` while the robot's clock is unknown. */
@@ -9,8 +10,12 @@ const MAX_DONE = 16;
 
 export class FrameLatency {
   readonly #samples = new SampleWindow(1024);
+  readonly #stages = new FrameStageWindow();
   #frame: number | null = null;
   #captureUs = 0;
+  /** When the current frame's first and last packets arrived. */
+  #firstMs = 0;
+  #lastMs = 0;
   #arrived = 0;
   #finished = false;
   /** Packets of the current frame wait for the display frame being drawn. */
@@ -18,6 +23,8 @@ export class FrameLatency {
   #lastDrawnMs = 0;
   /** Capture times of the frames whose last packets are in the display frame being drawn. */
   readonly #done = new Float64Array(MAX_DONE);
+  readonly #doneFirst = new Float64Array(MAX_DONE);
+  readonly #doneLast = new Float64Array(MAX_DONE);
   #doneCount = 0;
   readonly #ageOf: AgeOfStamp;
 
@@ -29,25 +36,41 @@ export class FrameLatency {
     return this.#samples.distribution();
   }
 
+  /** Where the time of the last frames went. */
+  get stages(): FrameStages | null {
+    return this.#stages.means();
+  }
+
   reset(): void {
     this.#samples.clear();
+    this.#stages.clear();
     this.#frame = null;
     this.#doneCount = 0;
     this.#fresh = false;
   }
 
-  /** A packet was uploaded for the display frame being prepared. */
-  onPacket(frameNumber: number, captureUs: number, points: number, totalPoints: number): void {
+  /** A packet, which arrived at `receivedMs`, was uploaded for the display frame being prepared. */
+  onPacket(
+    frameNumber: number,
+    captureUs: number,
+    points: number,
+    totalPoints: number,
+    receivedMs: number,
+  ): void {
     if (frameNumber !== this.#frame) {
       // A late packet of the previous frame, which has been counted already.
       if (this.#frame !== null && sequenceDelta32(frameNumber, this.#frame) < 0) return;
       this.#close();
       this.#frame = frameNumber;
       this.#captureUs = captureUs;
+      this.#firstMs = receivedMs;
+      this.#lastMs = receivedMs;
       this.#arrived = 0;
       this.#finished = false;
       this.#fresh = false;
     }
+    this.#firstMs = Math.min(this.#firstMs, receivedMs);
+    this.#lastMs = Math.max(this.#lastMs, receivedMs);
     this.#arrived += points;
     this.#fresh = true;
     if (this.#arrived >= totalPoints && !this.#finished) {
@@ -58,7 +81,10 @@ export class FrameLatency {
 
   /** The display frame is finished. */
   onDrawn(nowMs: number): void {
-    for (let i = 0; i < this.#doneCount; i++) this.#add(this.#done[i] as number, nowMs);
+    for (let i = 0; i < this.#doneCount; i++) {
+      const [captureUs, firstMs, lastMs] = [this.#done[i], this.#doneFirst[i], this.#doneLast[i]];
+      this.#add(captureUs as number, firstMs as number, lastMs as number, nowMs);
+    }
     this.#doneCount = 0;
     if (this.#fresh) this.#lastDrawnMs = nowMs;
     this.#fresh = false;
@@ -68,15 +94,21 @@ export class FrameLatency {
   #close(): void {
     if (this.#frame === null || this.#finished) return;
     if (this.#fresh) this.#push(this.#captureUs);
-    else this.#add(this.#captureUs, this.#lastDrawnMs);
+    else this.#add(this.#captureUs, this.#firstMs, this.#lastMs, this.#lastDrawnMs);
   }
 
   #push(captureUs: number): void {
-    if (this.#doneCount < MAX_DONE) this.#done[this.#doneCount++] = captureUs;
+    if (this.#doneCount >= MAX_DONE) return;
+    this.#doneFirst[this.#doneCount] = this.#firstMs;
+    this.#doneLast[this.#doneCount] = this.#lastMs;
+    this.#done[this.#doneCount++] = captureUs;
   }
 
-  #add(captureUs: number, nowMs: number): void {
+  #add(captureUs: number, firstMs: number, lastMs: number, nowMs: number): void {
     const age = this.#ageOf(captureUs, nowMs);
-    if (age !== null) this.#samples.add(age);
+    if (age === null) return;
+    this.#samples.add(age);
+    // One comparison of the clocks for all stages: they add up to the age.
+    this.#stages.add(age - (nowMs - firstMs), lastMs - firstMs, nowMs - lastMs);
   }
 }

@@ -9,6 +9,8 @@ import { nextSequence32, sequenceDelta32 } from '@farpoint/protocol';
 export interface LatencyResult {
   /** Number of the test. */
   id: number;
+  /** The input event, by the operator's clock, ms. */
+  startedAtMs: number;
   /** Input event to the end of the display frame with the whole green cloud, ms. */
   mtpMs: number;
   /** Input event to the end of the display frame with the first green points, ms. */
@@ -130,6 +132,7 @@ export class LatencyTest {
     const endMs = hadFresh ? nowMs : this.#lastFreshMs;
     return {
       id: test.id,
+      startedAtMs: test.startedAtMs,
       mtpMs: endMs - test.startedAtMs,
       firstMs: test.firstMs,
       arrivedMs: test.arrivedMs,

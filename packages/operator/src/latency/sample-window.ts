@@ -1,5 +1,7 @@
 /** How the samples of a quantity are distributed, in the quantity's unit. */
 export interface Distribution {
+  /** How many samples there are. */
+  count: number;
   /** Median. */
   p50: number;
   /** 95th percentile. */
@@ -41,6 +43,7 @@ export class SampleWindow {
     const sorted = this.#samples.slice(0, this.length).sort();
     const rank = (share: number): number =>
       sorted[Math.max(0, Math.ceil(share * sorted.length) - 1)] as number;
-    return { p50: rank(0.5), p95: rank(0.95), p99: rank(0.99), max: sorted.at(-1) as number };
+    const [count, max] = [sorted.length, sorted.at(-1) as number];
+    return { count, p50: rank(0.5), p95: rank(0.95), p99: rank(0.99), max };
   }
 }

@@ -7,10 +7,12 @@ import type {
 } from '@farpoint/protocol';
 import type { ChangedRobotKey } from '../access/session-admission.ts';
 import type { IntakeReport } from '../cloud/worker-messages.ts';
-import type { RobotSession, RobotSessionEvents } from '../session/robot-session.ts';
+import type { RobotSession } from '../session/robot-session.ts';
+import type { RobotSessionEvents } from '../session/robot-session-events.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
 import type { SignalingState } from '../signaling/signaling-state.ts';
+import type { StatusFeed } from '../signaling/status-feed.ts';
 import type { SoundLine } from '../sound/sound-line.ts';
 import type { VideoTrack } from '../video/video-track.ts';
 
@@ -41,6 +43,8 @@ export interface RobotLink {
   readonly signInUrl: string | null;
   /** The robots that the service lists now. */
   readonly robots: readonly RobotListing[];
+  /** What they say about themselves. */
+  readonly statusFeed: StatusFeed;
   /** The wanted robot; `null` if none is wanted. */
   readonly robotId: string | null;
   /** Whether the service lists the wanted robot. */

@@ -24,18 +24,19 @@ import { watchPageLifecycle } from './page-lifecycle.ts';
 import type { RobotLink, RobotLinkEvents } from './robot-link.ts';
 import type { WebRtcLinkOptions } from './webrtc-link-options.ts';
 
-const [TICK_MS, PROBE_MS] = [250, 500];
+/** At first the robot's clock is asked at each tick. */
+const [TICK_MS, PROBE_MS] = [100, 500];
 
 export class WebRtcLink implements RobotLink {
   readonly #options: WebRtcLinkOptions;
   readonly #events: RobotLinkEvents;
   readonly #signaling: OperatorSignaling;
+  readonly statusFeed: RobotLink['statusFeed'];
   readonly #keeper: SessionKeeper;
   #peer: IntroducedPeer | null = null;
   #generation = 0;
   readonly #closed = new AbortController();
   #session: RobotSession;
-  #robots: readonly RobotListing[] = [];
   #reportSequence = 0;
   #lastHeardMs = 0;
   #probeDueMs = 0;
@@ -62,7 +63,6 @@ export class WebRtcLink implements RobotLink {
           events.onSignaling(state);
         },
         onRobots: (robots) => {
-          this.#robots = robots;
           this.#keeper.onRobots(robots, performance.now());
           events.onRobots(robots);
         },
@@ -71,6 +71,7 @@ export class WebRtcLink implements RobotLink {
       },
       Math.random,
     );
+    this.statusFeed = this.#signaling;
     this.#keeper = new SessionKeeper(
       {
         requestSession: (robotId) => this.#signaling.send({ type: 'session.open', robotId }),
@@ -104,8 +105,7 @@ export class WebRtcLink implements RobotLink {
     const timer = setInterval(() => this.#tick(performance.now()), TICK_MS);
     signal.addEventListener('abort', () => clearInterval(timer));
     watchNetwork((online) => {
-      // Retry now whatever is waiting for its next attempt.
-      if (online) this.#signaling.retryNow();
+      if (online) this.#signaling.retryNow(); // whatever is waiting for its next attempt
       this.#keeper.onNetworkChange(performance.now());
     }, signal);
     const page = { onLeave: () => this.#leave(), onReturn: () => this.#return() };
@@ -131,7 +131,7 @@ export class WebRtcLink implements RobotLink {
   }
 
   connect(robotId: string): void {
-    this.#keeper.want(robotId, this.#robots, performance.now());
+    this.#keeper.want(robotId, this.robots, performance.now());
   }
 
   retry(): void {
@@ -139,7 +139,7 @@ export class WebRtcLink implements RobotLink {
   }
 
   disconnect(): void {
-    this.#keeper.want(null, this.#robots, performance.now());
+    this.#keeper.want(null, this.robots, performance.now());
   }
 
   get phase(): SessionPhase {
@@ -152,7 +152,7 @@ export class WebRtcLink implements RobotLink {
     return this.#signaling.signInUrl;
   }
   get robots(): readonly RobotListing[] {
-    return this.#robots;
+    return this.#signaling.robots;
   }
   get robotId(): string | null {
     return this.#keeper.robotId;
@@ -293,7 +293,7 @@ export class WebRtcLink implements RobotLink {
   #tick(nowMs: number): void {
     this.#keeper.tick(nowMs);
     if (this.#keeper.phase === 'live' && nowMs >= this.#probeDueMs) {
-      this.#probeDueMs = nowMs + PROBE_MS;
+      this.#probeDueMs = nowMs + (this.#session.clock.settled ? PROBE_MS : TICK_MS);
       this.sendControl({ type: 'clockProbe', id: this.#session.nextProbeId(), sentMs: nowMs });
     }
   }

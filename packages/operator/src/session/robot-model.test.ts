@@ -1,4 +1,13 @@
-import type { ModelLink, ModelPart, ModelShape, RobotModelParts } from '@farpoint/protocol';
+import {
+  encodeModelMeshes,
+  type ModelLink,
+  type ModelMeshes,
+  type ModelMeshParts,
+  type ModelPart,
+  type ModelShape,
+  ProtocolError,
+  type RobotModelParts,
+} from '@farpoint/protocol';
 import { beforeEach, expect, test } from 'vitest';
 import { RobotModel } from './robot-model.ts';
 
@@ -56,4 +65,60 @@ test('the newest positions count, if they belong to the model', () => {
   expect(model.takeJoints({ ...joints(150, 2), model: 2 }, 220)).toBe(false);
   expect(model.positions).toEqual([1]);
   expect(model.jointsAgeMs(300)).toBe(105);
+});
+
+const MESHES: ModelMeshes = {
+  insteadOf: [0],
+  meshes: [
+    {
+      ...{ min: [0, 0, 0], step: 0.0009765625, vertices: Uint16Array.of(0, 0, 0, 9, 0, 0, 0, 9, 0) },
+      triangles: Uint16Array.of(0, 1, 2),
+    },
+  ],
+  drawings: [{ mesh: 0, link: 1, place: [0, 0, 0, 0, 0, 0, 1], colour: 7 }],
+};
+
+/** In messages of 30 bytes. */
+function meshMessages(meshes: ModelMeshes | Uint8Array, of = 1): ModelMeshParts[] {
+  const bytes = meshes instanceof Uint8Array ? meshes : encodeModelMeshes(meshes);
+  return Array.from({ length: Math.ceil(bytes.length / 30) }, (_, i) => ({
+    ...{ type: 'modelMeshes', model: of, count: bytes.length, at: 30 * i },
+    data: Buffer.from(bytes.subarray(30 * i, 30 * i + 30)).toString('base64'),
+  }));
+}
+
+test('meshes are known when all of them have come, and go with their model', () => {
+  model.takeParts(message(0, 2, link(0), ball(1)));
+  const messages = meshMessages(MESHES);
+  expect(messages.map((each) => model.takeMeshes(each))).toEqual(
+    messages.map((_, i) => i === messages.length - 1),
+  );
+  expect(model.meshes).toEqual(MESHES);
+  expect(model.changes).toBe(2);
+  model.takeParts(message(0, 1, ball(0)));
+  expect(model.meshes).toBe(null);
+});
+
+test('meshes of another model, with a gap, or from before the model are not taken', () => {
+  const [first, second, ...rest] = meshMessages(MESHES);
+  expect(model.takeMeshes(first!)).toBe(false);
+  model.takeParts(message(0, 2, link(0), ball(1)));
+  for (const each of meshMessages(MESHES, 2)) expect(model.takeMeshes(each)).toBe(false);
+  for (const each of [first!, ...rest, second!]) expect(model.takeMeshes(each)).toBe(false);
+  for (const each of [first!, second!, { ...rest[0]!, count: 9000 }])
+    expect(model.takeMeshes(each)).toBe(false);
+  expect(model.meshes).toBe(null);
+});
+
+test.each<[string, ModelMeshes | Uint8Array]>([
+  ['are no meshes', new Uint8Array(100)],
+  ['are of a link that the model has not', { ...MESHES, drawings: [{ ...MESHES.drawings[0]!, link: 2 }] }],
+  ['stand for a shape that the model has not', { ...MESHES, insteadOf: [0, 1] }],
+])('meshes that %s are refused, and the model stays as it was', (_, meshes) => {
+  model.takeParts(message(0, 2, link(0), ball(1)));
+  expect(() => {
+    for (const each of meshMessages(meshes)) model.takeMeshes(each);
+  }).toThrow(ProtocolError);
+  expect(model.meshes).toBe(null);
+  expect(model.shapes).toHaveLength(1);
 });

@@ -1,4 +1,13 @@
-import type { JointPositions, ModelLink, ModelShape, RobotModelParts } from '@farpoint/protocol';
+import {
+  type JointPositions,
+  type ModelLink,
+  type ModelMeshes,
+  type ModelMeshParts,
+  type ModelShape,
+  ProtocolError,
+  type RobotModelParts,
+} from '@farpoint/protocol';
+import { MeshIntake } from './mesh-intake.ts';
 
 /** The robot's model, as the robot has told it, and where its joints are. */
 export class RobotModel {
@@ -6,10 +15,13 @@ export class RobotModel {
   links: readonly ModelLink[] = [];
   /** What is drawn of the links; empty until the whole model is known, and if there is none. */
   shapes: readonly ModelShape[] = [];
+  /** Meshes, some of them in place of shapes; `null` until all are known, and if there are none. */
+  meshes: ModelMeshes | null = null;
   /** Counts the changes of the model. */
   changes = 0;
   /** Of the moving links, in their order: radians or metres from where the model has them. */
   positions: readonly number[] = [];
+  readonly #meshes = new MeshIntake();
   #number: number | null = null;
   #coming: { links: ModelLink[]; shapes: ModelShape[]; count: number } | null = null;
   #jointsMs: number | null = null;
@@ -42,9 +54,31 @@ export class RobotModel {
     if (at + parts.length < count) return false;
     this.#coming = null;
     this.#number = number;
-    [this.links, this.shapes] = [links, shapes];
+    [this.links, this.shapes, this.meshes] = [links, shapes, null];
+    this.#meshes.forget();
     this.positions = links.map(() => 0);
     this.#jointsMs = null;
+    this.changes++;
+    return true;
+  }
+
+  /**
+   * Takes some of the meshes. Those of another model are ignored.
+   *
+   * @returns whether all meshes are known now
+   * @throws {ProtocolError} if they are no meshes, or not of this model: it stays without
+   */
+  takeMeshes(message: ModelMeshParts): boolean {
+    if (message.model !== this.#number) return false;
+    const meshes = this.#meshes.take(message);
+    if (meshes === null) return false;
+    const { insteadOf, drawings } = meshes;
+    const fits =
+      (insteadOf.at(-1) ?? -1) < this.shapes.length &&
+      drawings.every(({ link }) => link <= this.links.length);
+    if (!fits)
+      throw new ProtocolError('invalid', 'meshes of the model', '', 'must be of its links and shapes');
+    this.meshes = meshes;
     this.changes++;
     return true;
   }

@@ -2,37 +2,24 @@
 import {
   type Alarm,
   ageOfStampMs,
-  type Cameras,
   ClockOffset,
-  type CloudStream,
-  type CommandRejected,
-  type Diagnostics,
   decodeJson,
+  type EstopCause,
   type EstopState,
-  type LatencyFrame,
   type LeaseState,
-  type MapTiles,
   type MessageData,
-  type NearField,
   nextSequence32,
   type Operators,
   PictureAssembler,
-  type PlannedPath,
   ProtocolError,
   type Quantity,
-  type Reading,
+  type RobotAbout,
   robotControlCodec,
   robotSessionCodec,
-  type Samples,
-  type SensorRings,
-  type Sensors,
-  type Sound,
   sequenceDelta32,
   type Telemetry,
   telemetryCodec,
-  type Videos,
   type Welcome,
-  type WholePicture,
 } from '@farpoint/protocol';
 import { ComponentReports } from './component-reports.ts';
 import { NavigatorMap } from './navigator-map.ts';
@@ -40,55 +27,11 @@ import { NavigatorPath } from './navigator-path.ts';
 import { NearSurroundings } from './near-surroundings.ts';
 import { Readings } from './readings.ts';
 import { RobotModel } from './robot-model.ts';
+import { RobotPeople } from './robot-people.ts';
+import type { RobotSessionEvents } from './robot-session-events.ts';
 
 /** Channels on which the robot sends. */
 export type RobotChannel = 'session' | 'telemetry' | 'control' | 'pictures';
-
-export interface RobotSessionEvents {
-  onWelcome(welcome: Welcome): void;
-  /** The operator's grant ends soon. */
-  onGrantExpires(inS: number): void;
-  onLease(lease: LeaseState): void;
-  /** Who has a session with the robot; from robots that ask for grants. */
-  onOperators(operators: Operators): void;
-  onRejected(rejected: CommandRejected): void;
-  onEstop(estop: EstopState): void;
-  /** The robot has latched its emergency stop because of this press. */
-  onEstopAck(press: number): void;
-  onLatencyFrame(frame: LatencyFrame): void;
-  onTelemetry(telemetry: Telemetry): void;
-  /** A reading that is the newest of its topic. */
-  onReading(reading: Reading): void;
-  /** A number that the robot measures over time. */
-  onQuantity(quantity: Quantity): void;
-  /** Samples of such numbers. They may come late: the channel is unordered. */
-  onSamples(samples: Samples): void;
-  /** What is near the robot. */
-  onNearField(field: NearField): void;
-  /** The robot's navigator has planned another path. */
-  onPlannedPath(path: PlannedPath): void;
-  /** Something of the robot's map is new. */
-  onMap(tiles: MapTiles): void;
-  /** Reports of the robot's components. */
-  onDiagnostics(diagnostics: Diagnostics): void;
-  /** An alarm was raised, changed its level or was cleared. */
-  onAlarm(alarm: Alarm): void;
-  /** The header with which a stream's coded packets are decoded. */
-  onCloudStream(stream: CloudStream): void;
-  /** The cameras whose pictures can be requested. */
-  onCameras(cameras: Cameras['cameras']): void;
-  /** The sensors whose clouds can be requested; sent by robots that have more than one. */
-  onSensors(sensors: Sensors['sensors']): void;
-  /** The rings of a LiDAR among the sensors. */
-  onRings(rings: SensorRings): void;
-  /** The cameras whose videos can be requested, and which of them have no pictures at present. */
-  onVideos(videos: Videos['videos']): void;
-  /** The robot's microphone, and what becomes of this operator's voice. */
-  onSound(sound: Sound): void;
-  onPicture(picture: WholePicture, nowMs: number): void;
-  /** The robot could not use a message from this client. */
-  onRobotFault(message: string): void;
-}
 
 /** What the robot has sent in this session. {@link RobotLink} creates one for each session. */
 export class RobotSession {
@@ -98,10 +41,16 @@ export class RobotSession {
   grantEndsAtMs: number | null = null;
   /** Who drives. */
   lease: LeaseState = { type: 'lease', holder: 'nobody' };
-  /** Who has a session with the robot; `null` until the robot says so, and from robots that ask for no grants. */
+  /** Who has a session with the robot; `null` until the robot says so. */
   operators: Operators | null = null;
+  /** What they ask of each other, and say. */
+  readonly people = new RobotPeople();
+  /** What must be known of the robot before it is used; `null` if it does not say. */
+  about: RobotAbout | null = null;
   /** Whether the emergency stop is latched. */
   estop: EstopState = { type: 'estop', latched: false };
+  /** Who pressed STOP and who may release it; `null` if the robot has not said so of the present latch. */
+  estopCause: EstopCause | null = null;
   /** The robot's latest telemetry; `null` before the first. */
   telemetry: Telemetry | null = null;
   /** What is near the robot, in each direction. */
@@ -192,14 +141,40 @@ export class RobotSession {
         return;
       case 'operators':
         this.operators = message;
+        this.people.onOperators(message, nowMs);
         this.#events.onOperators(message);
+        return;
+      case 'handover':
+        this.people.onHandover(message, nowMs);
+        this.#events.onHandover(message);
+        return;
+      case 'chatLine':
+        this.people.onChatLine(message, nowMs);
+        this.#events.onChatLine(message);
         return;
       case 'rejected':
         this.#events.onRejected(message);
         return;
       case 'estop':
         this.estop = message;
+        if (message.latch !== this.estopCause?.latch || !message.latched) this.estopCause = null;
         this.#events.onEstop(message);
+        return;
+      case 'about':
+        this.about = message;
+        return;
+      case 'estopCause':
+        // The `estop` message that it explains comes next.
+        this.estopCause = message;
+        return;
+      case 'goalState':
+        this.#events.onGoalState(message);
+        return;
+      case 'robotCommand':
+        this.#events.onRobotCommand(message);
+        return;
+      case 'commandAnswer':
+        this.#events.onCommandAnswer(message);
         return;
       case 'latencyFrame':
         this.#events.onLatencyFrame(message);
@@ -222,6 +197,9 @@ export class RobotSession {
         return;
       case 'robotModel':
         this.model.takeParts(message);
+        return;
+      case 'modelMeshes':
+        this.model.takeMeshes(message);
         return;
       case 'quantity':
         this.quantities.set(message.number, message);

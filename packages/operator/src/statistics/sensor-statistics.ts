@@ -1,6 +1,7 @@
 import { pointsOfBytes } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
 import { type AgeOfStamp, FrameLatency } from '../latency/frame-latency.ts';
+import type { FrameStages } from '../latency/frame-stages.ts';
 import type { Distribution } from '../latency/sample-window.ts';
 
 /** What was drawn of one sensor's clouds since the session began. */
@@ -35,6 +36,11 @@ export class SensorStatistics {
     return this.#latency.distribution;
   }
 
+  /** Where the time of the last frames went. */
+  get frameStages(): FrameStages | null {
+    return this.#latency.stages;
+  }
+
   /** Restarts the latency distribution; the totals continue. */
   resetDistribution(): void {
     this.#latency.reset();
@@ -53,6 +59,7 @@ export class SensorStatistics {
       batch.captureTimeUs(packet),
       came,
       pointsOfBytes(batch.frameLength(packet)),
+      batch.receivedAtMs(packet) - performance.timeOrigin,
     );
   }
 

@@ -6,6 +6,7 @@ import type { Batch } from '../cloud/batch.ts';
 import type { DropCounts } from '../cloud/packet-intake.ts';
 import type { IntakeReport } from '../cloud/worker-messages.ts';
 import type { AgeOfStamp } from '../latency/frame-latency.ts';
+import type { FrameStages } from '../latency/frame-stages.ts';
 import type { LatencyResult } from '../latency/latency-test.ts';
 import { type Distribution, SampleWindow } from '../latency/sample-window.ts';
 import { SensorStatistics, type SensorStats } from './sensor-statistics.ts';
@@ -32,6 +33,8 @@ export interface StreamStats {
   deliveryMs: Distribution | null;
   /** Capture to the end of the display frame with the frame's last points, first sensor. */
   frameLatencyMs: Distribution | null;
+  /** Where the time of the last frames went, first sensor; `null` before the first frame. */
+  frameStages: FrameStages | null;
   /** Motion to photon: until the whole green cloud was drawn. */
   mtpMs: Distribution | null;
   /** Motion to photon: until the first points of the green cloud were drawn. */
@@ -148,6 +151,7 @@ export class StreamStatistics {
       minRttMs: clock.minRttMs,
       deliveryMs: this.#delivery.distribution(),
       frameLatencyMs: this.#sensors[0]?.frameLatencyMs ?? null,
+      frameStages: this.#sensors[0]?.frameStages ?? null,
       mtpMs: this.#mtp.distribution(),
       mtpFirstMs: this.#mtpFirst.distribution(),
       decodeUs: this.#report?.decodeUs ?? 0,

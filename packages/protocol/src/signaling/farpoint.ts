@@ -8,6 +8,7 @@ import * as z from 'zod/mini';
 import { displayNameSchema, handleSchema, robotIdSchema, tokenSchema } from '../identifiers.ts';
 import type { JsonCodec } from '../json.ts';
 import { signInUrlSchema } from '../sign-in.ts';
+import { robotStatusMessage, statusesChanged, statusesMessage, statusesWatch } from './robot-status.ts';
 
 export const MAX_SIGNALING_BYTES = 65_536;
 /** Characters of a list of revoked grants: it fits a message with room to spare. */
@@ -172,6 +173,7 @@ const robotToService = z.discriminatedUnion('type', [
     claim: handleSchema,
     code: z.enum(resumeRefusals),
   }),
+  robotStatusMessage,
 ]);
 export type RobotToService = z.infer<typeof robotToService>;
 
@@ -231,6 +233,7 @@ const operatorToService = z.discriminatedUnion('type', [
   sessionAnswer,
   sessionCandidate,
   sessionClose,
+  statusesWatch,
 ]);
 export type OperatorToService = z.infer<typeof operatorToService>;
 
@@ -245,6 +248,8 @@ const serviceToOperator = z.discriminatedUnion('type', [
   z.strictObject({ type: z.literal('robots'), robots: z.array(robotListing) }),
   /** What has changed since the last `robots` or `robots.changed`. */
   robotsChanged,
+  statusesMessage,
+  statusesChanged,
   z.strictObject({ type: z.literal('session.opened'), session: handleSchema, robotId: robotIdSchema }),
   /** `session.resume` was passed on to the robot. */
   z.strictObject({ type: z.literal('session.resuming'), session: handleSchema }),

@@ -1,5 +1,5 @@
-"""A rospy node for tests: publishes clouds, pictures and small topics, and prints the velocities it receives, one per
-line.
+"""A rospy node for tests: publishes clouds, pictures and small topics, offers services, and prints the velocities and
+switches it receives, one per line.
 """
 
 import json
@@ -11,7 +11,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, Twist, TwistStamped
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from sensor_msgs.msg import BatteryState, CameraInfo, CompressedImage, Image, PointCloud2, PointField
-from std_msgs.msg import Float32
+from std_msgs.msg import Bool, Empty, Float32
 
 CLOUD_SIDE = 480
 FOCAL = 400.0
@@ -108,12 +108,62 @@ def heard(topic):
     return on_velocity
 
 
+def switched(topic, on):
+    say({"topic": topic, "x": float(on), "turn": 0.0, "nodeMs": time.time() * 1000})
+
+
+def service_type(name, request, request_text, response_text):
+    """A service of std_srvs, of which nothing else need be installed."""
+    import hashlib
+
+    from genpy.dynamic import generate_dynamic
+
+    response = generate_dynamic("std_srvs/%sResponse" % name, response_text)["std_srvs/%sResponse" % name]
+
+    class Service:
+        _type = "std_srvs/" + name
+        _md5sum = hashlib.md5((request_text + response_text).strip().encode()).hexdigest()
+        _request_class = request
+        _response_class = response
+
+    return Service
+
+
+def offer_services():
+    """One that does what it is asked, one that cannot, one that breaks, one that hangs, and a switch."""
+    from genpy.dynamic import generate_dynamic
+
+    text = "bool success\nstring message"
+    trigger = service_type("Trigger", Empty, "", text)
+    switch_request = generate_dynamic("std_srvs/SetBoolRequest", "bool data")["std_srvs/SetBoolRequest"]
+    switch = service_type("SetBool", switch_request, "bool data", text)
+
+    def breaks(_request):
+        raise ValueError("out of order")
+
+    def hangs(_request):
+        time.sleep(3600)
+
+    def on_switch(request):
+        switched("/horn", request.data)
+        return switch._response_class(True, "")
+
+    rospy.Service("/dock", trigger, lambda _request: trigger._response_class(True, "docked"))
+    rospy.Service("/charge", trigger, lambda _request: trigger._response_class(False, "no charger"))
+    rospy.Service("/breaks", trigger, breaks)
+    rospy.Service("/hangs", trigger, hangs)
+    rospy.Service("/horn", switch, on_switch)
+
+
 def main():
     parts = sys.argv[1].split(",")
     rospy.init_node(sys.argv[2], disable_signals=True)
     if "velocity" in parts:
         rospy.Subscriber("/cmd_vel", Twist, heard("/cmd_vel"), queue_size=1, tcp_nodelay=True)
         rospy.Subscriber("/cmd_vel_stamped", TwistStamped, heard("/cmd_vel_stamped"), queue_size=1)
+    if "commands" in parts:
+        rospy.Subscriber("/lights", Bool, lambda message: switched("/lights", message.data), queue_size=5)
+        offer_services()
     publishers = []
     if "cloud" in parts:
         publishers.append((rospy.Publisher("/points", PointCloud2, queue_size=1), cloud()))

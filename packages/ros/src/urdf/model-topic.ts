@@ -3,6 +3,7 @@ import { jointStateSchema, MOST_JOINTS, stringSchema } from '../messages.ts';
 import { RateLimit } from '../rate-limit.ts';
 import { shortened, type TopicReading } from '../reading.ts';
 import type { TopicEntry } from '../topic-table.ts';
+import type { LinkMeshes } from './link-meshes.ts';
 import type { ModelNews } from './model-news.ts';
 import { readUrdf } from './read-urdf.ts';
 import { UrdfFault } from './urdf-fault.ts';
@@ -59,23 +60,48 @@ export function newsOf(urdf: string): ModelNews {
 
 /** The news with words for people: a warning if something of it is not drawn. */
 export function modelReading(topic: string, label: string | undefined, news: ModelNews): TopicReading {
-  const words = notDrawn(news);
-  return {
-    ...{ topic, label: shortened(label ?? LABEL, MOST_LABEL) },
-    level: words === '' ? 'ok' : 'warn',
-    values: words === '' ? [] : [['', shortened(words, MOST_TEXT)]],
-    model: news,
-  };
+  return { topic, label: shortened(label ?? LABEL, MOST_LABEL), ...modelWords(news), model: news };
 }
 
-function notDrawn(news: ModelNews): string {
-  if (news.kind === 'refused') return `not drawn: ${news.fault.message}`;
+/** What of the meshes is not drawn. */
+export interface MeshesLeft {
+  /** Those for which their links' collision shapes stand, and those for which nothing does. */
+  replaced: number;
+  missing: number;
+  /** Why one of them is not drawn, for people. */
+  why: string | null;
+}
+
+/** What people are told of a description. @param left what is not drawn although meshes were read; default: no mesh was */
+export function modelWords(news: ModelNews, left?: MeshesLeft): Pick<TopicReading, 'level' | 'values'> {
+  const words = notDrawn(news, left).map((each): [string, string] => ['', shortened(each, MOST_TEXT)]);
+  return { level: words.length === 0 ? 'ok' : 'warn', values: words };
+}
+
+/** What is left while no mesh has been read. @param why for people */
+export function allMeshesLeft(links: readonly LinkMeshes[], why: string | null): MeshesLeft {
+  const left = { replaced: 0, missing: 0, why };
+  for (const { meshes, standIns, unknown } of links)
+    left[standIns.length > 0 ? 'replaced' : 'missing'] += meshes.length + unknown;
+  return left;
+}
+
+function notDrawn(news: ModelNews, given?: MeshesLeft): string[] {
+  if (news.kind === 'refused') return [`not drawn: ${news.fault.message}`];
   const { parts, meshes } = news.model;
-  if (!parts.some(({ part }) => part === 'shape')) return 'not drawn: it has no boxes, cylinders or spheres';
+  const { replaced, missing, why } = given ?? allMeshesLeft(meshes, null);
+  const isSeen = given !== undefined && meshes.length > 0 && missing < totalOf(meshes);
+  if (!isSeen && !parts.some(({ part }) => part === 'shape'))
+    return ['not drawn: it has no boxes, cylinders or spheres', ...(why === null ? [] : [why])];
   const counted = (count: number) => `${count} ${count === 1 ? 'mesh' : 'meshes'}`;
   const told = [
-    meshes.missing > 0 ? `${counted(meshes.missing)} not drawn` : '',
-    meshes.replaced > 0 ? `collision shapes for ${counted(meshes.replaced)}` : '',
+    missing > 0 ? `${counted(missing)} not drawn` : '',
+    replaced > 0 ? `collision shapes for ${counted(replaced)}` : '',
   ];
-  return told.filter((each) => each !== '').join(', ');
+  const counts = told.filter((each) => each !== '').join(', ');
+  return counts === '' ? [] : [counts, ...(why === null ? [] : [why])];
+}
+
+function totalOf(links: readonly LinkMeshes[]): number {
+  return links.reduce((sum, { meshes, unknown }) => sum + meshes.length + unknown, 0);
 }

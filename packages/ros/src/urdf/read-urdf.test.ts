@@ -1,6 +1,7 @@
 import type { ModelLink, ModelShape } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
+import { allMeshesLeft } from './model-topic.ts';
 import { type RobotModel, readUrdf } from './read-urdf.ts';
 import { UrdfFault, type UrdfFaultCode } from './urdf-fault.ts';
 
@@ -99,7 +100,40 @@ describe('a description', () => {
       ),
     );
     expect(shapesOf(model).map(({ size }) => size)).toEqual([[1, 2, 3]]);
-    expect(model.meshes).toEqual({ replaced: 1, missing: 2 });
+    expect(allMeshesLeft(model.meshes, null)).toEqual({ replaced: 1, missing: 2, why: null });
+  });
+
+  it('names the meshes of links, with their scale, colour and place, and what stands for them', () => {
+    const mesh = (attributes: string) =>
+      `<visual><origin xyz="0 0 1"/><geometry><mesh ${attributes}/></geometry><material name="m"><color rgba="1 0 0 1"/></material></visual>`;
+    const solid = '<collision><geometry><box size="1 2 3"/></geometry></collision>';
+    const named = 'filename=" package://r/meshes/arm.stl "';
+    const { meshes } = readUrdf(
+      robot(
+        `<link name="a">${ball}${mesh(`${named} scale="0.001 0.001 -0.001"`)}${solid}</link>
+         <link name="b">${visual('<capsule radius="1" length="2"/>')}</link>${joint('j', 'continuous', 'a', 'b')}`,
+      ),
+    );
+    expect(meshes).toEqual([
+      {
+        ...{ link: 0, standIns: [1], unknown: 0 },
+        meshes: [
+          {
+            ...{ address: 'package://r/meshes/arm.stl', scale: [0.001, 0.001, -0.001], colour: 0xff0000 },
+            place: [0, 0, 1, 0, 0, 0, 1],
+          },
+        ],
+      },
+      { link: 1, standIns: [], unknown: 1, meshes: [] },
+    ]);
+    for (const wrong of [
+      '',
+      'filename=""',
+      `filename="${'x'.repeat(1025)}"`,
+      `${named} scale="1 1"`,
+      `${named} scale="0 1 1"`,
+    ])
+      expect(() => readUrdf(robot(`<link name="a">${mesh(wrong)}</link>`)), wrong).toThrow(UrdfFault);
   });
 
   it('leaves out what has no extent, and what cannot be seen', () => {

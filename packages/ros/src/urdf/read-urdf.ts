@@ -12,8 +12,9 @@ import {
   type Pose,
 } from '@farpoint/protocol';
 import { type JointSource, jointSources } from './joint-sources.ts';
+import type { LinkMeshes } from './link-meshes.ts';
 import { UrdfFault } from './urdf-fault.ts';
-import { type LinkShape, materialsOf, shapesOf } from './urdf-shapes.ts';
+import { type LinkShape, type LinkShapes, materialsOf, shapesOf } from './urdf-shapes.ts';
 import { treeOf, type UrdfTree } from './urdf-tree.ts';
 import { identity } from './urdf-values.ts';
 import { readXml } from './xml.ts';
@@ -29,8 +30,8 @@ export interface RobotModel {
   parts: ModelPart[];
   /** Where the positions of the moving links come from, in their order. */
   joints: JointSource[];
-  /** Meshes for which their links' collision shapes stand, and meshes for which nothing is drawn. */
-  meshes: { replaced: number; missing: number };
+  /** Of the links that have some, in the description's order. */
+  meshes: LinkMeshes[];
 }
 
 /** @throws {UrdfFault} */
@@ -43,15 +44,14 @@ export function readUrdf(text: string): RobotModel {
     throw new UrdfFault('xacro', `<${macro.name}> is a macro: expand the file with xacro first`, macro.line);
   const tree = treeOf(robot);
   const materials = materialsOf(robot);
-  const meshes = { replaced: 0, missing: 0 };
+  const meshes: LinkMeshes[] = [];
   const bodies = bodiesOf(tree);
   const shapes: ModelPart[] = [];
   for (const { name, element } of tree.links) {
     const { body, pose } = bodies.of.get(name) as Placed;
     const drawn = shapesOf(element, materials);
-    meshes.replaced += drawn.replaced;
-    meshes.missing += drawn.missing;
     for (const shape of drawn.shapes) shapes.push(shapePart(body, pose, shape));
+    if (drawn.meshes.length + drawn.unknown > 0) meshes.push(linkMeshes(body, pose, drawn, shapes.length));
     if (shapes.length > MAX_MODEL_SHAPES)
       throw new UrdfFault('too-many', `there are more than ${MAX_MODEL_SHAPES} shapes`);
   }
@@ -107,6 +107,21 @@ function shapePart(link: number, inBody: Pose, { pose, form, size, colour }: Lin
   const place = placeOf(compose(inBody, pose));
   const metres = size.map((each) => Math.max(rounded(each), 10 ** -DIGITS));
   return { part: 'shape', link, place, form, size: metres, colour };
+}
+
+/** @param end behind the link's shapes in those of the model */
+function linkMeshes(
+  link: number,
+  inBody: Pose,
+  { meshes, standIns, unknown }: LinkShapes,
+  end: number,
+): LinkMeshes {
+  return {
+    link,
+    meshes: meshes.map(({ pose, ...mesh }) => ({ ...mesh, place: placeOf(compose(inBody, pose)) })),
+    standIns: Array.from({ length: standIns }, (_, i) => end - standIns + i),
+    unknown,
+  };
 }
 
 /** @throws {UrdfFault} */

@@ -1,5 +1,6 @@
-/** What is drawn of a link: the boxes, cylinders and spheres of its `visual` elements. */
+/** What is drawn of a link: the boxes, cylinders, spheres and meshes of its `visual` elements. */
 import { MAX_MODEL_M, type ModelShape, type Pose } from '@farpoint/protocol';
+import { type MeshShape, meshOf } from './link-meshes.ts';
 import { childOf, colourOf, faultAt, nameIn, numbers, originOf } from './urdf-values.ts';
 import type { XmlElement } from './xml.ts';
 
@@ -16,30 +17,29 @@ export interface LinkShape extends Pick<ModelShape, 'form' | 'size' | 'colour'> 
 
 export interface LinkShapes {
   shapes: LinkShape[];
-  /** Meshes for which the link's collision shapes stand, and meshes for which nothing stands. */
-  replaced: number;
-  missing: number;
+  meshes: MeshShape[];
+  /** How many of the shapes, the last ones, are collision shapes: they stand for meshes and unknown kinds. */
+  standIns: number;
+  /** Visual elements of a kind that nobody draws. */
+  unknown: number;
 }
 
 /** @throws {UrdfFault} */
 export function shapesOf(link: XmlElement, materials: Materials): LinkShapes {
   const seen = link.children.filter(({ name }) => name === 'visual');
   const drawn = seen.map((visual) => shapeOf(visual, materials));
-  const shapes = drawn.filter((shape) => shape !== 'mesh' && shape !== 'nothing');
-  const meshes = seen.filter((_, i) => drawn[i] === 'mesh');
-  if (meshes.length === 0) return { shapes, replaced: 0, missing: 0 };
-  const colour = colourOfVisual(meshes[0] as XmlElement, materials) ?? DEFAULT_COLOUR;
+  const shapes = drawn.filter(isShape);
+  const meshes = drawn.filter((shape) => typeof shape === 'object' && 'address' in shape);
+  const unknown = drawn.filter((shape) => shape === 'unknown').length;
+  if (meshes.length + unknown === 0) return { shapes, meshes, standIns: 0, unknown };
+  const first = seen[drawn.findIndex((shape) => !isShape(shape) && shape !== 'nothing')] as XmlElement;
+  const colour = colourOfVisual(first, materials) ?? DEFAULT_COLOUR;
   const solid = link.children
     .filter(({ name }) => name === 'collision')
     .map((collision) => shapeOf(collision, materials))
-    .filter((shape) => shape !== 'mesh' && shape !== 'nothing')
+    .filter(isShape)
     .map((shape) => ({ ...shape, colour }));
-  const stands = solid.length > 0;
-  return {
-    shapes: [...shapes, ...solid],
-    replaced: stands ? meshes.length : 0,
-    missing: stands ? 0 : meshes.length,
-  };
+  return { shapes: [...shapes, ...solid], meshes, standIns: solid.length, unknown };
 }
 
 /** The materials outside the links. @throws {UrdfFault} */
@@ -52,17 +52,23 @@ export function materialsOf(robot: XmlElement): Materials {
   return found;
 }
 
-function shapeOf(element: XmlElement, materials: Materials): LinkShape | 'mesh' | 'nothing' {
+type Drawn = LinkShape | MeshShape | 'unknown' | 'nothing';
+
+function isShape(drawn: Drawn): drawn is LinkShape {
+  return typeof drawn === 'object' && 'form' in drawn;
+}
+
+function shapeOf(element: XmlElement, materials: Materials): Drawn {
   const geometry = childOf(element, 'geometry');
   if (geometry === undefined) throw faultAt(element, `<${element.name}> has no geometry`);
   const [shape] = geometry.children;
-  const sized = shape === undefined ? null : sizeOf(shape);
-  if (sized === null) return 'mesh';
   const pose = originOf(element);
   const colour = colourOfVisual(element, materials);
-  return colour === null || sized.size.some((metres) => metres === 0)
-    ? 'nothing'
-    : { ...sized, pose, colour };
+  if (colour === null) return 'nothing';
+  if (shape?.name === 'mesh') return { ...meshOf(shape), pose, colour };
+  const sized = shape === undefined ? null : sizeOf(shape);
+  if (sized === null) return 'unknown';
+  return sized.size.some((metres) => metres === 0) ? 'nothing' : { ...sized, pose, colour };
 }
 
 /** `null` for what cannot be drawn. */

@@ -17,10 +17,10 @@ export function attribute(element: XmlElement, key: string): string {
 }
 
 /** The name of something, or of what it refers to. @throws {UrdfFault} */
-export function nameIn(element: XmlElement, key: string): string {
+export function nameIn(element: XmlElement, key: string, most = MOST_NAME): string {
   const name = attribute(element, key).trim();
-  if (name.length === 0 || name.length > MOST_NAME)
-    throw faultAt(element, `the ${key} of <${element.name}> must have 1 to ${MOST_NAME} characters`);
+  if (name.length === 0 || name.length > most)
+    throw faultAt(element, `the ${key} of <${element.name}> must have 1 to ${most} characters`);
   return name;
 }
 

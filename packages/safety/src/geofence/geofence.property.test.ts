@@ -144,7 +144,6 @@ test.each([true, false])(
     // Without this check, the property would hold for a robot that never moves.
     expect(way / runs).toBeGreaterThan(knowsYaw ? 1 : 0.3);
   },
-  30_000,
 );
 
 test('a robot that was put outside comes back in, and no farther out', () => {

@@ -77,6 +77,7 @@ export class MotionSupervisor {
     this.#unattended = options.unattended ?? null;
     this.#ramp = new VelocityRamp(options.ramps ?? NO_RAMPS, options.staleMs ?? guard.limits.watchdogMs);
     this.#letGoAfter = Object.freeze({ ...options.letGoAfter });
+    guard.watchMotion(() => this.#ramp.stands);
   }
 
   /** The velocity for the wheels now. Call it at every change of the guard, and at short intervals while {@link ramping}. */
@@ -99,6 +100,9 @@ export class MotionSupervisor {
     if (moving) this.#stopped = null;
     this.#tell(found?.reasons ?? this.#lasting(), nowMs);
     this.#decide(moving || this.#stopped !== null, factor, isZeroTwist(twist), isZeroTwist(target));
+    // What was stopped does not go on by itself, however soon the way is free.
+    const [by] = this.#reasons;
+    if (this.#phase === 'held' && own === null && by !== undefined) this.guard.guided?.blocked(by);
     return twist;
   }
 
@@ -176,6 +180,7 @@ export class MotionSupervisor {
       this.onIntervention?.(reason, nowMs);
       const why = this.#letGoAfter[reason];
       if (why === undefined) continue;
+      this.guard.guided?.blocked(reason);
       this.guard.demandLetGo(why);
       this.#stopped = reason;
     }

@@ -1,4 +1,5 @@
 import { RecentWorst } from './recent-worst.ts';
+import { UsualInterval } from './usual-interval.ts';
 
 /** A stamp may be this far ahead of the robot's clock: it is rounded on its way. */
 const ROUNDING_MS = 2;
@@ -14,11 +15,13 @@ export class OperatorView {
   #capturedMs: number | null = null;
   /** When a command first named it. */
   #namedMs = 0;
+  /** When a command last came, whatever it named. */
+  #heardMs = Number.NEGATIVE_INFINITY;
   readonly #ages = new RecentWorst();
   readonly #intervals = new RecentWorst();
-  /** When something was last sent for the driver to see; `null` if that is not known. */
-  #sentMs: number | null = null;
-  readonly #sendIntervals = new RecentWorst();
+  /** When something was last taken for the driver to see; `null` if that is not known. */
+  #suppliedMs: number | null = null;
+  readonly #supplyIntervals = new UsualInterval();
 
   /**
    * A command says what the driver sees. An older picture than one that was named before changes nothing.
@@ -27,6 +30,7 @@ export class OperatorView {
    * is none
    */
   note(ageMs: number | null, nowMs: number): void {
+    this.#heardMs = nowMs;
     if (ageMs === null || !(ageMs >= -ROUNDING_MS)) return;
     const capturedMs = nowMs - ageMs;
     if (this.#capturedMs === null) {
@@ -43,17 +47,23 @@ export class OperatorView {
     this.#namedMs = nowMs;
   }
 
-  /** A picture or cloud was sent to the driver, whether or not it will arrive. */
-  sent(nowMs: number): void {
-    if (this.#sentMs === null) this.#sendIntervals.reset(nowMs);
-    this.#sendIntervals.add(this.#sentMs === null ? FIRST_INTERVAL_MS : nowMs - this.#sentMs, nowMs);
-    this.#sentMs = nowMs;
+  /**
+   * A picture or cloud was taken that will be sent to the driver, whether or not it will arrive. When it is sent would
+   * say less about the camera: on a slow link, it waits.
+   */
+  supplied(nowMs: number): void {
+    if (this.#suppliedMs === null) this.#supplyIntervals.reset(nowMs);
+    this.#supplyIntervals.add(
+      this.#suppliedMs === null ? FIRST_INTERVAL_MS : nowMs - this.#suppliedMs,
+      nowMs,
+    );
+    this.#suppliedMs = nowMs;
   }
 
   /** Somebody else drives, or nobody. */
   forget(): void {
     this.#capturedMs = null;
-    this.#sentMs = null;
+    this.#suppliedMs = null;
   }
 
   /** Age of what the driver sees, ms; `null` while it is not known. */
@@ -66,13 +76,22 @@ export class OperatorView {
     return this.#capturedMs === null ? null : Math.max(this.#ages.at(nowMs), nowMs - this.#capturedMs);
   }
 
+  /** For how long no command has said what the driver sees, ms: a hand that is open says nothing. */
+  silentMs(nowMs: number): number {
+    return nowMs - this.#heardMs;
+  }
+
+  /** How much longer than usual the driver has seen nothing newer, ms; negative while the next picture is not due. */
+  unseenMs(nowMs: number): number {
+    return nowMs - this.#namedMs - this.#intervals.at(nowMs);
+  }
+
   /**
-   * How much longer than usual nothing newer has been seen, or sent, ms; negative while the next picture is not due. What
-   * was not even sent will not be seen: on a slow link, a dead camera is noticed before the driver can.
+   * How much longer than usual nothing was taken, ms; negative while the next picture is not due, or if nothing is known.
+   * What was not even taken will not be seen: on a slow link, a dead camera is noticed before the driver can.
    */
-  overdueMs(nowMs: number): number {
-    const unseenMs = nowMs - this.#namedMs - this.#intervals.at(nowMs);
-    if (this.#sentMs === null) return unseenMs;
-    return Math.max(unseenMs, nowMs - this.#sentMs - this.#sendIntervals.at(nowMs));
+  unsuppliedMs(nowMs: number): number {
+    if (this.#suppliedMs === null) return Number.NEGATIVE_INFINITY;
+    return nowMs - this.#suppliedMs - this.#supplyIntervals.at(nowMs);
   }
 }

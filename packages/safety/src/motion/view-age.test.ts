@@ -28,6 +28,25 @@ test('pictures that no longer come are noticed before they are old', () => {
   expect(guard.bound(forward, 3000 + 30 + 300)).toEqual({ factor: 0, reason: 'view-lost', urgent: true });
 });
 
+test('what is not even taken slows the robot earlier, and brakes it as late as what is not seen', () => {
+  const view = new OperatorView();
+  const guard = new ViewAge(view, limits);
+  for (let t = 0; t <= 3000; t += 30) {
+    view.supplied(t);
+    view.note(20, t);
+  }
+  // The driver still sees something newer, as on a slow link.
+  const bound = (lateMs: number) => {
+    view.note(100, 3000 + 30 + lateMs);
+    return guard.bound(forward, 3000 + 30 + lateMs);
+  };
+  expect(bound(100).reason).toBe(null);
+  expect(bound(101).reason).toBe('view-late');
+  expect(bound(200).factor).toBeCloseTo(0.5);
+  expect(bound(299).factor).toBeCloseTo(1 / 200);
+  expect(bound(300).reason).toBe('view-lost');
+});
+
 test('after a late picture the robot is slower for a moment, not stopped', () => {
   const view = new OperatorView();
   const guard = new ViewAge(view, limits);

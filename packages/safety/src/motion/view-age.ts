@@ -11,6 +11,11 @@ export interface ViewAgeLimits {
   stallMs: number;
 }
 
+/**
+ * The robot's own cameras are steadier than a link: what was not taken slows the robot from this share of `stallMs` on, and
+ * brakes it as late as what was not seen.
+ */
+const UNSUPPLIED_SHARE = 2 / 3;
 /** What a picture that was late within the last second leaves of the speed. */
 const MIN_FACTOR = 0.25;
 
@@ -34,12 +39,16 @@ export class ViewAge implements MotionGuard {
     if (ageMs === null || worstMs === null) return UNKNOWN;
     const { slowMs, brakeMs, stallMs } = this.#limits;
     // On a fast link, pictures that no longer come are noticed before they are old.
-    const presentMs = Math.max(ageMs, slowMs + this.#view.overdueMs(nowMs) - stallMs);
+    const unseenMs = this.#view.unseenMs(nowMs) - stallMs;
+    const spanMs = brakeMs - slowMs;
+    const earlyMs = (1 - UNSUPPLIED_SHARE) * stallMs;
+    const unsuppliedMs = ((this.#view.unsuppliedMs(nowMs) - stallMs + earlyMs) * spanMs) / (spanMs + earlyMs);
+    const presentMs = Math.max(ageMs, slowMs + Math.max(unseenMs, unsuppliedMs));
     if (presentMs >= brakeMs) return LOST;
     if (presentMs <= slowMs && worstMs <= slowMs) return FREE;
-    const present = (brakeMs - presentMs) / (brakeMs - slowMs);
+    const present = (brakeMs - presentMs) / spanMs;
     // One late picture must not stop the robot for a second: only the present age can.
-    const recent = Math.max(MIN_FACTOR, (brakeMs - worstMs) / (brakeMs - slowMs));
+    const recent = Math.max(MIN_FACTOR, (brakeMs - worstMs) / spanMs);
     this.#late.factor = Math.min(1, present, recent);
     return this.#late;
   }

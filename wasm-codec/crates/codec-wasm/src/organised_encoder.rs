@@ -3,8 +3,8 @@
 use farpoint_organised_codec::packet::MAX_PACKET_BYTES;
 use farpoint_organised_codec::stream::DEPTH_UNIT;
 use farpoint_organised_codec::{
-    Budget, ColourMode, Encoder, Frame, Intrinsics, Misfit, Settings, StreamHeader, Validity, check_grid,
-    estimate_intrinsics, with_palette,
+    Budget, BudgetColour, ColourMode, Encoder, Frame, Intrinsics, Misfit, Settings, StreamHeader, Validity,
+    check_grid, estimate_intrinsics, with_palette,
 };
 use wasm_bindgen::prelude::*;
 
@@ -200,7 +200,7 @@ impl OrganisedEncoder {
         true
     }
 
-    /// Codes the frame in at most so many bytes. False before `begin`.
+    /// Codes the frame in at most so many bytes. `colour`: 0 as suits the depth, 1 coarse, 2 palette. False before `begin`.
     #[allow(
         clippy::too_many_arguments,
         reason = "numbers cross this border without an allocation, objects do not"
@@ -210,14 +210,19 @@ impl OrganisedEncoder {
         images: bool,
         bytes: usize,
         latency_test: bool,
-        palette: bool,
+        colour: u8,
         lambda: f32,
         epsilon: f32,
         near_distance: f32,
     ) -> bool {
         let Some(mut encoder) = self.encoder.take() else { return false };
         let validity = Validity { lambda, epsilon, near_distance };
-        let budget = Budget { bytes, validity, latency_test, palette };
+        let colour = match colour {
+            0 => BudgetColour::Suited,
+            1 => BudgetColour::Coarse,
+            _ => BudgetColour::Palette,
+        };
+        let budget = Budget { bytes, validity, latency_test, colour };
         let spent = encoder.encode_within(self.frame.source(images), &budget);
         match spent {
             Some(spent) => self.finish(encoder, &spent.frame, &spent.settings, spent.dropped, spent.passes),

@@ -5,8 +5,8 @@
 use std::time::Instant;
 
 use farpoint_organised_codec::{
-    Budget, ColourMode, Decoder, Encoder, Frame, Intrinsics, Point, Settings, Source, StreamHeader, Validity,
-    stream, with_palette,
+    Budget, BudgetColour, ColourMode, Decoder, Encoder, Frame, Intrinsics, Point, Settings, Source,
+    StreamHeader, Validity, stream, with_palette,
 };
 
 struct Wanted {
@@ -88,8 +88,11 @@ fn measure(
     for _ in 0..wanted.rounds.max(1) {
         let start = Instant::now();
         if let Some(bytes) = wanted.budget {
-            let palette = settings.mode == ColourMode::Palette;
-            let budget = Budget { bytes, validity: Validity::default(), latency_test: false, palette };
+            let colour = match settings.mode {
+                ColourMode::Palette => BudgetColour::Palette,
+                _ => BudgetColour::Suited,
+            };
+            let budget = Budget { bytes, validity: Validity::default(), latency_test: false, colour };
             let spent = encoder.encode_within(source, &budget).expect("a frame");
             (frame, settings) = (spent.frame, spent.settings);
         } else {

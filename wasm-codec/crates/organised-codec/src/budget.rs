@@ -12,8 +12,21 @@ pub struct Budget {
     pub validity: Validity,
     /// All points pure green.
     pub latency_test: bool,
-    /// Colours by the stream's palette.
-    pub palette: bool,
+    /// How colours are coded.
+    pub colour: BudgetColour,
+}
+
+/// How a frame within a budget is coloured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BudgetColour {
+    /// As fine as suits the depth level that the budget pays for.
+    #[default]
+    Suited,
+    /// Coarse at every depth level: for receivers that have better colours from elsewhere, e.g. a video. The depth gets the
+    /// rest.
+    Coarse,
+    /// By the stream's palette.
+    Palette,
 }
 
 /// What a budget was spent on.

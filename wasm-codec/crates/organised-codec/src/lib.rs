@@ -49,7 +49,7 @@ mod tile_encoder;
 pub mod transform;
 pub mod ycocg;
 
-pub use budget::{Budget, Spent};
+pub use budget::{Budget, BudgetColour, Spent};
 pub use decoder::{Decoder, Put};
 pub use encoder::Encoder;
 pub use frame::{Frame, Packet, Settings};

@@ -4,9 +4,9 @@
 //! only below the last rung far tiles are thinned. What frames cost is learnt from frame to frame, so that a steady stream
 //! takes one pass a frame.
 
-use crate::budget::{Budget, Spent};
+use crate::budget::{Budget, BudgetColour, Spent};
 use crate::frame::{Frame, Mix, Settings};
-use crate::ladder::{FIRST_RUNG, RUNGS, settings_of};
+use crate::ladder::{first_rung, rungs, settings_of};
 use crate::load::Source;
 use crate::packet::MAX_PACKET_BYTES;
 use crate::packet_cost::overhead_bits;
@@ -30,6 +30,8 @@ const SLACK_BYTES: usize = 24;
 #[derive(Default)]
 pub(crate) struct RateState {
     coloured: RungCosts,
+    /// Of frames with coarse colours.
+    coarse: RungCosts,
     /// Of frames without colour: latency tests.
     plain: RungCosts,
 }
@@ -45,7 +47,11 @@ impl RateState {
         if !encoder.takes(source) {
             return None;
         }
-        let costs = if budget.latency_test { &mut self.plain } else { &mut self.coloured };
+        let costs = match budget.colour {
+            _ if budget.latency_test => &mut self.plain,
+            BudgetColour::Coarse => &mut self.coarse,
+            BudgetColour::Suited | BudgetColour::Palette => &mut self.coloured,
+        };
         costs.begin(encoder, source, budget);
         let wanted = wanted_bits(budget);
         let search = RateSearch {
@@ -57,7 +63,7 @@ impl RateState {
             passes: 0,
             alike: 0,
             bytes_before: usize::MAX,
-            places: PlaceSearch::new((wanted / 8.0) as usize, (RUNGS - 1) as f32),
+            places: PlaceSearch::new((wanted / 8.0) as usize, (rungs(budget) - 1) as f32),
             place: None,
         };
         search.run()
@@ -66,7 +72,7 @@ impl RateState {
 
 /// Bits to aim at. The last packet is rarely full, which wastes half a packet's header and states on average.
 fn wanted_bits(budget: &Budget) -> f32 {
-    let overhead = overhead_bits(settings_of(FIRST_RUNG, budget).mode);
+    let overhead = overhead_bits(settings_of(first_rung(budget), budget).mode);
     ((budget.bytes as f32 * 8.0 - overhead / 2.0) * AIM).max(1.0)
 }
 

@@ -1,7 +1,7 @@
 //! What the rungs of the ladder cost for frames of one kind, learnt from frame to frame.
 
 use crate::budget::Budget;
-use crate::ladder::{FIRST_RUNG, RUNGS, first_shares, settings_of};
+use crate::ladder::{MOST_RUNGS, first_rung, first_shares, rungs, settings_of};
 use crate::load::Source;
 use crate::plan::{Means, Plan};
 use crate::sampling::SamplingEncoder;
@@ -20,9 +20,11 @@ pub(crate) struct Rungs {
 #[derive(Default)]
 pub(crate) struct RungCosts {
     /// At every rung, as shares of the plan's costs.
-    shares: [f32; RUNGS],
+    shares: [f32; MOST_RUNGS],
     /// Rungs whose share was found with a frame, not guessed.
-    found: [bool; RUNGS],
+    found: [bool; MOST_RUNGS],
+    /// How many rungs there are.
+    rungs: usize,
     /// The coarser rung of the last frame.
     rung: usize,
     pub plan: Plan,
@@ -38,11 +40,12 @@ impl RungCosts {
             return;
         }
         encoder.frames.patterns.fill(Pattern(0));
-        let bytes = encoder.estimate(source, &mut settings_of(FIRST_RUNG, budget));
+        let first = first_rung(budget);
+        let bytes = encoder.estimate(source, &mut settings_of(first, budget));
         self.shares = first_shares(budget);
-        self.found = core::array::from_fn(|rung| rung == FIRST_RUNG);
-        self.rung = FIRST_RUNG;
-        self.plan.guess(bytes * 8.0 / self.shares[FIRST_RUNG]);
+        self.found = core::array::from_fn(|rung| rung == first);
+        (self.rungs, self.rung) = (rungs(budget), first);
+        self.plan.guess(bytes * 8.0 / self.shares[first]);
     }
 
     /// The rungs between which `wanted` bits lie, and how to spread the tiles over them. A sample of the frame replaces the
@@ -71,7 +74,7 @@ impl RungCosts {
 
     /// The rungs at a place on the ladder: whole numbers are rungs, what is between them a split into both.
     pub fn rungs_at(&self, place: f32) -> Rungs {
-        let rung = (place as usize).min(RUNGS - 2);
+        let rung = (place as usize).min(self.rungs - 2);
         self.mixed(rung, rung + 1, Some(1.0 + rung as f32 - place))
     }
 
@@ -86,10 +89,10 @@ impl RungCosts {
     fn rungs(&self, wanted: f32) -> Rungs {
         let full = self.plan.full();
         // The first that is not too dear for the whole frame.
-        match (0..RUNGS).find(|rung| full * self.shares[*rung] <= wanted) {
+        match (0..self.rungs).find(|rung| full * self.shares[*rung] <= wanted) {
             Some(rung) => self.mixed(rung.saturating_sub(1), rung, None),
             None => {
-                let last = RUNGS - 1;
+                let last = self.rungs - 1;
                 Rungs { finer: last, coarser: last, means: Means::Thinned { share: self.shares[last] } }
             }
         }
@@ -105,7 +108,7 @@ impl RungCosts {
     fn find(&mut self, rung: usize, times: f32) {
         let share = self.shares[self.rung] * times;
         let ratio = share / self.shares[rung];
-        let beyond = if rung < self.rung { 0..=rung } else { rung..=RUNGS - 1 };
+        let beyond = if rung < self.rung { 0..=rung } else { rung..=self.rungs - 1 };
         for other in beyond {
             if !self.found[other] {
                 self.shares[other] *= ratio;

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{decode, frame, header, packets, valid};
-use farpoint_organised_codec::{Budget, Encoder, Source, Validity};
+use farpoint_organised_codec::{Budget, BudgetColour, Encoder, Source, Validity};
 use proptest::prelude::*;
 
 proptest! {
@@ -11,7 +11,12 @@ proptest! {
 
     #[test]
     fn a_budget_is_kept(seed: u64, bytes in 1500_usize..60_000, noise in 0.0_f32..0.05) {
-        keeps_budget(seed, bytes, noise)?;
+        keeps_budget(seed, bytes, noise, BudgetColour::Suited)?;
+    }
+
+    #[test]
+    fn a_budget_is_kept_with_coarse_colours(seed: u64, bytes in 1500_usize..60_000, noise in 0.0_f32..0.05) {
+        keeps_budget(seed, bytes, noise, BudgetColour::Coarse)?;
     }
 }
 
@@ -28,16 +33,16 @@ fn a_budget_is_kept_where_a_packet_is_much_of_the_frame() {
         (971_891_323_124_341_166, 30_168, 0.000_783_501_2),
     ];
     for (seed, bytes, noise) in cases {
-        keeps_budget(seed, bytes, noise).expect("within 5 %");
+        keeps_budget(seed, bytes, noise, BudgetColour::Suited).expect("within 5 %");
     }
 }
 
-fn keeps_budget(seed: u64, bytes: usize, noise: f32) -> Result<(), TestCaseError> {
+fn keeps_budget(seed: u64, bytes: usize, noise: f32, colour: BudgetColour) -> Result<(), TestCaseError> {
     let header = header(240, 200);
     let points = frame(&header, seed, 0.05, noise, false);
     let mut encoder = Encoder::new(header.clone()).expect("a stream");
     let validity = Validity { near_distance: 1.0, ..Validity::default() };
-    let budget = Budget { bytes, validity, latency_test: false, palette: false };
+    let budget = Budget { bytes, validity, latency_test: false, colour };
     for _ in 0..3 {
         let spent = encoder.encode_within(Source::Points(&points), &budget).expect("a frame");
         prop_assert!(spent.frame.bytes <= bytes + 1200, "{} of {bytes}", spent.frame.bytes);
@@ -65,7 +70,7 @@ fn a_budget_is_met_and_a_steady_stream_takes_one_pass() {
         for latency_test in [false, true] {
             let mut encoder = Encoder::new(header.clone()).expect("a stream");
             let validity = Validity { near_distance: 1.0, ..Validity::default() };
-            let budget = Budget { bytes, validity, latency_test, palette: false };
+            let budget = Budget { bytes, validity, latency_test, colour: BudgetColour::Suited };
             for number in 0..6 {
                 let points = frame(&header, number, 0.05, 0.01, false);
                 let spent = encoder.encode_within(Source::Points(&points), &budget).expect("a frame");
@@ -96,10 +101,41 @@ fn points_are_left_out_only_where_the_coarsest_frame_is_too_dear() {
     let mut encoder = Encoder::new(header.clone()).expect("a stream");
     let mut thinned = Vec::new();
     for bytes in [60_000, 30_000, 20_000, 8_000, 2_000] {
-        let budget = Budget { bytes, validity: Validity::default(), latency_test: false, palette: false };
+        let budget = Budget {
+            bytes,
+            validity: Validity::default(),
+            latency_test: false,
+            colour: BudgetColour::Suited,
+        };
         let points = frame(&header, 1, 0.05, 0.01, false);
         let spent = encoder.encode_within(Source::Points(&points), &budget).expect("a frame");
         thinned.push(spent.frame.thinned > 0);
     }
     assert_eq!(thinned, [false, false, false, true, true]);
+}
+
+/// Coarse colours cost no depth; a change there and back takes no longer than other frames, for both are learnt.
+#[test]
+fn coarse_colours_cost_no_depth() {
+    let header = header(320, 240);
+    for bytes in [20_000, 24_000, 30_000, 36_000, 44_000] {
+        let mut encoder = Encoder::new(header.clone()).expect("a stream");
+        let mut levels = Vec::new();
+        for (number, colour) in [BudgetColour::Suited, BudgetColour::Coarse].repeat(3).into_iter().enumerate()
+        {
+            let budget = Budget { bytes, validity: Validity::default(), latency_test: false, colour };
+            let points = frame(&header, 1, 0.05, 0.01, false);
+            let spent = encoder.encode_within(Source::Points(&points), &budget).expect("a frame");
+            assert!(number < 2 || spent.passes <= 3, "frame {number} of {bytes}: {} passes", spent.passes);
+            if colour == BudgetColour::Coarse {
+                assert_eq!(
+                    (spent.settings.quality, spent.frame.thinned),
+                    (28, 0),
+                    "frame {number} of {bytes}"
+                );
+            }
+            levels.push(spent.settings.depth_level);
+        }
+        assert!(levels[5] <= levels[4], "{bytes}: {levels:?}");
+    }
 }

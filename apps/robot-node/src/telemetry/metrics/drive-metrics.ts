@@ -1,5 +1,7 @@
 import type { PulledMetrics } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
+import { addCommandMetrics } from './command-metrics.ts';
+import { addGoalMetrics } from './goal-metrics.ts';
 import { addReturnMetrics } from './return-metrics.ts';
 
 /** Metrics of commands and the guard's verdicts. */
@@ -24,7 +26,9 @@ export function addDriveMetrics(metrics: PulledMetrics, robot: Robot): void {
   metrics.gauge('robot_stops_well', '1 while every stop at the robot can be read, otherwise 0', () =>
     robot.stops.areWell ? 1 : 0,
   );
-  const { returns } = robot.driving;
+  const { returns, goals } = robot.driving;
+  if (goals !== null) addGoalMetrics(metrics, goals);
+  if (robot.commands !== null) addCommandMetrics(metrics, robot.commands);
   if (returns !== null) addReturnMetrics(metrics, returns);
   metrics.sum(
     'sink_restarts',

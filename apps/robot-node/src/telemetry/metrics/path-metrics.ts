@@ -2,6 +2,7 @@ import type { RateSnapshot } from '@farpoint/congestion';
 import type { PulledMetrics } from '@farpoint/service';
 import { datagramsSent } from '@farpoint/webrtc';
 import type { Robot } from '../../robot.ts';
+import { CLOUD_STREAM } from '../../transport/outgoing-frame.ts';
 import type { StreamSender } from '../../transport/stream-sender.ts';
 
 /** Metrics of the paths to the connected operators: what they carry, and what was sent, resent and dropped. */
@@ -33,6 +34,11 @@ export function addPathMetrics(metrics: PulledMetrics, { operators }: Pick<Robot
     'bytes_sent',
     'Bytes on the wire to operators connected now',
     total((sender) => sender.counters.bytesSent),
+  );
+  metrics.gauge(
+    'cloud_bytes_sent',
+    'Bytes of clouds on the wire to operators connected now, without what was sent again',
+    total(({ counters }) => counters.bytesByStream.get(CLOUD_STREAM) ?? 0),
   );
   metrics.gauge(
     'packets_resent',

@@ -4,6 +4,12 @@ import type { Robot } from '../../robot.ts';
 /** Metrics of what the sensors captured, and what became of their points. */
 export function addSensorMetrics(metrics: PulledMetrics, { counters, sensors }: Robot): void {
   metrics.sum('frames_captured', 'Clouds captured', () => counters.framesCaptured);
+  metrics.sum('frames_whole', 'Clouds of which every point was coded', () => counters.framesWhole);
+  metrics.sum(
+    'frames_coarse',
+    'Clouds with coarse colours, for operators that paint them with a video',
+    () => counters.framesCoarse,
+  );
   metrics.sum(
     'frames_without_buffer',
     'Clouds not captured because no buffer was free',

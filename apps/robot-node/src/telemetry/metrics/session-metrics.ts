@@ -36,5 +36,9 @@ export function addSessionMetrics(metrics: PulledMetrics, { counters, operators 
   metrics.sums('messages_refused', 'Unreadable messages, by channel and error', 'reason', () =>
     counters.messagesRefused.entries(),
   );
+  metrics.sums('handovers', 'Ends of requests for the drive and offers of it, by outcome', 'outcome', () =>
+    counters.handovers.entries(),
+  );
+  metrics.sum('chat_lines', 'Lines that operators have said to each other', () => counters.chatLines);
   metrics.gauge('operators', 'Operators with a session', () => operators.size);
 }

@@ -1,5 +1,7 @@
 import type { PulledMetrics } from '@farpoint/service';
 import type { Robot } from '../../robot.ts';
+import type { OperatorSession } from '../../session/operator-session.ts';
+import { streamOfVideo } from '../../video/video-frame.ts';
 import type { VideoStream } from '../../video/video-stream.ts';
 
 /** Metrics of the cameras that are streamed as video. None if the robot has no such camera. */
@@ -26,6 +28,13 @@ export function addVideoMetrics(metrics: PulledMetrics, { cameras: { videos }, o
     'Bytes of the encoded frames, by camera',
     'camera',
     each(({ counters }) => counters.bytes),
+  );
+  metrics.gauges(
+    'video_bytes_sent',
+    'Bytes on the wire to operators connected now, by camera',
+    'camera',
+    () =>
+      streams.map(({ camera, video }): [string, number] => [camera.name, sentTo(operators.values(), video)]),
   );
   metrics.sums(
     'video_frames_skipped',
@@ -57,4 +66,11 @@ export function addVideoMetrics(metrics: PulledMetrics, { cameras: { videos }, o
     'reason',
     () => [...operators.values()].flatMap(({ videos: { sender } }) => Object.entries(sender?.drops ?? {})),
   );
+}
+
+/** Without what was sent again. */
+function sentTo(operators: Iterable<Pick<OperatorSession, 'sender'>>, video: number): number {
+  let bytes = 0;
+  for (const { sender } of operators) bytes += sender?.counters.bytesByStream.get(streamOfVideo(video)) ?? 0;
+  return bytes;
 }

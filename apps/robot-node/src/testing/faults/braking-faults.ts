@@ -22,7 +22,12 @@ export const brakingFaults: Fault[] = [
   },
   {
     name: 'another operator takes over',
-    cause: async ({ rig }) => (await rig.connect()).client.sendSession({ type: 'leaseRequest', take: true }),
+    cause: async ({ rig }) => {
+      const other = await rig.connect();
+      const beganMs = performance.now();
+      other.client.sendSession({ type: 'leaseRequest', take: true });
+      return beganMs;
+    },
   },
   // STOP.
   {
@@ -134,7 +139,12 @@ export const brakingFaults: Fault[] = [
     withinMs: VIEW_MS,
     cause: ({ hand }) => hand.sends(change(({ seenUs = 0 }) => ({ seenUs: (seenUs + 5_000_000) >>> 0 }))),
   },
-  { name: 'the camera’s program is killed', settled: true, cause: ({ rig }) => rig.stopCamera() },
+  {
+    name: 'the camera’s program is killed',
+    settled: true,
+    withinMs: VIEW_MS,
+    cause: ({ rig }) => rig.stopCamera(),
+  },
   // The link.
   {
     name: 'the network is cut',

@@ -1,6 +1,6 @@
-import { writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 
-/** Where {@link FaultTimes.save} writes, if it is set. */
+/** Where {@link FaultTimes.save} adds to, if it is set. */
 export const TIMES_FILE = 'FARPOINT_FAULT_TIMES';
 
 export interface FaultTime {
@@ -26,9 +26,11 @@ export class FaultTimes {
       .join('\n');
   }
 
-  /** Writes the rows as JSON for `pnpm bench faults`. */
+  /** Adds the rows to a file of JSON for `pnpm bench faults`. */
   save(): void {
     const file = process.env[TIMES_FILE];
-    if (file !== undefined && file !== '') writeFileSync(file, JSON.stringify(this.rows));
+    if (file === undefined || file === '') return;
+    const before: FaultTime[] = existsSync(file) ? JSON.parse(readFileSync(file, 'utf8')) : [];
+    writeFileSync(file, JSON.stringify([...before, ...this.rows]));
   }
 }

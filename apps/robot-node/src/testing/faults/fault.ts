@@ -5,7 +5,10 @@ import type { FaultRig } from './fault-rig.ts';
 
 /** The most from a cause to braking, ms. A link's own delay is added where there is one. */
 export const BRAKES_MS = 200;
-/** For causes that only what the driver sees can tell: 150 ms, one frame of the camera, and two commands. */
+/**
+ * For causes that only what the driver sees can tell: 150 ms, one frame of the camera, and two commands; or 100 ms, one
+ * frame at the lowest rate, and one command.
+ */
 export const VIEW_MS = 225;
 
 /** A robot that is being driven, with the grip held. */

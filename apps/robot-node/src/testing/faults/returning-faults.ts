@@ -1,4 +1,4 @@
-import { BRAKES_MS, type Driving, type Fault } from './fault.ts';
+import { BRAKES_MS, type Driving, type Fault, VIEW_MS } from './fault.ts';
 import { HungThread } from './hung-thread.ts';
 
 export interface ReturningFault extends Fault {
@@ -25,7 +25,7 @@ function hung(name: string): Pick<ReturningFault, 'cause' | 'ends'> {
 
 /** Need {@link canHangThreads}. */
 export const hangingFaults: ReturningFault[] = [
-  { name: 'the capture thread hangs', withinMs: BRAKES_MS, ...hung('capture') },
+  { name: 'the capture thread hangs', withinMs: VIEW_MS, ...hung('capture') },
   // A native thread of the robot's then tells the wheels, once.
   { name: 'the main thread hangs', withinMs: BRAKES_MS, silent: true, ...hung('MainThread') },
 ];

@@ -5,7 +5,7 @@
 import { DueTimes } from './due-times.ts';
 
 export interface TriggeredCamera {
-  readonly intervalNs: bigint;
+  readonly perSecond: number;
   capture(atNs: bigint): void;
 }
 
@@ -22,7 +22,7 @@ export class SimTrigger {
 
   /** @returns ends it */
   add(camera: TriggeredCamera): () => void {
-    this.#times.add(camera, camera.intervalNs, this.#nowNs());
+    this.#times.add(camera, camera.perSecond, this.#nowNs());
     this.#wait();
     return () => {
       this.#times.delete(camera);

@@ -26,7 +26,7 @@ export class SimVideoCameras {
     const { width, height } = camera.intrinsics;
     const rooms = new FrameRooms();
     const end = this.#trigger.add({
-      intervalNs: BigInt(Math.round(1e9 / source.framesPerS)),
+      perSecond: source.framesPerS,
       capture: (captureNs) => {
         // Where the process is behind, not even the rendering is worth its time.
         if (this.#seen === null || !target.takes) return;

@@ -1,0 +1,166 @@
+/** Three people at the real robot program: the drive goes from hand to hand only as agreed, and never moves the robot. */
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { grantTo, makeIssuer } from '@farpoint/grants/testing';
+import type { FaultReason, HandoverEnd, Role } from '@farpoint/protocol';
+import { afterAll, afterEach, describe, expect, it } from 'vitest';
+import { metricOf } from './testing/metric-of.ts';
+import { shownGrant } from './testing/shown-grant.ts';
+import { SignaledOperator } from './testing/signaled-operator.ts';
+import { steadyHand } from './testing/steady-hand.ts';
+import { useRobot } from './testing/use-robot.ts';
+
+const ID = 'sim-1';
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-people-'));
+const [keyFile, auditLog] = [join(folder, 'grant-keys.json'), join(folder, 'audit.jsonl')];
+const issuer = await makeIssuer('k1');
+writeFileSync(keyFile, JSON.stringify({ keys: [issuer.publicJwk] }));
+afterAll(() => rmSync(folder, { recursive: true }));
+
+const robot = useRobot(ID, [
+  ...['--rate-control', 'fixed', '--sim-size', '64', '--max-points', '600', '--grant-keys', keyFile],
+  // Hands on a busy machine have pauses.
+  ...['--watchdog-ms', '800', '--view-slow-ms', '1000', '--view-brake-ms', '2500', '--view-stall-ms', '1500'],
+  ...['--audit-log', auditLog],
+]);
+const hands: (() => void)[] = [];
+afterEach(() => {
+  for (const stop of hands.splice(0)) stop();
+});
+
+type Client = SignaledOperator['client'];
+const FORWARD = { linear: { x: 0.3, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0.5 } };
+
+async function enter(name: string, role: Role): Promise<Client> {
+  const credentials = shownGrant(ID, await grantTo(issuer, Date.now() / 1000, { role, name, sub: name }));
+  const operator = await SignaledOperator.connect(robot.stack.signalingUrl, ID, { credentials });
+  return robot.keep(operator).client;
+}
+
+/** The operator's number in the list of this one. */
+async function numberOf(client: Client, name: string): Promise<number> {
+  const list = await client.message('operators', ({ operators }) =>
+    operators.some((each) => each.name === name),
+  );
+  return list.operators.find((each) => each.name === name)?.number ?? Number.NaN;
+}
+
+const drives = (client: Client) => client.until(() => Math.abs(client.telemetry?.twist.linear.x ?? 0) > 0.1);
+const ended = (client: Client, end: HandoverEnd) => client.message('handover', (each) => each.ended === end);
+const fault = (client: Client, reason: FaultReason) =>
+  client.message('fault', (each) => each.reason === reason);
+
+/** Resolves after the robot has sent its state so often again. */
+async function states(client: Client, count: number): Promise<void> {
+  const { sequence } = client.telemetry ?? { sequence: 0 };
+  await client.until(() => (client.telemetry?.sequence ?? 0) >= sequence + count);
+}
+
+/** The robot stands, and goes on standing for a second although hands hold on. */
+async function expectStanding(client: Client): Promise<void> {
+  const speed = () =>
+    Math.abs(client.telemetry?.twist.linear.x ?? 1) + Math.abs(client.telemetry?.twist.angular.z ?? 1);
+  await client.until(() => speed() === 0);
+  const { sequence } = client.telemetry ?? { sequence: 0 };
+  let fastest = 0;
+  await client.until(() => {
+    fastest = Math.max(fastest, speed());
+    return (client.telemetry?.sequence ?? 0) >= sequence + 20;
+  });
+  expect(fastest).toBe(0);
+}
+
+describe('three people at one robot', { timeout: 60_000 }, () => {
+  it('hand the drive over by an offer and refuse a request; nothing moves without a grip that was opened', async () => {
+    const [ada, bob, wim] = [
+      await enter('Ada', 'drive'),
+      await enter('Bob', 'drive'),
+      await enter('Wim', 'watch'),
+    ];
+    hands.push(steadyHand(ada, await ada.takeLease(), FORWARD));
+    await drives(ada);
+
+    ada.sendSession({ type: 'driveOffer', to: await numberOf(ada, 'Wim') });
+    await fault(ada, 'only-watches');
+    wim.sendSession({ type: 'driveAsk' });
+    await fault(wim, 'not-permitted');
+    ada.sendSession({ type: 'driveOffer', to: await numberOf(ada, 'Bob') });
+    const offer = await bob.message('handover');
+    expect(offer).toMatchObject({ kind: 'offer', from: { name: 'Ada' }, to: { name: 'Bob' }, yours: false });
+    expect(offer.from).not.toHaveProperty('claimed');
+    // It is Bob's to answer, and Ada still drives.
+    for (const other of [ada, wim]) other.sendSession({ type: 'driveAnswer', id: offer.id, accept: true });
+    await fault(wim, 'not-open');
+    expect(ada.session.findLast(({ type }) => type === 'lease')).toMatchObject({ holder: 'you' });
+
+    bob.sendSession({ type: 'driveAnswer', id: offer.id, accept: true });
+    const { lease = '' } = await bob.message('lease', ({ holder }) => holder === 'you');
+    // His hand is on the stick already, and hers still is.
+    const holdsOn = steadyHand(bob, lease, FORWARD);
+    hands.push(holdsOn);
+    for (const each of [ada, bob]) await ended(each, 'accepted');
+    await bob.message('rejected', ({ reason }) => reason === 'let-go-first');
+    await ada.message('rejected', ({ reason }) => reason === 'not-lease-holder');
+    await expectStanding(bob);
+    await expectStanding(wim);
+    expect(wim.session.some(({ type }) => type === 'handover')).toBe(false);
+    holdsOn();
+    // As a page does: one of them may be lost.
+    for (let n = 0; n < 10; n++) {
+      bob.sendControl({ ...bob.hand.command(lease, 0, {}), deadMan: false });
+      await states(bob, 1);
+    }
+    hands.push(steadyHand(bob, lease, FORWARD));
+    await drives(bob);
+    await wim.message('operators', ({ operators }) =>
+      operators.some(({ name, drives }) => name === 'Bob' && drives),
+    );
+
+    ada.sendSession({ type: 'driveAsk' });
+    const { id } = await bob.message('handover', ({ kind }) => kind === 'ask');
+    bob.sendSession({ type: 'driveAnswer', id, accept: false });
+    await ended(ada, 'refused');
+    ada.sendSession({ type: 'driveAsk' });
+    await fault(ada, 'rate-limited');
+
+    // STOP, which anybody may press, ends what is open.
+    bob.sendSession({ type: 'driveOffer', to: await numberOf(bob, 'Ada') });
+    const last = await ada.message('handover', ({ yours, ended: end }) => !yours && end === undefined);
+    wim.sendSession({ type: 'estop', latch: true, press: 1 });
+    await ended(ada, 'estop');
+    ada.sendSession({ type: 'driveAnswer', id: last.id, accept: true });
+    await fault(ada, 'not-open');
+    expect(bob.session.findLast(({ type }) => type === 'lease')).toMatchObject({ holder: 'you' });
+
+    const count = (outcome: string) =>
+      metricOf(robot.stack.robotAdminUrl(ID), `farpoint_robot_handovers_total{outcome="${outcome}"}`);
+    expect([await count('offer-accepted'), await count('ask-refused'), await count('offer-estop')]).toEqual([
+      1, 1, 1,
+    ]);
+  });
+
+  it('read each other’s lines, also those from before they came', async () => {
+    const [ada, wim] = [await enter('Ada', 'drive'), await enter('Wim', 'watch')];
+    const text = '<b>Mind</b> the step';
+    wim.sendSession({ type: 'chat', text });
+    const line = { text, from: { name: 'Wim' } };
+    expect(await ada.message('chatLine')).toMatchObject({ ...line, yours: false, agoS: 0 });
+    expect(await wim.message('chatLine')).toMatchObject({ ...line, yours: true });
+    expect(await (await enter('Sue', 'supervise')).message('chatLine')).toMatchObject({
+      ...line,
+      yours: false,
+    });
+    for (let n = 0; n < 9; n++) wim.sendSession({ type: 'chat', text: `${n}` });
+    await fault(wim, 'rate-limited');
+    expect(await metricOf(robot.stack.robotAdminUrl(ID), 'farpoint_robot_chat_lines_total')).toBeLessThan(8);
+  });
+
+  it('has written the hand-over to its audit log', () => {
+    const entries = readFileSync(auditLog, 'utf8')
+      .split('\n')
+      .filter((line) => line.includes('"lease-handed-over"'));
+    expect(entries).toHaveLength(1);
+    for (const name of ['"Ada"', '"Bob"']) expect(entries[0]).toContain(name);
+  });
+});

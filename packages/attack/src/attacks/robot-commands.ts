@@ -1,0 +1,55 @@
+import type { SignaledOperator } from '@farpoint/robot-node/testing';
+import { attacks } from '../attack.ts';
+import { inTime, mustHold, pause } from '../harm.ts';
+import type { Scene } from '../scene.ts';
+
+type Client = SignaledOperator['client'];
+
+/** From a second operator of the driven robot, for whom it must not have begun any of its driver's commands afterwards. */
+function withGuest(act: (client: Client) => unknown) {
+  return async (scene: Scene): Promise<void> => {
+    const { client } = await scene.guest();
+    await act(client);
+    await pause(200);
+    const lights = await scene.metric('farpoint_robot_command_calls_total{command="lights"}');
+    mustHold(lights === 0, 'the robot did a command of its driver');
+  };
+}
+
+const call = (change: object) =>
+  ({ type: 'callCommand', id: 'lights', request: 1, timeMs: performance.now(), ...change }) as never;
+
+async function expectRefused(client: Client, reason: string): Promise<void> {
+  await inTime(
+    client.message('commandAnswer', (each) => each.outcome === 'refused' && each.reason === reason),
+    `a command was not refused as ${reason}`,
+  );
+}
+
+/** Robot commands, from an operator that does not drive, and commands that the robot does not have. */
+export const robotCommandAttacks = attacks('session', {
+  'robot command of the driver': withGuest(async (client) => {
+    client.sendSession(call({}));
+    await expectRefused(client, 'not-driver');
+  }),
+  'robot commands that are not configured': withGuest(async (client) => {
+    for (const id of ['dock', 'constructor', '0', 'a'.repeat(32)]) client.sendSession(call({ id }));
+    await expectRefused(client, 'unknown');
+  }),
+  'robot commands that name topics, types and values': withGuest((client) => {
+    for (const id of ['/cmd_vel', '../lights', '__proto__', '', 'a'.repeat(33), null, {}, ['lights']])
+      client.sendSession(call({ id }));
+    for (const more of [
+      { topic: '/cmd_vel' },
+      { service: '/x' },
+      { message: { data: true } },
+      { lease: 'x' },
+    ])
+      client.sendSession(call(more));
+    for (const request of [-1, 2 ** 32, 0.5, '1', null]) client.sendSession(call({ request }));
+  }),
+  'five hundred robot commands at once': withGuest(async (client) => {
+    for (let request = 0; request < 500; request++) client.sendSession(call({ id: 'horn', request }));
+    await expectRefused(client, 'too-often');
+  }),
+});
