@@ -9,6 +9,7 @@ import {
   MotionSupervisor,
   NO_RAMPS,
   type RampLimits,
+  RESUME_WITHIN_MS,
   ViewAge,
 } from '@farpoint/safety';
 import { officeWorld, SimulatedBase, type WorldDescription } from '@farpoint/sim';
@@ -87,7 +88,7 @@ class DrivenRobot {
     this.base = new SimulatedBase(plain(), { maxLinearSpeed: maxMps });
     this.guard = new DriveGuard({
       limits: { maxLinear: maxMps, maxAngular: 1.5, watchdogMs: WATCHDOG_MS, maxCommandsPerSecond: 100 },
-      letGoAfterMs: WATCHDOG_MS,
+      letGoAfterMs: RESUME_WITHIN_MS,
       takePolicy: 'always',
       randomBytes: (count) => new Uint8Array(count).fill(7),
     });
@@ -95,7 +96,9 @@ class DrivenRobot {
     this.#motion = new MotionSupervisor(this.guard, {
       ramps,
       guards: bounded ? [new ViewAge(view, VIEW), new BlindTravel(view, VIEW)] : [],
-      ...(bounded ? { letGoAfter: { 'view-lost': 'what you saw was too old' } } : {}),
+      ...(bounded
+        ? { letGoAfter: { 'view-lost': { why: 'what you saw was too old', lastsMs: RESUME_WITHIN_MS } } }
+        : {}),
     });
     const granted = this.guard.requestLease('driver', false, START_MS);
     this.lease = granted.granted ? granted.lease : '';

@@ -3,6 +3,7 @@
  * cause to the first lower velocity that the wheels are told. Prints the times, and judges them mildly, for the
  * machine may be busy; `pnpm bench faults` judges each strictly.
  */
+import { RESUME_WITHIN_MS } from '@farpoint/safety';
 import { isAvailable } from '@farpoint/shared-memory';
 import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
 import { brakingFaults } from './testing/faults/braking-faults.ts';
@@ -117,7 +118,8 @@ describe.skipIf(!isAvailable())(
       try {
         await rig.wheels.until(({ linear }) => linear === 0);
         if (withinMs !== undefined) judge(name, causeMs, withinMs);
-        await (silent ? rig.wheels.silence(600) : rig.wheels.beats(8));
+        // Longer than a gap after which it would move on.
+        await (silent ? rig.wheels.silence(600) : rig.wheels.beats(20));
       } finally {
         await ends(driving);
       }
@@ -125,6 +127,25 @@ describe.skipIf(!isAvailable())(
       expect(rig.wheels.speed).toBe(0);
       await rig.untilDriving(driving.hand);
     }
+
+    test('a gap of a quarter of a second in the commands: brakes, and moves on by its ramps', async () => {
+      const driving = await drive();
+      for (let tries = 0; ; tries++) {
+        const causeMs = performance.now();
+        const gapMs = await driving.hand.pauses(250);
+        const { fastest } = rig.wheels;
+        expect(rig.wheels.brakingAfter(causeMs)?.afterMs).toBeLessThanOrEqual(gapMs + BUSY_MS);
+        expect(fastest).toBeLessThanOrEqual(SPEED);
+        // A machine that was too busy made it longer than the robot allows.
+        if (gapMs < RESUME_WITHIN_MS - 50) break;
+        expect(tries).toBeLessThan(10);
+        await rig.untilDriving(driving.hand);
+      }
+      await rig.wheels.until(({ linear }) => linear === SPEED);
+      expect(driving.operator.client.session).not.toContainEqual(
+        expect.objectContaining({ type: 'rejected', reason: 'let-go-first' }),
+      );
+    });
 
     test.each(returningFaults)('$name: stays until the hand has let go', returns);
 

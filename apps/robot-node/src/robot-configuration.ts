@@ -60,6 +60,8 @@ export interface RobotOptions extends RateControlOptions {
   estopRelease: EstopReleasePolicy;
   /** What happens when commands come again after a gap that stopped the robot. */
   afterGap: AfterGap;
+  /** After a shorter gap it moves on if the hand has held on, ms. */
+  resumeWithinMs: number;
   /** Where it may go; if undefined, anywhere. */
   fence?: FenceOptions | undefined;
   /** How it drives back by itself when it hears no operator; if undefined, never. */

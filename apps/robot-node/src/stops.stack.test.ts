@@ -147,11 +147,16 @@ it('after a gap that stopped the robot, moves again only once the hand has let g
 }, async () => {
   const driver = await robot.connect();
   const { client } = driver;
-  expect((await client.message('welcome')).limits).toMatchObject({ watchdogMs: 150, afterGap: 'let-go' });
+  expect((await client.message('welcome')).limits).toMatchObject({
+    watchdogMs: 150,
+    afterGap: 'let-go',
+    resumeWithinMs: 400,
+  });
   const lease = await client.takeLease();
   (await driving(driver, lease))();
   await client.until(() => client.telemetry?.drive === 'watchdog');
-  await client.until(() => client.telemetry?.twist.linear.x === 0);
+  await client.until(() => client.telemetry?.motion?.letGoFirst === true);
+  expect(client.telemetry?.twist.linear.x).toBe(0);
   const { length } = client.session;
   client.drive(lease, 0.1);
   await client.until(() =>

@@ -22,6 +22,7 @@ import type { Notices } from './state/notices.ts';
 import { PageState } from './state/page-state.ts';
 import { PageStatistics, type PageStats } from './status/page-stats.ts';
 import { tellNotices } from './status/tell-notices.ts';
+import { viewAgeMs } from './status/view-age.ts';
 import { leavingWords } from './status/words.ts';
 import { openAppearance } from './stored-appearance.ts';
 import { PresentedInstant } from './telemetry/presented-instant.ts';
@@ -231,9 +232,10 @@ export class App {
 
   /** Current figures of the stream and of the drawing. */
   figures(): PageStats {
-    const videos = this.videos.stats(performance.now());
-    const { renderer } = this.stage;
-    const stats = this.stats.snapshot(this.client.stats(), this.cloud, renderer.domElement, videos);
+    const nowMs = performance.now();
+    const shown = { canvas: this.stage.renderer.domElement, videos: this.videos.stats(nowMs) };
+    const ageMs = viewAgeMs(this.client, nowMs);
+    const stats = this.stats.snapshot(this.client.stats(), this.cloud, { ...shown, viewAgeMs: ageMs });
     return { ...stats, view: this.predicted.figures, videoColour: this.videoColour.figures };
   }
 

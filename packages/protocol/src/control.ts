@@ -19,6 +19,11 @@ export interface Command {
   lease: string;
   /** True while the dead-man grip is held; without it, only a zero twist is accepted. */
   deadMan: boolean;
+  /**
+   * The grip was held when its device was last read, but that is too long ago to drive by: the robot brakes at once,
+   * whatever the twist. Unlike a zero twist, it does not say that the hand has let go. Left out otherwise.
+   */
+  unread?: true | undefined;
   /** linear.x in m/s and angular.z in rad/s of base_link; every other component is 0. */
   twist: Twist;
   /**
@@ -68,6 +73,7 @@ export const commandSchema = z.strictObject({
   timeMs: timeMsSchema,
   lease: handleSchema,
   deadMan: z.boolean(),
+  unread: z.optional(z.literal(true)),
   twist: twistSchema,
   seenUs: z.optional(uint32Schema),
   latencyTest: z.optional(uint32Schema),

@@ -24,8 +24,10 @@ export interface MotionState {
   reasons: readonly Intervention[];
   /** The fastest that the robot drives straight on now, m/s: at most its limit. */
   mostLinear: number;
-  /** Age of what the driver sees when its command arrives, worst of the last second, ms. Left out while unknown. */
+  /** Age of what the driver sees when its command arrives, worst of the last second, ms. Left out while no command comes. */
   viewAgeMs?: number | undefined;
+  /** Whether the driver must let go of the grip once before the robot moves again. Left out if not. */
+  letGoFirst?: true | undefined;
   /** Whether the robot looks where it goes. Left out by robots that cannot. */
   obstacleGuard?: ObstacleGuardState | undefined;
   /** That it drives back by itself, or has done so since somebody last drove it. */
@@ -39,6 +41,7 @@ export const motionStateSchema = z.strictObject({
   reasons: z.array(z.enum(interventions)).check(z.maxLength(interventions.length)),
   mostLinear: nonNegative,
   viewAgeMs: z.optional(nonNegative),
+  letGoFirst: z.optional(z.literal(true)),
   obstacleGuard: z.optional(z.enum(obstacleGuardStates)),
   return: z.optional(returnStateSchema),
 }) satisfies z.ZodMiniType<MotionState>;

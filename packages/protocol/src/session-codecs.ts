@@ -39,6 +39,9 @@ export const videoDescriptionSchema = z.strictObject({
 const MAX_LATENCY_MS = 60_000;
 const latencyMsSchema = z.number().check(z.minimum(0), z.maximum(MAX_LATENCY_MS));
 
+/** No robot moves on by itself after a longer gap, ms. */
+const MOST_RESUME_MS = 1000;
+
 /** Corners farther from base_link are no robot's, m. */
 const MOST_REACH_M = 10;
 const reachSchema = z.number().check(z.minimum(-MOST_REACH_M), z.maximum(MOST_REACH_M));
@@ -75,6 +78,7 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
         watchdogMs: positive,
         maxCommandsPerSecond: positive,
         afterGap: z.optional(z.enum(afterGapChoices)),
+        resumeWithinMs: z.optional(z.number().check(z.minimum(0), z.maximum(MOST_RESUME_MS))),
       }),
       body: z.optional(bodySchema),
       stream: z.strictObject({

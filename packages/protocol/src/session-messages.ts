@@ -28,7 +28,7 @@ export interface DriveLimits {
 /** What a robot does when commands come again after a gap that stopped it. */
 export const afterGapChoices = [
   'resume', // it moves again at once, after a gap of less than 1 s
-  'let-go', // it moves again once the operator has let go of the grip
+  'let-go', // it moves again once the operator has let go of the grip, unless the gap was very short
 ] as const;
 /**
  * What a robot does when commands come again after a gap that stopped it.
@@ -51,6 +51,11 @@ export interface Welcome {
   limits: DriveLimits & {
     /** Left out by older robots, which resume. */
     afterGap?: AfterGap | undefined;
+    /**
+     * After a shorter gap the robot moves on by itself if the hand has held on, ms. Left out by older robots, which know no
+     * command that is `unread`.
+     */
+    resumeWithinMs?: number | undefined;
   };
   /** What the robot takes of the floor, and how it stops. Left out by older robots. */
   body?: RobotBody | undefined;

@@ -504,13 +504,14 @@ command = control.good({"type": "command", "sequence": 17, "timeMs": 52311.5, "l
                         "twist": {"linear": vector3(0.5), "angular": vector3(0, 0, -0.25)}})
 control.good({**command, "latencyTest": 4, "sequence": 2 ** 32 - 1, "timeMs": 0}, "command with a latency test, largest sequence")
 control.good({**command, "seenUs": 2 ** 32 - 1}, "command that says what is seen")
+control.good({**command, "unread": True}, "command of a hand that is not read")
 control.good({**command, "lease": "A-Za-z0-9_-" + "x" * 53, "deadMan": False}, "command with the longest lease")
 probe = control.good({"type": "clockProbe", "id": 3, "sentMs": 1000.25})
 report = control.good({"type": "receiverReport", "sequence": 9, "packetsReceived": 60000, "packetsLost": 12, "bytesReceived": 74640000})
 press = control.good({"type": "estop", "press": 1})
 control.good({"type": "estop", "press": 2 ** 32 - 1}, "estop: the largest number")
 control.common(command, 1024)
-control.spoil(command, ("seenUs", -1), ("seenUs", 2 ** 32), ("seenUs", 0.5), ("sequence", -1), ("sequence", 2 ** 32), ("sequence", 1.5), ("sequence", "17"), ("sequence", ABSENT),
+control.spoil(command, ("unread", False), ("unread", 1), ("seenUs", -1), ("seenUs", 2 ** 32), ("seenUs", 0.5), ("sequence", -1), ("sequence", 2 ** 32), ("sequence", 1.5), ("sequence", "17"), ("sequence", ABSENT),
               ("timeMs", -0.1), ("timeMs", None), ("timeMs", 1e300), ("lease", ""), ("lease", "x" * 65), ("lease", "a b"), ("lease", ABSENT),
               ("deadMan", 1), ("deadMan", ABSENT), ("twist", None), ("twist.linear", ABSENT), ("twist.linear.x", "0.5"),
               ("twist.linear.x", None), ("twist.angular.z", ABSENT), ("latencyTest", -1), ("latencyTest", True),
@@ -585,7 +586,10 @@ held = robot_session.good({"type": "estop", "latched": True, "by": "robot", "rel
 pressed = robot_session.good({"type": "estop", "latched": True, "by": "operator", "latch": 7, "press": 2}, "estop with its number, and this operator's press")
 for after_gap in ["let-go", "resume"]:
     robot_session.good(changed(welcome, "limits.afterGap", after_gap), "welcome, after a gap: " + after_gap)
+robot_session.good(changed(welcome, "limits.resumeWithinMs", 400), "welcome: moves on after a gap of less than 400 ms")
+robot_session.good(changed(welcome, "limits.resumeWithinMs", 0), "welcome: never moves on after a gap")
 robot_session.spoil(welcome, ("limits.afterGap", "go"), ("limits.afterGap", True))
+robot_session.spoil(welcome, ("limits.resumeWithinMs", -1), ("limits.resumeWithinMs", 1001), ("limits.resumeWithinMs", "400"))
 robot_session.spoil(pressed, ("latch", -1), ("latch", 0.5), ("press", 2 ** 32), ("press", "2"))
 latency = robot_session.good({"type": "latencyFrame", "id": 4, "frameNumber": 901, "points": 30000, "commandMs": 88120.5, "captureMs": 88131})
 cloud_stream = robot_session.good({"type": "cloudStream", "format": "organised", "header": "RlBPQwEBAAA="})
@@ -741,7 +745,7 @@ telemetry.spoil(returned, ("motion.return.phase", "waiting"), ("motion.return.ph
                 ("motion.return.end", ABSENT), ("motion.return.end", "fear"), ("motion.return.metres", -1),
                 ("motion.return.metres", ABSENT), ("motion.return.more", 1, "motion.return"))
 telemetry.spoil({**state, "motion": motion}, ("motion.factor", 1.01), ("motion.factor", -0.1), ("motion.reasons", ["fear"], "motion.reasons.0"),
-                ("motion.reasons", ["fence"] * 40), ("motion.mostLinear", -1), ("motion.mostLinear", ABSENT), ("motion.viewAgeMs", -1),
+                ("motion.reasons", ["fence"] * 40), ("motion.mostLinear", -1), ("motion.mostLinear", ABSENT), ("motion.viewAgeMs", -1), ("motion.letGoFirst", False),
                 ("motion.obstacleGuard", "sleeping"), ("motion.more", 1, "motion"))
 telemetry.good(changed(state, "stream.feedback", "reports"), "telemetry: the rate follows receiver reports")
 for drive in ["idle", "watchdog", "estop", "blocked"]:

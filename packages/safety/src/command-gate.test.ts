@@ -25,6 +25,7 @@ test('accepts a valid command', () => {
   expect(new CommandGate(defaultDriveLimits).check('a', command(), 0, open)).toEqual({
     accepted: true,
     spentMs: 0,
+    unread: false,
     twist: { linear: { x: 0.5, y: 0, z: 0 }, angular: { x: 0, y: 0, z: -0.25 } },
   });
 });

@@ -5,9 +5,11 @@ import {
   isZeroTwist,
   sequenceDelta32,
   type Twist,
+  zeroTwist,
 } from '@farpoint/protocol';
 import { TokenBucket } from '@farpoint/timing';
 import type { EstopAnswer } from './estop.ts';
+import { MOST_RESUME_MS } from './limits.ts';
 import { QueueingDelay } from './queueing-delay.ts';
 
 export interface RejectedCommand {
@@ -23,6 +25,8 @@ export type CommandVerdict =
       twist: Twist;
       /** So much less than the watchdog's time it is valid, ms: it took longer than usual from the operator's hand. */
       spentMs: number;
+      /** The device in the operator's hand was not read: stop, without knowing whether the hand has let go. */
+      unread: boolean;
     }
   | RejectedCommand;
 
@@ -40,8 +44,8 @@ export interface CommandGateOptions {
   /** A command that was in transit for longer is stale, ms. */
   maxAgeMs?: number;
   /**
-   * If no command was accepted for this long after motion, the hand must let go of the stick before driving again, ms.
-   * Default 1000.
+   * If no motion was accepted for this long after motion, and the hand has held on, it must let go of the stick before
+   * driving again, ms. Default {@link MOST_RESUME_MS}.
    */
   letGoAfterMs?: number;
   /** How long the shortest transit time is remembered, ms (queueing-delay.ts). */
@@ -86,7 +90,7 @@ export class CommandGate {
     this.#limits = Object.freeze({ ...limits });
     this.#maxAgeMs = options.maxAgeMs ?? limits.watchdogMs;
     this.#delayWindowMs = options.delayWindowMs ?? 10_000;
-    this.#letGoAfterMs = options.letGoAfterMs ?? 1000;
+    this.#letGoAfterMs = options.letGoAfterMs ?? MOST_RESUME_MS;
   }
 
   check(operatorId: string, command: Command, nowMs: number, context: GateContext): CommandVerdict {
@@ -105,8 +109,9 @@ export class CommandGate {
     // From here on, this command is the operator's latest request. Older ones that arrive after it are ignored, even if
     // this one is refused (because the grip was released, for example).
     operator.lastSequence = command.sequence;
-    const motion = !isZeroTwist(command.twist);
     const spentMs = Math.max(0, waitedMs - JITTER_MS);
+    if (command.unread === true) return { accepted: true, spentMs, unread: true, twist: zeroTwist() };
+    const motion = !isZeroTwist(command.twist);
     if (!motion || !command.deadMan) {
       operator.movedMs = null;
       operator.mustLetGo = null;
@@ -126,6 +131,7 @@ export class CommandGate {
     return {
       accepted: true,
       spentMs,
+      unread: false,
       twist: {
         linear: { x: cutTo(maxLinear, command.twist.linear.x), y: 0, z: 0 },
         angular: { x: 0, y: 0, z: cutTo(maxAngular, command.twist.angular.z) },
@@ -148,6 +154,12 @@ export class CommandGate {
   requireLetGo(why: string): void {
     for (const operator of this.#operators.values())
       if (operator.movedMs !== null) operator.mustLetGo ??= why;
+  }
+
+  /** Whether motion of this operator would be refused until its hand has let go, whoever or whatever demands that. */
+  mustLetGo(operatorId: string, nowMs: number): boolean {
+    const operator = this.#operators.get(operatorId);
+    return operator !== undefined && (operator.mustLetGo !== null || this.#heldTooLong(operator, nowMs));
   }
 
   /** Whether this operator's hand is still to let go, as {@link requireLetGo} demanded. */
@@ -185,10 +197,15 @@ export class CommandGate {
   }
 
   /** A hand that kept holding while the link was down must not move the robot by itself when the link returns. */
-  #heldThroughSilence({ movedMs }: OperatorState, nowMs: number): RejectedCommand | null {
-    if (movedMs === null || nowMs - movedMs < this.#letGoAfterMs) return null;
+  #heldThroughSilence(operator: OperatorState, nowMs: number): RejectedCommand | null {
+    const { movedMs } = operator;
+    if (movedMs === null || !this.#heldTooLong(operator, nowMs)) return null;
     const seconds = ((nowMs - movedMs) / 1000).toFixed(1);
     return rejected('let-go-first', `held while no command came through for ${seconds} s: let go of it once`);
+  }
+
+  #heldTooLong({ movedMs }: OperatorState, nowMs: number): boolean {
+    return movedMs !== null && !(nowMs - movedMs < this.#letGoAfterMs);
   }
 
   #outOfRange(twist: Twist): RejectedCommand | null {

@@ -43,7 +43,7 @@ export interface DriveGuardOptions extends LeaseOptions, CommandGateOptions {
  */
 export class DriveGuard {
   /** How old what the driver sees is. */
-  readonly view = new OperatorView();
+  readonly view: OperatorView;
   readonly #limits: Readonly<DriveLimits>;
   readonly #gate: CommandGate;
   readonly #leases: LeaseTable;
@@ -63,6 +63,7 @@ export class DriveGuard {
     this.#estop = new EstopLatch(this.#limits.watchdogMs);
     this.#estopRelease = options.estopRelease ?? 'driver';
     this.#watchdog = new Watchdog(this.#limits.watchdogMs);
+    this.view = new OperatorView(this.#limits.watchdogMs);
   }
 
   /** Frozen. */
@@ -82,10 +83,14 @@ export class DriveGuard {
       wheelsFault,
     });
     if (verdict.accepted) {
-      this.#wish = verdict.twist;
-      this.#forced = false;
       const { seenUs } = command;
       this.view.note(seenUs === undefined ? null : ageOfStampMs(seenUs, nowMs), nowMs);
+      if (verdict.unread) {
+        this.#halt();
+        return verdict;
+      }
+      this.#wish = verdict.twist;
+      this.#forced = false;
       // What was read a while ago is valid for so much less.
       this.#watchdog.feed(nowMs - verdict.spentMs);
       if (!isZeroTwist(verdict.twist)) this.#leases.noteMotion(nowMs);
@@ -154,7 +159,13 @@ export class DriveGuard {
     return !isZeroTwist(this.#wish) && this.#watchdog.expired(nowMs);
   }
 
-  /** Whether the driver must let go once before the robot moves again. */
+  /** Whether the robot would refuse its driver's motion until the hand has let go once. */
+  mustLetGo(nowMs: number): boolean {
+    const { holder } = this.#leases;
+    return holder !== null && this.#gate.mustLetGo(holder, nowMs);
+  }
+
+  /** Whether {@link demandLetGo} still keeps the robot from moving. */
   get awaitsLetGo(): boolean {
     const { holder } = this.#leases;
     return holder !== null && this.#gate.awaitsLetGo(holder);

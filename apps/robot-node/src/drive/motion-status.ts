@@ -38,12 +38,14 @@ export class MotionStatus {
     // Clouds are judged while somebody drives.
     const seen = this.#obstacleGuard?.();
     const returns = this.#returns?.();
+    const letGoFirst = guard.mustLetGo(nowMs);
     const looks = seen === 'blind' && guard.leaseHolder === null ? 'on' : seen;
     return {
       factor,
       reasons,
       mostLinear: Math.min(guard.limits.maxLinear, mostMps),
       ...(ageMs === null ? {} : { viewAgeMs: Math.max(0, Math.round(ageMs)) }),
+      ...(letGoFirst ? { letGoFirst } : {}),
       ...(looks === undefined ? {} : { obstacleGuard: looks }),
       ...(returns === undefined ? {} : { return: returns }),
     };

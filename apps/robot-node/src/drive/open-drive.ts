@@ -34,6 +34,8 @@ export interface DriveOptions {
   takePolicy: TakePolicy;
   estopRelease: EstopReleasePolicy;
   afterGap: AfterGap;
+  /** After a shorter gap the robot moves on if the hand has held on, ms. */
+  resumeWithinMs: number;
   /** Where the robot may move; `null` for everywhere. */
   fence?: FenceOptions | null | undefined;
   /** How it drives back by itself; if undefined, never. */
@@ -78,14 +80,14 @@ export interface Drive {
  * the next run.
  */
 export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
-  const { limits, motion, takePolicy, estopRelease, afterGap } = options;
+  const { limits, motion, takePolicy, estopRelease, afterGap, resumeWithinMs } = options;
   const { base, sink, recording, audit, obstacles, state, heard, count, log } = parts;
   const fence = options.fence == null ? null : openGeofence(options.fence, state, base !== null);
   const letGo = afterGap === 'let-go';
   const guard = new DriveGuard({
     ...{ limits, takePolicy, estopRelease, randomBytes: (bytes) => randomBytes(bytes) },
-    // Any gap that lets the watchdog stop the robot.
-    ...(letGo ? { letGoAfterMs: limits.watchdogMs } : {}),
+    // A shorter gap does not stop the robot.
+    letGoAfterMs: Math.max(limits.watchdogMs, resumeWithinMs),
   });
   const { view, ramps } = motion;
   const blindTravel = view === null ? null : new BlindTravel(guard.view, view);
@@ -103,7 +105,9 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
       ...(blindTravel === null ? [] : [blindTravel]),
     ],
     unattended: returns?.drive ?? null,
-    ...(letGo ? { letGoAfter: { 'view-lost': 'what you saw was too old' } } : {}),
+    ...(letGo
+      ? { letGoAfter: { 'view-lost': { why: 'what you saw was too old', lastsMs: resumeWithinMs } } }
+      : {}),
   });
   const report = new InterventionReport(log, count);
   supervisor.onIntervention = (reason, nowMs) => report.begins(reason, nowMs);

@@ -1,6 +1,6 @@
 /** The safety limits, and how many operators may connect. */
 import { afterGapChoices } from '@farpoint/protocol';
-import { defaultDriveLimits, estopReleasePolicies } from '@farpoint/safety';
+import { defaultDriveLimits, estopReleasePolicies, MOST_RESUME_MS, RESUME_WITHIN_MS } from '@farpoint/safety';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 
 export const limitsOptions = optionGroup('limits', {
@@ -44,7 +44,13 @@ export const limitsOptions = optionGroup('limits', {
     schema: schema.choice(afterGapChoices),
     default: 'let-go',
     argument: 'CHOICE',
-    help: 'when commands come again after a gap that stopped the robot: let-go (it moves once the operator has let go of the grip), resume (it moves at once, if the gap was shorter than 1 s)',
+    help: 'when commands come again after a gap that stopped the robot: let-go (it moves once the operator has let go of the grip, unless the gap was shorter than --resume-within-ms), resume (it moves at once, if the gap was shorter than 1 s)',
+  }),
+  resumeWithinMs: defineOption({
+    schema: schema.number({ min: 0, max: MOST_RESUME_MS }),
+    default: RESUME_WITHIN_MS,
+    argument: 'MS',
+    help: 'a hand that has held on through a shorter gap need not let go: the robot brakes, and moves on by its ramps; 0: it always must',
   }),
   maxOperators: defineOption({
     schema: schema.integer({ min: 1, max: 32 }),

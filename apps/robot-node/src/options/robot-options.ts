@@ -2,6 +2,7 @@
 import { randomBytes } from 'node:crypto';
 import { join } from 'node:path';
 import { RosFault, ros1Hostname, type TopicEntry, topicAs } from '@farpoint/ros';
+import { MOST_RESUME_MS } from '@farpoint/safety';
 import { type OptionMistake, OptionsError } from '@farpoint/service';
 import { BitRate } from '@farpoint/timing';
 import { SIM_FIX, SIM_MOTORS } from '../base/sim-topics.ts';
@@ -93,6 +94,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     takePolicy: values.takePolicy,
     estopRelease: values.estopRelease,
     afterGap: values.afterGap,
+    resumeWithinMs: values.afterGap === 'resume' ? MOST_RESUME_MS : values.resumeWithinMs,
     ...{ fence, returns, model },
     stops: toStops(values, (kind) => toGraph(values, kind)),
     stateFolder: folder,

@@ -11,7 +11,10 @@ import type { OperatorSession } from './operator-session.ts';
 const ELEVATION_DIGITS = 5;
 
 export interface WelcomeFacts
-  extends Pick<RobotOptions, 'id' | 'name' | 'limits' | 'afterGap' | 'sensors' | 'motion' | 'obstacleGuard'> {
+  extends Pick<
+    RobotOptions,
+    'id' | 'name' | 'limits' | 'afterGap' | 'resumeWithinMs' | 'sensors' | 'motion' | 'obstacleGuard'
+  > {
   quantities: readonly Quantity[];
   /** Those that are raised. */
   alarms: readonly Alarm[];
@@ -26,7 +29,7 @@ export function welcome(
   sensors: CloudSensors,
   videos: VideoHub,
 ): void {
-  const { id, name, limits, afterGap, sensors: configured, quantities, alarms, nowS } = facts;
+  const { id, name, limits, afterGap, resumeWithinMs, sensors: configured, quantities, alarms, nowS } = facts;
   const { messages, resumeKey } = operator;
   const { description, cameras } = sensors.first.capture;
   const { width, height } = description;
@@ -38,7 +41,7 @@ export function welcome(
     protocol: PROTOCOL_VERSION,
     robotId: id,
     name,
-    limits: { ...limits, afterGap },
+    limits: { ...limits, afterGap, resumeWithinMs },
     body: bodyOf(facts),
     stream: { format: 'points64', width, height, framesPerSecond },
     resumeKey: resumeKey.text,

@@ -81,6 +81,7 @@ test('a keyboard is read while the page runs, at a new grip and when it opens', 
   keys.key('Space', true, 20);
   keys.key('KeyW', true, 30);
   expect(keys.readMs).toBe(10);
+  keys.runs(30);
   keys.runs(40);
   expect(keys.readMs).toBe(40);
   keys.key('Space', false, 50);

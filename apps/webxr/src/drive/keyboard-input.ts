@@ -1,5 +1,6 @@
 /** W, A, S, D or the arrow keys, while Space or Shift is held. Pure: the caller passes in the codes of the keys. */
 import type { DriveInput, DriveWish } from '@farpoint/operator';
+import { EventReading } from './event-reading.ts';
 
 const GRIPS: readonly string[] = ['Space', 'ShiftLeft', 'ShiftRight'];
 const FORWARD: readonly string[] = ['KeyW', 'ArrowUp'];
@@ -11,8 +12,12 @@ const KEYS: ReadonlySet<string> = new Set([...GRIPS, ...FORWARD, ...BACK, ...LEF
 export class KeyboardInput implements DriveInput {
   readonly name = 'keyboard';
   readonly wish: DriveWish = { forward: 0, left: 0 };
-  readMs = Number.NEGATIVE_INFINITY;
+  readonly #reading = new EventReading();
   readonly #down = new Set<string>();
+
+  get readMs(): number {
+    return this.#reading.readMs;
+  }
 
   get held(): boolean {
     return this.#any(GRIPS);
@@ -20,7 +25,7 @@ export class KeyboardInput implements DriveInput {
 
   /** Keys stay down between events for as long as the page runs: call this regularly while it does. */
   runs(nowMs: number): void {
-    this.readMs = nowMs;
+    this.#reading.runs(nowMs);
   }
 
   /** @param code KeyboardEvent.code @param nowMs of now, not of the event @returns whether this input uses the key */
@@ -30,7 +35,7 @@ export class KeyboardInput implements DriveInput {
     if (down) this.#down.add(code);
     else this.#down.delete(code);
     // A new grip and an open one are news of the hand. A repeated key says nothing about the time before it.
-    if (!wasHeld || !this.held) this.readMs = nowMs;
+    if (!wasHeld || !this.held) this.#reading.told(nowMs);
     this.wish.forward = Number(this.#any(FORWARD)) - Number(this.#any(BACK));
     this.wish.left = Number(this.#any(LEFT)) - Number(this.#any(RIGHT));
     return true;

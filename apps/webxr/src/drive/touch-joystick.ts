@@ -2,6 +2,7 @@
 
 import type { DriveInput, DriveWish } from '@farpoint/operator';
 import { shapeAxis } from './dead-zone.ts';
+import { EventReading } from './event-reading.ts';
 
 const RESPONSE = { deadZone: 0.08, expo: 0.4 };
 
@@ -9,7 +10,7 @@ export class TouchJoystick implements DriveInput {
   readonly name = 'touch';
   readonly wish: DriveWish = { forward: 0, left: 0 };
   held = false;
-  readMs = Number.NEGATIVE_INFINITY;
+  readonly #reading = new EventReading();
   readonly #base: HTMLElement;
   readonly #knob: HTMLElement;
   readonly #onChange: () => void;
@@ -23,7 +24,7 @@ export class TouchJoystick implements DriveInput {
       if (this.#pointer !== null) return;
       this.#pointer = event.pointerId;
       base.setPointerCapture(event.pointerId);
-      this.readMs = performance.now();
+      this.#reading.told(performance.now());
       this.held = true;
       this.#move(event);
     });
@@ -31,7 +32,7 @@ export class TouchJoystick implements DriveInput {
     for (const end of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) {
       base.addEventListener(end, (event) => {
         if (event.pointerId !== this.#pointer) return;
-        this.readMs = performance.now();
+        this.#reading.told(performance.now());
         this.release();
       });
     }
@@ -39,7 +40,11 @@ export class TouchJoystick implements DriveInput {
 
   /** A finger stays down between events for as long as the page runs: call this regularly while it does. */
   runs(nowMs: number): void {
-    this.readMs = nowMs;
+    this.#reading.runs(nowMs);
+  }
+
+  get readMs(): number {
+    return this.#reading.readMs;
   }
 
   release(): void {

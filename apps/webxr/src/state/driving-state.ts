@@ -21,7 +21,7 @@ export function drivingState({ driver, link }: RobotClient, samples: Sampler) {
         ...{ holder: driver.holder, driver: link.session.lease.driver ?? null },
         role: link.session.welcome?.access?.role ?? null,
         device: driver.stream.held ? (driver.input?.name ?? '') : null,
-        gripLost: driver.lost,
+        ...{ gripLost: driver.lost, paused: driver.paused },
       }),
     ),
   };

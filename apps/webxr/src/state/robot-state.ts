@@ -55,8 +55,6 @@ export function robotState({ link, stops, driver }: RobotClient, samples: Sample
     }),
     /** The most that it drives, m/s. */
     maxLinear: samples.of(() => link.session.welcome?.limits.maxLinear ?? 0),
-    /** What it demands when commands come again after a gap that stopped it. */
-    afterGap: samples.of(() => link.session.welcome?.limits.afterGap ?? 'resume'),
     /** There is a session, and the robot's emergency stop is on. */
     estopLatched: samples.of(() => link.phase === 'live' && link.session.estop.latched),
     /** It is, and it can be released at the robot only. */

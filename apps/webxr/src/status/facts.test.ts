@@ -6,7 +6,7 @@ import { wristLines } from './wrist-lines.ts';
 
 const figures = {
   ...{ pointsPerFrame: 12_345.6, framesPerSecond: 10, bitsPerSecond: 3_210_000, lossRate: 0 },
-  ...{ drawnOneOf: 1, remembered: null, minRttMs: 42, frameLatencyMs: null, mtpMs: null },
+  ...{ drawnOneOf: 1, remembered: null, minRttMs: 42, viewAgeMs: null, mtpMs: null },
 } as PageStats;
 const telemetry = {
   drive: 'idle',
@@ -19,7 +19,6 @@ const session = {
   name: 'Rover',
   telemetry,
   estop: open,
-  afterGap: 'let-go',
   maxLinear: 1,
   readings: [],
   figures,
@@ -56,10 +55,10 @@ describe('the table of figures', () => {
       Rate: '3.2 Mbit/s',
       Loss: '0.0 %',
       'Round trip': '42 ms',
-      'Frame age': '–',
+      'View age': '–',
     });
     const bare = sessionFacts({ ...session, name: null, telemetry: null });
-    expect(bare.map(({ name }) => name)).toEqual(['Points', 'Rate', 'Loss', 'Round trip', 'Frame age']);
+    expect(bare.map(({ name }) => name)).toEqual(['Points', 'Rate', 'Loss', 'Round trip', 'View age']);
   });
 
   test('says what a slow computer leaves out', () => {
@@ -82,9 +81,14 @@ describe('the table of figures', () => {
 
   test('after a gap, says what the robot waits for', () => {
     const stopped = { ...session, telemetry: { ...telemetry, drive: 'watchdog' } as Telemetry };
-    const state = (afterGap: 'resume' | 'let-go') => values(sessionFacts({ ...stopped, afterGap })).State;
-    expect(state('resume')).toBe('Stopped: no recent command');
-    expect(state('let-go')).toBe('Stopped by a gap: let go, then drive');
+    expect(values(sessionFacts(stopped)).State).toBe('Stopped: no recent command');
+    const motion = { factor: 1, reasons: [], mostLinear: 1, letGoFirst: true } as const;
+    const state = (drive: string) =>
+      values(sessionFacts({ ...session, telemetry: { ...telemetry, drive, motion } as Telemetry })).State;
+    expect([state('watchdog'), state('idle')]).toEqual(
+      Array.from({ length: 2 }, () => 'Stopped by a gap: let go, then drive'),
+    );
+    expect(state('driving')).toBe('Driving');
   });
 
   test('a reading replaces the battery row and no other', () => {
@@ -99,7 +103,7 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
   const words = { text: 'Live', tone: 'good' } as const;
   const facts = {
     ...{ link: words, driving: words, telemetry, estopLatched: false, figures, estopAtRobot: false },
-    ...{ stop: null, afterGap: 'let-go' as const, driveHand: 'right' as const, view: null },
+    ...{ stop: null, driveHand: 'right' as const, view: null },
     ...{ speed: null, near: null, hazards: null },
   };
   const lines = wristLines({ ...facts, alarm: null, nextRobot: { id: 'b', name: 'B' } });
@@ -108,7 +112,7 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
     'Stationary',
     'Live',
     '12.3k points  10/s  3.2 Mbit/s',
-    'rtt 42 ms  frame –  loss 0.0 %',
+    'rtt 42 ms  view – old  loss 0.0 %',
     'Battery 20 %  press right stick: B',
   ]);
   const speed = { text: '0.50 m/s, at most 1.00', tone: 'neutral' } as const;

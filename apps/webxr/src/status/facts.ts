@@ -1,5 +1,5 @@
 /** The contents of the table of figures over the picture. */
-import type { AfterGap, EstopState, Telemetry } from '@farpoint/operator';
+import type { EstopState, Telemetry } from '@farpoint/operator';
 import { BitRate } from '@farpoint/timing';
 import { motionWords, speedLimitWords } from './motion-words.ts';
 import type { PageStats } from './page-stats.ts';
@@ -19,26 +19,16 @@ export interface SessionFacts {
   name: string | null;
   telemetry: Telemetry | null;
   estop: EstopState;
-  /** What the robot demands when commands come again after a gap that stopped it. */
-  afterGap: AfterGap;
   /** The most that the robot drives, m/s. */
   maxLinear: number;
   readings: readonly ShownReading[];
   figures: PageStats;
 }
 
-export function sessionFacts({
-  name,
-  telemetry,
-  estop,
-  afterGap,
-  maxLinear,
-  readings,
-  figures,
-}: SessionFacts): Fact[] {
+export function sessionFacts({ name, telemetry, estop, maxLinear, readings, figures }: SessionFacts): Fact[] {
   const facts: Fact[] = [];
   if (name !== null) facts.push({ name: 'Robot', value: name });
-  if (telemetry !== null) facts.push(...telemetryFacts(telemetry, estop, afterGap, maxLinear));
+  if (telemetry !== null) facts.push(...telemetryFacts(telemetry, estop, maxLinear));
   if (telemetry !== null && figures.view !== undefined)
     facts.push({ name: 'View', value: viewWords(figures.view) });
   addReadings(facts, readings);
@@ -49,15 +39,10 @@ export function sessionFacts({
   return facts;
 }
 
-function telemetryFacts(
-  telemetry: Telemetry,
-  estop: EstopState,
-  afterGap: AfterGap,
-  maxLinear: number,
-): Fact[] {
+function telemetryFacts(telemetry: Telemetry, estop: EstopState, maxLinear: number): Fact[] {
   // Telemetry reports an emergency stop a moment later than the `estop` message.
   const bounded = estop.latched ? null : motionWords(telemetry.motion);
-  const drive = bounded ?? driveStateWords(estop.latched ? 'estop' : telemetry.drive, afterGap);
+  const drive = bounded ?? driveStateWords(estop.latched ? { drive: 'estop' } : telemetry);
   const where = estop.releasedAt === 'robot' ? '; released at the robot only' : '';
   const by = estop.latched && estop.by !== undefined ? ` (by ${estop.by}${where})` : '';
   const { linear, angular } = telemetry.twist;
@@ -102,7 +87,7 @@ function streamFacts(figures: PageStats): Fact[] {
     { name: 'Rate', value: `${mbps(figures)} Mbit/s` },
     { name: 'Loss', value: `${(figures.lossRate * 100).toFixed(1)} %`, tone: lossTone(figures) },
     { name: 'Round trip', value: ms(figures.minRttMs) },
-    { name: 'Frame age', value: ms(figures.frameLatencyMs?.p50) },
+    { name: 'View age', value: ms(figures.viewAgeMs) },
   ];
   if (figures.mtpMs !== null) {
     const { p50, p95 } = figures.mtpMs;

@@ -20,6 +20,11 @@ export interface PageStats extends StreamStats {
   /** Milliseconds of the frame loop's own work. With `?canvas=` it includes the time until the GPU has finished. */
   renderMs: Distribution | null;
   displayFramesPerSecond: number;
+  /**
+   * Age of what the operator sees, ms: as the robot judges it while commands come, otherwise of the newest capture on the
+   * screen; `null` while unknown.
+   */
+  viewAgeMs: number | null;
   canvas: { width: number; height: number };
   /** How the cameras' videos are presented. */
   videos: VideoStats;
@@ -84,8 +89,7 @@ export class PageStatistics {
   snapshot(
     stream: StreamStats,
     drawn: DrawnCounts,
-    canvas: { width: number; height: number },
-    videos: VideoStats,
+    { canvas, videos, viewAgeMs }: Pick<PageStats, 'canvas' | 'videos' | 'viewAgeMs'>,
   ): PageStats {
     const drops: DropCounts = { ...stream.drops };
     for (const [reason, count] of Object.entries(drawn.drops)) {
@@ -103,6 +107,7 @@ export class PageStatistics {
       drawnOneOf: this.drawnOneOf,
       remembered: this.remembered,
       displayFramesPerSecond: this.#display.perSecond,
+      viewAgeMs,
       canvas: { width: canvas.width, height: canvas.height },
       videos,
     };

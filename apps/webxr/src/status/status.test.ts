@@ -65,11 +65,19 @@ describe('words', () => {
   });
 
   test('says by name who drives, and what a grant allows', () => {
-    const facts = { holder: 'other', driver: 'Grace', role: 'drive', device: null, gripLost: null } as const;
+    const facts = {
+      holder: 'other',
+      driver: 'Grace',
+      role: 'drive',
+      device: null,
+      gripLost: null,
+      paused: false,
+    } as const;
     expect(holderWords(facts).text).toBe('Grace is driving');
     expect(holderWords({ ...facts, driver: null }).text).toBe('Someone else is driving');
     expect(holderWords({ ...facts, holder: 'nobody', role: 'watch' }).text).toContain('lets you watch');
     expect(holderWords({ ...facts, holder: 'you', device: 'gamepad' }).text).toContain('gamepad');
+    expect(holderWords({ ...facts, holder: 'you', paused: true }).text).toContain('Hold on');
     expect(holderWords({ ...facts, holder: 'you', gripLost: 'late-reading' })).toEqual({
       text: 'Let go of the grip, then drive',
       tone: 'warning',

@@ -8,7 +8,7 @@ import {
   type SignalingState,
   type StopStatus,
 } from '@farpoint/operator';
-import type { AfterGap, CommandRejection, DriveState, LeaseState, Role } from '@farpoint/protocol';
+import type { CommandRejection, DriveState, LeaseState, Role, Telemetry } from '@farpoint/protocol';
 import { grantEndsWords } from './access-words.ts';
 import type { Words } from './tone.ts';
 
@@ -22,9 +22,10 @@ export const driveWords: Record<DriveState, Words> = {
   blocked: { text: 'Blocked by an obstacle', tone: 'warning' },
 };
 
-/** What the robot does, and what it waits for. @param afterGap what it demands once commands come again */
-export function driveStateWords(drive: DriveState, afterGap: AfterGap): Words {
-  if (drive === 'watchdog' && afterGap === 'let-go')
+/** What the robot does, and what it waits for. */
+export function driveStateWords({ drive, motion }: Pick<Telemetry, 'drive' | 'motion'>): Words {
+  const stands = drive === 'watchdog' || drive === 'idle';
+  if (stands && motion?.letGoFirst === true)
     return { text: 'Stopped by a gap: let go, then drive', tone: 'warning' };
   return driveWords[drive];
 }
@@ -59,7 +60,7 @@ export function wordsOfRejection(reason: CommandRejection, holder: LeaseState['h
 }
 
 export const gripLossWords: Record<GripLoss, string> = {
-  'late-reading': 'The grip was not read in time, so the robot stops. Let go of it, then drive.',
+  'late-reading': 'The grip was not read for too long, so the robot stays. Let go of it, then drive.',
   'hands-away': 'The page or the headset was left with the grip held. Let go of it, then drive.',
   'path-lost': 'The connection was lost while you held the grip. Let go of it, then drive.',
   'let-go': 'The robot was let go of. Let go of the grip, too, before you drive again.',
@@ -107,14 +108,17 @@ export interface DrivingFacts {
   device: string | null;
   /** Why a grip that is held does not drive; `null` if there is none. */
   gripLost: GripLoss | null;
+  /** Whether the grip that drives was not read for a moment. */
+  paused: boolean;
 }
 
 /** Who drives. */
-export function holderWords({ holder, driver, role, device, gripLost }: DrivingFacts): Words {
+export function holderWords({ holder, driver, role, device, gripLost, paused }: DrivingFacts): Words {
   if (holder === 'other') return { text: `${driver ?? 'Someone else'} is driving`, tone: 'warning' };
   if (role === 'watch') return { text: 'Nobody is driving. Your grant lets you watch', tone: 'neutral' };
   if (gripLost !== null && device === null)
     return { text: 'Let go of the grip, then drive', tone: 'warning' };
+  if (paused) return { text: 'Hold on: your grip was not read for a moment', tone: 'warning' };
   if (holder === 'nobody') return { text: 'Nobody is driving', tone: 'neutral' };
   return { text: device === null ? 'You have control' : `You are driving (${device})`, tone: 'good' };
 }

@@ -1,5 +1,5 @@
 /** The lines of text on the wrist panel. */
-import type { AfterGap, RobotListing, Telemetry } from '@farpoint/operator';
+import type { RobotListing, Telemetry } from '@farpoint/operator';
 import type { Hand } from '../headset/headset-settings.ts';
 import { lossTone, mbps, ms } from './facts.ts';
 import { motionWords } from './motion-words.ts';
@@ -21,7 +21,6 @@ export interface WristFacts {
   /** What has become of STOP; `null` if there is nothing to say. */
   stop: Words | null;
   /** What the robot demands when commands come again after a gap that stopped it. */
-  afterGap: AfterGap;
   nextRobot: RobotListing | null;
   /** The hand that drives. */
   driveHand: Hand;
@@ -43,7 +42,6 @@ export function wristLines({
   estopLatched,
   estopAtRobot,
   stop,
-  afterGap,
   nextRobot,
   driveHand,
   view,
@@ -51,7 +49,7 @@ export function wristLines({
   alarm,
   figures,
 }: WristFacts): Words[] {
-  const { pointsPerFrame, framesPerSecond, minRttMs, frameLatencyMs, lossRate } = figures;
+  const { pointsPerFrame, framesPerSecond, minRttMs, viewAgeMs, lossRate } = figures;
   const thousands = (pointsPerFrame / 1000).toFixed(1);
   const battery = telemetry?.battery;
   const hints = [
@@ -63,9 +61,7 @@ export function wristLines({
   ];
   return [
     link,
-    ...(telemetry === null
-      ? []
-      : [motionWords(telemetry.motion) ?? driveStateWords(telemetry.drive, afterGap)]),
+    ...(telemetry === null ? [] : [motionWords(telemetry.motion) ?? driveStateWords(telemetry)]),
     ...[speed, near].filter((words) => words !== null),
     driving,
     // An unconfirmed STOP, an alarm or a confirmed STOP takes the place of the line that matters least.
@@ -76,7 +72,7 @@ export function wristLines({
         tone: 'neutral',
       },
     {
-      text: `rtt ${ms(minRttMs)}  frame ${ms(frameLatencyMs?.p50)}  loss ${(lossRate * 100).toFixed(1)} %${viewLead(figures.view)}`,
+      text: `rtt ${ms(minRttMs)}  view ${ms(viewAgeMs)} old  loss ${(lossRate * 100).toFixed(1)} %${viewLead(figures.view)}`,
       tone: lossTone(figures),
     },
     estopLatched

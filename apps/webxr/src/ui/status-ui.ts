@@ -47,7 +47,6 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
     showFacts(
       sessionFacts({
         ...{ name: name.value, telemetry: telemetry.value, estop: estop.value },
-        afterGap: robot.afterGap.value,
         maxLinear: robot.maxLinear.value,
         readings: readings.value.filter((reading) => !isWell(reading)),
         ...{ figures: figures.value },

@@ -46,7 +46,7 @@ export function showOnWrist({
         speed: robot.speed.value,
         near: robot.tellsNear.value ? nearWords(robot.near.value) : null,
         estopAtRobot: robot.estopAtRobot.value,
-        ...{ stop: stopWords[robot.stop.value], afterGap: robot.afterGap.value },
+        stop: stopWords[robot.stop.value],
         ...{ driveHand, view: viewFact(headset.view.value, headset.model.scale) },
         hazards: hazardHint(appearance.hazards.value, robot.heights.value),
         alarm: alarmLine(robot.alarms.value),

@@ -25,7 +25,7 @@ function run(stream: CommandStream, fromMs: number, toMs: number, stepMs = 5): C
 describe('CommandStream', () => {
   test('while the grip is held: 40 commands a second, in sequence, with the wish', () => {
     const stream = leased();
-    stream.set(true, forward);
+    stream.set('held', forward);
     const commands = run(stream, 0, 1000);
     expect(commands).toHaveLength(40);
     expect(commands.map((command) => command.sequence)).toEqual(Array.from({ length: 40 }, (_, i) => i + 1));
@@ -36,9 +36,9 @@ describe('CommandStream', () => {
 
   test('when the grip is released: a few zero commands, the first at once, then nothing', () => {
     const stream = leased();
-    stream.set(true, forward);
+    stream.set('held', forward);
     run(stream, 0, 100);
-    stream.set(false, forward);
+    stream.set('open', forward);
     const first = stream.tick(101);
     expect(first?.deadMan).toBe(false);
     const rest = run(stream, 105, 2000);
@@ -47,12 +47,34 @@ describe('CommandStream', () => {
     expect(stream.active).toBe(false);
   });
 
+  test('when the grip is not read: a few commands that say so, then nothing until it is read or let go', () => {
+    const stream = leased();
+    stream.set('held', forward, 0);
+    run(stream, 0, 100);
+    stream.set('unread', forward, 0);
+    const told = run(stream, 101, 1000);
+    expect(told).toHaveLength(STOP_REPEATS);
+    for (const { unread, deadMan, twist, timeMs } of told) {
+      expect([unread, deadMan, isZeroTwist(twist)]).toEqual([true, true, true]);
+      // It says what is known now, and not of the hand.
+      expect(timeMs).toBeGreaterThan(100);
+    }
+    stream.set('held', forward, 1000);
+    expect(stream.tick(1001)).toMatchObject({ deadMan: true, twist: { linear: { x: 1 } } });
+    stream.set('unread', forward, 1000);
+    stream.tick(1101);
+    stream.set('open', forward, null);
+    expect(run(stream, 1102, 2000).map(({ deadMan, unread }) => [deadMan, unread])).toEqual(
+      Array.from({ length: STOP_REPEATS }, () => [false, undefined]),
+    );
+  });
+
   test('without a lease nothing is sent, and nothing is made up for later', () => {
     const stream = new CommandStream();
     stream.setLimits(limits);
-    stream.set(true, forward);
+    stream.set('held', forward);
     expect(run(stream, 0, 500)).toEqual([]);
-    stream.set(false, forward);
+    stream.set('open', forward);
     expect(run(stream, 500, 600)).toEqual([]);
     stream.setLease('lease');
     expect(run(stream, 600, 700)).toEqual([]);
@@ -61,13 +83,13 @@ describe('CommandStream', () => {
   test('stays below the robot’s command rate', () => {
     const stream = leased();
     stream.setLimits({ ...limits, maxCommandsPerSecond: 10 });
-    stream.set(true, forward);
+    stream.set('held', forward);
     expect(run(stream, 0, 10_000).length).toBeLessThanOrEqual(83);
   });
 
   test('does not catch up after a pause', () => {
     const stream = leased();
-    stream.set(true, forward);
+    stream.set('held', forward);
     run(stream, 0, 100);
     expect(stream.tick(5000)).not.toBe(null);
     expect(stream.tick(5001)).toBe(null);
@@ -81,7 +103,7 @@ describe('CommandStream', () => {
       deadMan: false,
       timeMs: 3,
     });
-    stream.set(true, forward);
+    stream.set('held', forward);
     stream.tick(10);
     expect(stream.latencyTest(11, 8)).toMatchObject({
       sequence: 3,
@@ -94,13 +116,13 @@ describe('CommandStream', () => {
 
   test('a new session begins with the grip released', () => {
     const stream = leased();
-    stream.set(true, forward);
+    stream.set('held', forward);
     stream.tick(0);
     stream.reset();
     stream.setLimits(limits);
     stream.setLease('other');
     expect(stream.tick(100)).toBe(null);
-    stream.set(true, forward);
+    stream.set('held', forward);
     expect(stream.tick(200)?.sequence).toBe(1);
   });
 
@@ -112,7 +134,7 @@ describe('CommandStream', () => {
         let now = 0;
         let last = 0;
         for (const { held, forward, left, ms } of steps) {
-          stream.set(held, { forward, left });
+          stream.set(held ? 'held' : 'open', { forward, left });
           now += ms;
           const command = stream.tick(now);
           if (command === null) continue;

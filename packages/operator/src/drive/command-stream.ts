@@ -1,23 +1,29 @@
 /**
  * Decides what is sent on the control channel, and when. While the dead-man grip is held, it sends commands at a fixed
- * rate. When the grip is released, it sends a few zero commands, since any of them may be lost, and then nothing. Time
- * is an argument.
+ * rate. When the grip is released, or is not read any more, it sends a few commands that say so, since any of them may be
+ * lost, and then nothing. Time is an argument.
  */
 import { type Command, type DriveLimits, nextSequence32, type Twist, zeroTwist } from '@farpoint/protocol';
 import { type DriveWish, intoTwist, REST, toTwist } from './velocity-mapping.ts';
 
 export const COMMANDS_PER_SECOND = 40;
-/** Number of zero commands sent after the grip is released. */
+/** Number of commands sent after the grip is released, or is not read any more. */
 export const STOP_REPEATS = 4;
 /** Number of zero commands before motion after {@link CommandStream.restFirst}, since one may be lost. */
 export const FIRST_RESTS = 2;
+
+/** What is known of the hand that drives. */
+export type Hand =
+  | 'open' // no grip is held
+  | 'held' // its grip is held
+  | 'unread'; // its grip was held when it was last read, but that is too long ago to drive by
 
 export class CommandStream {
   #limits: DriveLimits | null = null;
   #lease: string | null = null;
   #sequence = 0;
   #wish: DriveWish = { ...REST };
-  #held = false;
+  #hand: Hand = 'open';
   #readMs: number | null = null;
   readonly #asked: Twist = zeroTwist();
   #stopsLeft = 0;
@@ -31,7 +37,7 @@ export class CommandStream {
     this.#sequence = 0;
     this.#stopsLeft = 0;
     this.#restsLeft = 0;
-    this.#held = false;
+    this.#hand = 'open';
   }
 
   setLimits(limits: DriveLimits): void {
@@ -48,25 +54,27 @@ export class CommandStream {
 
   /** True while commands are due. */
   get active(): boolean {
-    return this.#held || this.#stopsLeft > 0;
+    return this.held || this.#stopsLeft > 0;
   }
 
+  /** Whether a grip drives now. */
   get held(): boolean {
-    return this.#held;
+    return this.#hand === 'held';
   }
 
   /**
    * Sets the state of the operator's hand. A change of the grip takes effect at the next {@link tick}, at any rate.
    *
+   * @param wish while it is held
    * @param readMs when the device was read, which becomes the commands' time; `null`: at the tick
    */
-  set(held: boolean, wish: DriveWish, readMs: number | null = null): void {
+  set(hand: Hand, wish: DriveWish, readMs: number | null = null): void {
     this.#readMs = readMs;
     this.#wish.forward = wish.forward;
     this.#wish.left = wish.left;
-    if (held === this.#held) return;
-    this.#held = held;
-    this.#stopsLeft = held ? 0 : STOP_REPEATS;
+    if (hand === this.#hand) return;
+    this.#hand = hand;
+    this.#stopsLeft = hand === 'held' ? 0 : STOP_REPEATS;
     this.#nextMs = 0;
   }
 
@@ -77,7 +85,7 @@ export class CommandStream {
 
   /** The velocity that the hand asks for now, the same object each time; `null` while it drives nothing. */
   get asked(): Twist | null {
-    if (!this.#held || this.#limits === null || this.#lease === null) return null;
+    if (!this.held || this.#limits === null || this.#lease === null) return null;
     return intoTwist(this.#wish, this.#limits, this.#asked);
   }
 
@@ -94,7 +102,7 @@ export class CommandStream {
     // 2 ms less, so that a timer that fires slightly early still sends this command.
     this.#nextMs = nowMs + 1000 / perSecond - 2;
     const command = this.#make(nowMs, this.#limits, this.#lease);
-    if (!this.#held) this.#stopsLeft--;
+    if (!this.held) this.#stopsLeft--;
     else if (this.#restsLeft > 0) this.#restsLeft--;
     return command;
   }
@@ -115,10 +123,11 @@ export class CommandStream {
       type: 'command',
       sequence: this.#sequence,
       // The robot judges a command's age: repeating an old reading must not make it young.
-      timeMs: this.#held && this.#readMs !== null ? Math.min(this.#readMs, nowMs) : nowMs,
+      timeMs: this.held && this.#readMs !== null ? Math.min(this.#readMs, nowMs) : nowMs,
       lease,
-      deadMan: this.#held,
-      twist: this.#held && this.#restsLeft === 0 ? toTwist(this.#wish, limits) : zeroTwist(),
+      deadMan: this.#hand !== 'open',
+      ...(this.#hand === 'unread' ? { unread: true } : {}),
+      twist: this.held && this.#restsLeft === 0 ? toTwist(this.#wish, limits) : zeroTwist(),
     };
   }
 }

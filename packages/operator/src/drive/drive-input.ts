@@ -11,9 +11,9 @@ export interface DriveInput {
   readonly wish: Readonly<DriveWish>;
   /**
    * When the state above was last known to be the hand's, ms (`performance.now()`): when the device was polled, or, for
-   * a device that reports by events, when the page last ran. A grip whose device is not read for 100 ms counts as
-   * released, and drives again only after a reading has found it open. `null` only for an input that lets go by
-   * itself when nobody renews it.
+   * a device that reports by events, when the page last ran. A grip whose device is not read for 100 ms moves nothing
+   * until it is read again, and counts as released if that takes longer than the robot allows. `null` only for an input
+   * that lets go by itself when nobody renews it.
    */
   readonly readMs: number | null;
 }

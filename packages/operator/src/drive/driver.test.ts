@@ -148,6 +148,38 @@ describe('Driver', () => {
     expect(driver.lost).toBe(null);
   });
 
+  test('a page that hangs for a moment says that the hand was not read, and drives on; a longer hang does not', () => {
+    const { commands, hand, driver } = bench();
+    const keys = { name: 'keyboard', held: true, wish: { forward: 1, left: 0 }, readMs: 0 };
+    driver.add(keys as DriveInput);
+    driver.onLimits({
+      ...{ maxLinear: 1, maxAngular: 1, watchdogMs: 150, maxCommandsPerSecond: 100 },
+      ...{ afterGap: 'let-go', resumeWithinMs: 400 },
+    });
+    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    expect(hand.held).toBe(false);
+    const tick = (nowMs: number, reads: boolean) => {
+      if (reads) keys.readMs = nowMs;
+      driver.tick(nowMs);
+      return commands
+        .splice(0)
+        .map(({ deadMan, unread, twist }) => [deadMan, unread ?? false, twist.linear.x]);
+    };
+    for (let now = 1000; now <= 2000; now += 25) expect(tick(now, true)).toEqual([[true, false, 1]]);
+    // After the hang the first turn does not count as a reading.
+    expect([tick(2350, false), driver.paused, driver.lost]).toEqual([[[true, true, 0]], true, null]);
+    expect([tick(2375, true), driver.paused]).toEqual([[[true, false, 1]], false]);
+    // Only the device is silent: a few commands say so, and then none.
+    const silent = Array.from({ length: 15 }, (_, i) => tick(2400 + i * 25, false)).flat();
+    expect(silent).toEqual([
+      ...Array.from({ length: 4 }, () => [true, false, 1]),
+      ...Array.from({ length: 4 }, () => [true, true, 0]),
+    ]);
+    // From here on the page counts it as open, and says so.
+    expect(tick(2776, true)).toEqual([[false, false, 0]]);
+    expect([driver.paused, driver.lost, driver.input]).toEqual([false, 'late-reading', null]);
+  });
+
   test('nothing is sent once another operator holds the lease', () => {
     const { commands, hand, driver } = bench();
     driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });

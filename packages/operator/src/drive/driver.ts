@@ -1,5 +1,5 @@
 /** Turns the operator's hands into commands: device, lease and timing. Time is an argument. */
-import type { Command, DriveLimits, LeaseState, OperatorSessionMessage } from '@farpoint/protocol';
+import type { Command, LeaseState, OperatorSessionMessage, Welcome } from '@farpoint/protocol';
 import { CommandStream } from './command-stream.ts';
 import { activeInput, type DriveInput } from './drive-input.ts';
 import { type GripLoss, Grips } from './grips.ts';
@@ -55,6 +55,11 @@ export class Driver {
     return this.#input;
   }
 
+  /** Whether the grip that drives was not read for a moment: the robot stands until it is, and then moves on. */
+  get paused(): boolean {
+    return this.#input !== null && this.#grips.isUnread(this.#input);
+  }
+
   /** Why a grip that is held does not drive; `null` if there is none. It drives once it has been opened. */
   get lost(): GripLoss | null {
     for (const input of this.#inputs) {
@@ -79,8 +84,9 @@ export class Driver {
   }
 
   /** The robot sent its limits: wishes are scaled to them from now on. */
-  onLimits(limits: DriveLimits): void {
+  onLimits(limits: Welcome['limits']): void {
     this.stream.setLimits(limits);
+    this.#grips.resumeWithinMs = limits.resumeWithinMs ?? 0;
   }
 
   /** The robot sent the state of the lease. */
@@ -139,7 +145,8 @@ export class Driver {
 
   /**
    * Takes the devices' states and sends what is due. Call it at the stream's rate, and at once when a grip or stick
-   * changes. A pause of more than 100 ms between two readings of a device makes its grip count as released.
+   * changes. A grip whose device was not read for 100 ms moves nothing until it is read again, and counts as released if
+   * that takes longer than the robot allows.
    *
    * @param nowMs `performance.now()`
    */
@@ -148,7 +155,8 @@ export class Driver {
     if (lost !== null) this.#port.onGripLost?.(lost);
     this.#input = activeInput(this.#inputs, this.#input, this.#holds);
     const held = this.#input !== null;
-    this.stream.set(held, this.#input?.wish ?? REST, this.#input?.readMs ?? null);
+    const hand = !held ? 'open' : this.paused ? 'unread' : 'held';
+    this.stream.set(hand, this.#input?.wish ?? REST, this.#input?.readMs ?? null);
     if (held && this.#holder !== 'you') this.#ask(nowMs);
     if (!held) this.#toldOther = false;
     const command = this.stream.tick(nowMs);

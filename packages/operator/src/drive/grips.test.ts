@@ -15,9 +15,13 @@ class Device implements DriveInput {
   }
 }
 
-function bench() {
+const RESUME_MS = 400;
+
+/** @param resumeWithinMs as the robot says; 0: an older robot */
+function bench(resumeWithinMs = 0) {
   const device = new Device();
   const grips = new Grips();
+  grips.resumeWithinMs = resumeWithinMs;
   const update = (nowMs: number, away = false) => grips.update([device], nowMs, away);
   return { device, grips, update };
 }
@@ -32,7 +36,60 @@ describe('Grips', () => {
     }
   });
 
-  test('a grip that is not read is lost, and holds again only after a reading has found it open', () => {
+  test('a grip that is not read for a moment is held, but moves nothing until it is read again', () => {
+    for (const reads of [true, false]) {
+      const { device, grips, update } = bench(RESUME_MS);
+      device.read(true, 0);
+      update(0);
+      expect([update(READING_HOLDS_MS), grips.isUnread(device)]).toEqual([null, false]);
+      // The page hangs, or only the device is silent.
+      if (!reads)
+        for (let t = READING_HOLDS_MS + 1; t < RESUME_MS; t += 25)
+          expect([update(t), grips.holds(device), grips.isUnread(device)]).toEqual([null, true, true]);
+      device.read(true, RESUME_MS);
+      expect([update(RESUME_MS), grips.holds(device), grips.isUnread(device)]).toEqual([null, true, false]);
+    }
+  });
+
+  test('longer than the robot allows, it is lost until it has been opened', () => {
+    for (const reads of [true, false]) {
+      const { device, grips, update } = bench(RESUME_MS);
+      device.read(true, 0);
+      update(0);
+      if (reads) device.read(true, RESUME_MS + 1);
+      expect(update(RESUME_MS + 1)).toBe('late-reading');
+      expect([grips.holds(device), grips.isUnread(device)]).toEqual([false, false]);
+      device.read(true, RESUME_MS + 20);
+      expect([update(RESUME_MS + 20), grips.lossOf(device)]).toEqual([null, 'late-reading']);
+      device.read(false, RESUME_MS + 40);
+      update(RESUME_MS + 40);
+      device.read(true, RESUME_MS + 60);
+      expect([update(RESUME_MS + 60), grips.holds(device)]).toEqual([null, true]);
+    }
+  });
+
+  test('a hand that lets go while it is not read has let go', () => {
+    const { device, grips, update } = bench(RESUME_MS);
+    device.read(true, 0);
+    update(0);
+    update(200);
+    device.read(false, 210);
+    update(210);
+    expect([grips.holds(device), grips.isUnread(device)]).toEqual([false, false]);
+  });
+
+  test('hands that are away, and a path that is lost, need no gap', () => {
+    const { device, grips, update } = bench(RESUME_MS);
+    device.read(true, 0);
+    update(0);
+    update(150);
+    grips.lose([device], 'path-lost');
+    device.read(true, 200);
+    update(200);
+    expect(grips.lossOf(device)).toBe('path-lost');
+  });
+
+  test('to a robot that does not say so, a grip that is not read is lost, and holds again only after a reading has found it open', () => {
     const { device, grips, update } = bench();
     device.read(true, 0);
     expect([update(0), update(READING_HOLDS_MS)]).toEqual([null, null]);
@@ -98,34 +155,39 @@ describe('Grips', () => {
     expect(grips.lossOf(device)).toBe('path-lost');
   });
 
-  test('for any readings, ticks and losses: what holds was read within the time, and opened since its loss', () => {
-    const step = fc.record({
-      ms: fc.nat(160),
-      reading: fc.option(fc.record({ held: fc.boolean(), ageMs: fc.nat(150) })),
-      away: fc.boolean(),
-      loss: fc.option(fc.constantFrom<GripLoss>('path-lost', 'let-go'), { freq: 8 }),
-    });
-    fc.assert(
-      fc.property(fc.array(step, { maxLength: 80 }), (steps) => {
-        const { device, grips, update } = bench();
-        let nowMs = 0;
-        let mustOpen = false;
-        for (const { ms, reading, away, loss } of steps) {
-          nowMs += ms;
-          const { held: wasHeld, readMs: before } = device;
-          if (reading !== null) device.read(reading.held, Math.max(before ?? 0, nowMs - reading.ageMs));
-          const ageMs = nowMs - (device.readMs ?? 0);
-          const gapMs = (device.readMs ?? 0) - (before ?? 0);
-          if (loss !== null) grips.lose([device], loss);
-          update(nowMs, away);
-          const isFresh = ageMs <= READING_HOLDS_MS;
-          if (!device.held) mustOpen = (mustOpen || (loss !== null && wasHeld)) && !isFresh;
-          else if (away || loss !== null || !isFresh || (wasHeld && gapMs > READING_HOLDS_MS))
-            mustOpen = true;
-          expect(grips.holds(device)).toBe(device.held && !mustOpen);
-        }
-      }),
-      { seed: 19 },
-    );
-  });
+  test.each([0, RESUME_MS])(
+    'for any readings, ticks and losses: what holds was read within the time, and opened since its loss (%i ms)',
+    (resumeMs) => {
+      const longestMs = Math.max(READING_HOLDS_MS, resumeMs);
+      const step = fc.record({
+        ms: fc.nat(longestMs + 60),
+        reading: fc.option(fc.record({ held: fc.boolean(), ageMs: fc.nat(longestMs + 50) })),
+        away: fc.boolean(),
+        loss: fc.option(fc.constantFrom<GripLoss>('path-lost', 'let-go'), { freq: 8 }),
+      });
+      fc.assert(
+        fc.property(fc.array(step, { maxLength: 80 }), (steps) => {
+          const { device, grips, update } = bench(resumeMs);
+          let nowMs = 0;
+          let mustOpen = false;
+          for (const { ms, reading, away, loss } of steps) {
+            nowMs += ms;
+            const { held: wasHeld, readMs: before } = device;
+            if (reading !== null) device.read(reading.held, Math.max(before ?? 0, nowMs - reading.ageMs));
+            const ageMs = nowMs - (device.readMs ?? 0);
+            const gapMs = (device.readMs ?? 0) - (before ?? 0);
+            if (loss !== null) grips.lose([device], loss);
+            update(nowMs, away);
+            const isFresh = ageMs <= READING_HOLDS_MS;
+            if (!device.held) mustOpen = (mustOpen || (loss !== null && wasHeld)) && !isFresh;
+            else if (away || loss !== null || ageMs > longestMs || (wasHeld && gapMs > longestMs))
+              mustOpen = true;
+            expect(grips.holds(device)).toBe(device.held && !mustOpen);
+            expect(grips.isUnread(device)).toBe(device.held && !mustOpen && !isFresh);
+          }
+        }),
+        { seed: 19 },
+      );
+    },
+  );
 });

@@ -2,18 +2,26 @@
 import { type Command, pointsOfBytes, sequenceDelta32, stampUsOf } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
 
-/** A cloud counts as seen when this share of its points is drawn: of a poor link, some are always missing. */
+/** The screen is as old as the newest capture since which this share of a whole cloud's points was drawn. */
 const SEEN_SHARE = 0.5;
+/** So many frames of a sensor are remembered: a page that gets less than 1/16 of each cloud sees nothing. */
+const FRAMES_KEPT = 8;
 
 interface SensorFrame {
   number: number;
-  points: number;
+  captureUs: number;
+  /** Share of its points that came, 0–1. */
+  share: number;
 }
 
-/** Keeps the capture time of the newest cloud or picture that is drawn. {@link RobotClient} creates and calls it. */
+/**
+ * Keeps the capture time of the newest cloud or picture that is drawn. Of a poor link, or on a slow computer, some of every
+ * cloud is missing, and what is drawn is made of several: then the older of those that make up half a cloud counts.
+ * {@link RobotClient} creates and calls it.
+ */
 export class SeenView {
-  /** By sensor: the frame that arrives. */
-  readonly #frames = new Map<number, SensorFrame>();
+  /** By sensor: its latest frames, the newest first. */
+  readonly #frames = new Map<number, SensorFrame[]>();
   /** Waits for the display frame that is being drawn. */
   #uploadedUs: number | null = null;
   #seenUs: number | null = null;
@@ -51,17 +59,12 @@ export class SeenView {
     points: number,
     totalPoints: number,
   ): void {
-    let frame = this.#frames.get(sensor);
-    if (frame === undefined) {
-      frame = { number: frameNumber, points: 0 };
-      this.#frames.set(sensor, frame);
-    } else if (frame.number !== frameNumber) {
-      if (sequenceDelta32(frameNumber, frame.number) < 0) return;
-      frame.number = frameNumber;
-      frame.points = 0;
-    }
-    frame.points += points;
-    if (frame.points >= totalPoints * SEEN_SHARE) this.#uploadedUs = newer(this.#uploadedUs, captureUs);
+    const frames = this.#framesOf(sensor);
+    const frame = findFrame(frames, frameNumber, captureUs);
+    if (frame === null || !(totalPoints > 0)) return;
+    frame.share = Math.min(1, frame.share + points / totalPoints);
+    const seenUs = seenOf(frames);
+    if (seenUs !== null) this.#uploadedUs = newer(this.#uploadedUs, seenUs);
   }
 
   /** The display frame with the points of {@link onPoints} is finished. */
@@ -81,6 +84,43 @@ export class SeenView {
   stamp(command: Command): Command {
     return this.#seenUs === null ? command : { ...command, seenUs: this.#seenUs };
   }
+
+  #framesOf(sensor: number): SensorFrame[] {
+    let frames = this.#frames.get(sensor);
+    if (frames === undefined) {
+      frames = [];
+      this.#frames.set(sensor, frames);
+    }
+    return frames;
+  }
+}
+
+/** The frame of this number, which is inserted in its place if it is not there; `null` if it is too old. */
+function findFrame(frames: SensorFrame[], number: number, captureUs: number): SensorFrame | null {
+  let at = 0;
+  while (at < frames.length) {
+    const frame = frames[at] as SensorFrame;
+    const delta = sequenceDelta32(number, frame.number);
+    if (delta === 0) return frame;
+    if (delta > 0) break;
+    at++;
+  }
+  if (at === FRAMES_KEPT) return null;
+  // The oldest makes room, and is used again.
+  const frame = frames.length < FRAMES_KEPT ? { number, captureUs, share: 0 } : (frames.pop() as SensorFrame);
+  Object.assign(frame, { number, captureUs, share: 0 });
+  frames.splice(at, 0, frame);
+  return frame;
+}
+
+/** Capture time of the frame with which the newest ones add up to {@link SEEN_SHARE}; `null` if they do not. */
+function seenOf(frames: readonly SensorFrame[]): number | null {
+  let share = 0;
+  for (const frame of frames) {
+    share += frame.share;
+    if (share >= SEEN_SHARE) return frame.captureUs;
+  }
+  return null;
 }
 
 function newer(before: number | null, stampUs: number): number {

@@ -1,9 +1,9 @@
 /** For any sequence of messages, pictures, faults and times, the velocity for the wheels satisfies every invariant. */
-import { type Intervention, isZeroTwist, stampUsOf, type Twist, zeroTwist } from '@farpoint/protocol';
+import { type CommandRejection, isZeroTwist, stampUsOf, type Twist, zeroTwist } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { DriveGuard } from '../drive-guard.ts';
-import { defaultDriveLimits } from '../limits.ts';
+import { defaultDriveLimits, RESUME_WITHIN_MS } from '../limits.ts';
 import { BlindTravel, blindSpeedMps } from './blind-travel.ts';
 import type { MotionBound, MotionGuard } from './motion-guard.ts';
 import { FREE } from './motion-guard.ts';
@@ -44,7 +44,9 @@ interface Instant {
   latched: boolean;
   wheels: boolean;
   held: boolean;
-  /** The hand has not let go since the robot was stopped in a way that demands it. */
+  /** The driver's newest accepted command says that the hand is not read. */
+  unread: boolean;
+  /** The hand has not let go since a gap that demands it. */
   mustLetGo: boolean;
 }
 
@@ -78,6 +80,7 @@ const invariants: Record<string, (instant: Instant) => boolean> = {
     return isSeen || slowsDown(instant);
   },
   'what a guard holds only slows down': (instant) => !instant.held || slowsDown(instant),
+  'a hand that is not read moves nothing': (instant) => !instant.unread || slowsDown(instant),
   'a hand that must let go first moves nothing': (instant) => !instant.mustLetGo || slowsDown(instant),
   'no part gets faster than what blind travel allows': (instant) => {
     if (instant.worstAgeMs === null) return slowsDown(instant);
@@ -109,6 +112,7 @@ type Step =
       x: number;
       z: number;
       deadMan: boolean;
+      unread: boolean;
       lateMs: number;
       stamp: boolean;
     }
@@ -127,6 +131,7 @@ const driven = fc.record({
   x: signed(limits.maxLinear),
   z: signed(limits.maxAngular),
   deadMan: fc.constantFrom(true, true, true, false),
+  unread: fc.constantFrom(false, false, false, false, true),
   lateMs: fc.constantFrom(0, 0, 0, 60, 400),
   stamp: fc.constantFrom(true, true, true, false),
 });
@@ -164,6 +169,13 @@ const step: fc.Arbitrary<Step> = fc.oneof(
   },
 );
 
+const PASSED_OVER: ReadonlySet<CommandRejection> = new Set([
+  'rate-limited',
+  'not-lease-holder',
+  'repeated',
+  'stale',
+]);
+
 /** A robot, its operators and the clock, with a record of what the invariants speak of. */
 class Run {
   moved = 0;
@@ -171,7 +183,7 @@ class Run {
   readonly #sensed = new Sensed();
   readonly #guard = new DriveGuard({
     limits,
-    letGoAfterMs: limits.watchdogMs,
+    letGoAfterMs: RESUME_WITHIN_MS,
     takePolicy: 'always',
     randomBytes: (count) => Uint8Array.from({ length: count }, (_, i) => i + this.#handles++),
   });
@@ -185,18 +197,20 @@ class Run {
   #drawnMs: number | null = null;
   #commandedMs = Number.NEGATIVE_INFINITY;
   #wish: Twist = zeroTwist();
+  #unread = false;
   #mustLetGo = false;
+  /** When motion was last accepted of a hand that has not let go since. */
+  #movedMs: number | null = null;
+  /** Since when what the driver sees has been too old. */
+  #lostMs: number | null = null;
 
   constructor() {
     this.#guard.watchWheels(() => (this.#wheels ? null : 'gone'));
     this.#motion = new MotionSupervisor(this.#guard, {
       ramps,
       guards: [new ViewAge(this.#guard.view, view), new BlindTravel(this.#guard.view, view), this.#sensed],
-      letGoAfter: { 'view-lost': 'what you saw was too old' },
+      letGoAfter: { 'view-lost': { why: 'what you saw was too old', lastsMs: RESUME_WITHIN_MS } },
     });
-    this.#motion.onIntervention = (reason: Intervention) => {
-      if (reason === 'view-lost') this.#mustLetGo = true;
-    };
     this.#guard.requestLease('driver', false, this.#nowMs);
   }
 
@@ -205,7 +219,10 @@ class Run {
     const driver = guard.leaseHolder;
     this.#happens(step);
     // Another hand.
-    if (guard.leaseHolder !== driver) this.#mustLetGo = false;
+    if (guard.leaseHolder !== driver) {
+      this.#mustLetGo = false;
+      this.#movedMs = null;
+    }
     if (step.type !== 'wait') this.#look();
   }
 
@@ -251,12 +268,16 @@ class Run {
     }
   }
 
-  #command({ by, x, z, deadMan, lateMs, stamp }: Extract<Step, { type: 'command' }>): void {
+  #command({ by, x, z, deadMan, unread, lateMs, stamp }: Extract<Step, { type: 'command' }>): void {
     const guard = this.#guard;
     const state = guard.leaseState(by);
     const seenUs = stamp && this.#drawnMs !== null ? stampUsOf(this.#drawnMs) : undefined;
     const twist = { ...zeroTwist(), linear: { x, y: 0, z: 0 }, angular: { x: 0, y: 0, z } };
-    const { accepted } = guard.onCommand(
+    const moves = deadMan && !unread && !isZeroTwist(twist);
+    const isDriver = by === guard.leaseHolder;
+    if (isDriver && moves && this.#movedMs !== null && this.#nowMs - this.#movedMs >= RESUME_WITHIN_MS)
+      this.#mustLetGo = true;
+    const verdict = guard.onCommand(
       by,
       {
         type: 'command',
@@ -264,20 +285,31 @@ class Run {
         timeMs: this.#nowMs - lateMs,
         lease: state.lease ?? 'none',
         deadMan,
+        ...(unread ? { unread } : {}),
         twist,
         ...(seenUs === undefined ? {} : { seenUs }),
       },
       this.#nowMs,
     );
-    if (by === guard.leaseHolder && (!deadMan || isZeroTwist(twist)) && lateMs === 0) this.#mustLetGo = false;
-    if (!accepted) return;
+    // A command that is passed over says nothing about the hand.
+    const isHeard = verdict.accepted || !PASSED_OVER.has(verdict.reason);
+    if (isDriver && isHeard && !unread && !moves) {
+      this.#mustLetGo = false;
+      this.#movedMs = null;
+    }
+    if (!verdict.accepted) return;
+    if (moves) this.#movedMs = this.#nowMs - verdict.spentMs;
     this.#commandedMs = this.#nowMs;
-    this.#wish = twist;
+    this.#unread = unread;
+    this.#wish = unread ? zeroTwist() : twist;
   }
 
   #look(): void {
     const guard = this.#guard;
     const after = this.#motion.velocityAt(this.#nowMs);
+    if (!this.#motion.decision.reasons.includes('view-lost')) this.#lostMs = null;
+    else this.#lostMs ??= this.#nowMs;
+    if (this.#lostMs !== null && this.#nowMs - this.#lostMs >= RESUME_WITHIN_MS) this.#mustLetGo = true;
     const ageMs = guard.view.ageMs(this.#nowMs);
     const instant: Instant = {
       nowMs: this.#nowMs,
@@ -291,6 +323,7 @@ class Run {
       latched: guard.estopState().latched,
       wheels: this.#wheels,
       held: this.#sensed.says.factor === 0,
+      unread: this.#unread,
       mustLetGo: this.#mustLetGo,
     };
     for (const [name, holds] of Object.entries(invariants)) if (!holds(instant)) this.broken.add(name);

@@ -1,7 +1,7 @@
 import { type Command, type Intervention, type Twist, zeroTwist } from '@farpoint/protocol';
 import { describe, expect, test } from 'vitest';
 import { DriveGuard } from '../drive-guard.ts';
-import { defaultDriveLimits } from '../limits.ts';
+import { defaultDriveLimits, RESUME_WITHIN_MS } from '../limits.ts';
 import type { MotionBound, MotionGuard } from './motion-guard.ts';
 import { FREE } from './motion-guard.ts';
 import { MotionSupervisor, type MotionSupervisorOptions } from './motion-supervisor.ts';
@@ -25,12 +25,12 @@ class Told implements MotionGuard {
   }
 }
 
-function supervised(options: Partial<MotionSupervisorOptions> = {}) {
+function supervised(options: Partial<MotionSupervisorOptions> = {}, letGoAfterMs = 150) {
   const told = new Told();
   const other = new Told();
   const guard = new DriveGuard({
     limits: defaultDriveLimits,
-    letGoAfterMs: 150,
+    letGoAfterMs,
     randomBytes: (count) => new Uint8Array(count),
   });
   const outcome = guard.requestLease('op', false, 0);
@@ -117,7 +117,7 @@ describe('the motion supervisor', () => {
 
   test('where a hand must let go, the robot stays until it has, and says why', () => {
     const { told, guard, motion, drive, command } = supervised({
-      letGoAfter: { 'view-lost': 'what you saw was too old' },
+      letGoAfter: { 'view-lost': { why: 'what you saw was too old', lastsMs: 0 } },
     });
     drive(0, 1);
     told.is('view-lost', 0, true);
@@ -134,6 +134,64 @@ describe('the motion supervisor', () => {
     motion.velocityAt(60);
     expect(motion.decision).toEqual({ phase: 'standing', factor: 1, reasons: [] });
     expect(drive(80, 1).linear.x).toBe(1);
+  });
+
+  test('what stops it for a shorter time than allowed lets it move on by itself', () => {
+    const letGoAfter = { 'view-lost': { why: 'what you saw was too old', lastsMs: 400 } };
+    for (const [lostMs, movesOn] of [
+      [399, true],
+      [401, false],
+    ] as const) {
+      const { told, guard, drive, command } = supervised({ letGoAfter });
+      drive(0, 1);
+      told.is('view-lost', 0, true);
+      for (let t = 20; t < 20 + lostMs; t += 20) expect(drive(t, 1)).toEqual(zeroTwist());
+      drive(20 + lostMs, 1);
+      told.says = FREE;
+      expect(drive(440, 1).linear.x).toBe(movesOn ? 1 : 0);
+      if (!movesOn)
+        expect(guard.onCommand('op', command(450, 1), 450)).toMatchObject({ reason: 'let-go-first' });
+    }
+  });
+
+  test('after a gap of 399 ms in a grip that held on it moves on by its ramps, after one of 401 ms it does not', () => {
+    for (const [gapMs, movesOn] of [
+      [399, true],
+      [401, false],
+    ] as const) {
+      const { guard, motion, drive, command } = supervised({ ramps, staleMs: 1000 }, RESUME_WITHIN_MS);
+      for (let t = 0; t <= 2000; t += 20) drive(t, 1);
+      expect(motion.velocityAt(2000).linear.x).toBe(1);
+      for (let t = 2010; t < 2000 + gapMs; t += 10) motion.velocityAt(t);
+      // It has braked as hard as allowed from the watchdog's time on.
+      expect(motion.velocityAt(2000 + gapMs).linear.x).toBeLessThan(0.01);
+      const backMs = 2000 + gapMs;
+      const verdict = guard.onCommand('op', command(backMs, 1), backMs);
+      expect(verdict.accepted).toBe(movesOn);
+      expect(guard.mustLetGo(backMs)).toBe(!movesOn);
+      motion.velocityAt(backMs);
+      expect(motion.velocityAt(backMs + 100).linear.x).toBeCloseTo(
+        movesOn ? 0.1 * ramps.accelerationMps2 : 0,
+      );
+    }
+  });
+
+  test('a hand that is not read brakes at once, and that is no letting go', () => {
+    const { guard, motion, drive, command } = supervised({ ramps, staleMs: 1000 }, RESUME_WITHIN_MS);
+    for (let t = 0; t <= 2000; t += 20) drive(t, 1);
+    const unread = (t: number, x = 0) => guard.onCommand('op', { ...command(t, x), unread: true }, t);
+    expect(unread(2020).accepted).toBe(true);
+    motion.velocityAt(2020);
+    expect(motion.velocityAt(2070).linear.x).toBeCloseTo(1 - 0.07 * ramps.emergencyMps2);
+    // Whatever velocity it names.
+    unread(2080, 1);
+    expect(motion.velocityAt(2090).linear.x).toBeLessThan(0.72);
+    expect(guard.onCommand('op', command(2399, 1), 2399).accepted).toBe(true);
+    for (let t = 2420; t <= 3000; t += 20) drive(t, 1);
+    for (let t = 3020; t <= 3400; t += 20) unread(t);
+    expect(guard.onCommand('op', command(3400, 1), 3400)).toMatchObject({ reason: 'let-go-first' });
+    guard.onCommand('op', command(3420, 0, 0, false), 3420);
+    expect(guard.onCommand('op', command(3440, 1), 3440).accepted).toBe(true);
   });
 
   test('the emergency stop is what is shown of it', () => {

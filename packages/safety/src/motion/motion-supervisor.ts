@@ -32,8 +32,15 @@ export interface MotionSupervisorOptions {
   ramps?: RampLimits;
   /** Wheels that are told nothing for this long stop by themselves, ms; default the watchdog's time. */
   staleMs?: number;
-  /** After one of these has stopped the robot, the hand must let go before it moves again. */
-  letGoAfter?: Readonly<Partial<Record<Intervention, string>>>;
+  /** After one of these has kept the robot from moving for a while, the hand must let go before it moves again. */
+  letGoAfter?: Readonly<Partial<Record<Intervention, LetGoDemand>>>;
+}
+
+export interface LetGoDemand {
+  /** For people, completes "held while …", under 100 characters. */
+  why: string;
+  /** For how long it must last, ms; 0: at once. */
+  lastsMs: number;
 }
 
 const NONE: readonly Intervention[] = Object.freeze([]);
@@ -62,7 +69,9 @@ export class MotionSupervisor {
   /** Whether an unattended drive gave the robot the velocity that it has. */
   #unattendedMoves = false;
   readonly #ramp: VelocityRamp;
-  readonly #letGoAfter: Readonly<Partial<Record<Intervention, string>>>;
+  readonly #letGoAfter: ReadonlyMap<Intervention, LetGoDemand>;
+  /** Since when those of them have lasted that last now, ms. */
+  readonly #lasts = new Map<Intervention, number>();
   #phase: MotionPhase = 'standing';
   #factor = 1;
   #reasons: readonly Intervention[] = NONE;
@@ -76,7 +85,7 @@ export class MotionSupervisor {
     this.#allGuards = [...(options.driverGuards ?? []), ...this.#guards];
     this.#unattended = options.unattended ?? null;
     this.#ramp = new VelocityRamp(options.ramps ?? NO_RAMPS, options.staleMs ?? guard.limits.watchdogMs);
-    this.#letGoAfter = Object.freeze({ ...options.letGoAfter });
+    this.#letGoAfter = new Map(Object.entries(options.letGoAfter ?? {}) as [Intervention, LetGoDemand][]);
   }
 
   /** The velocity for the wheels now. Call it at every change of the guard, and at short intervals while {@link ramping}. */
@@ -98,6 +107,7 @@ export class MotionSupervisor {
     this.#unattendedMoves = moving ? own !== null : this.#unattendedMoves && !isZeroTwist(twist);
     if (moving) this.#stopped = null;
     this.#tell(found?.reasons ?? this.#lasting(), nowMs);
+    if (this.#letGoAfter.size > 0) this.#demand(found?.reasons ?? NONE, nowMs);
     this.#decide(moving || this.#stopped !== null, factor, isZeroTwist(twist), isZeroTwist(target));
     return twist;
   }
@@ -171,11 +181,18 @@ export class MotionSupervisor {
     const isSame = before.length === reasons.length && before.every((reason, i) => reason === reasons[i]);
     if (isSame) return;
     this.#reasons = reasons;
-    for (const reason of reasons) {
-      if (before.includes(reason)) continue;
-      this.onIntervention?.(reason, nowMs);
-      const why = this.#letGoAfter[reason];
-      if (why === undefined) continue;
+    for (const reason of reasons) if (!before.includes(reason)) this.onIntervention?.(reason, nowMs);
+  }
+
+  #demand(reasons: readonly Intervention[], nowMs: number): void {
+    for (const [reason, { why, lastsMs }] of this.#letGoAfter) {
+      if (!reasons.includes(reason)) {
+        this.#lasts.delete(reason);
+        continue;
+      }
+      const sinceMs = this.#lasts.get(reason) ?? nowMs;
+      this.#lasts.set(reason, sinceMs);
+      if (nowMs - sinceMs < lastsMs) continue;
       this.guard.demandLetGo(why);
       this.#stopped = reason;
     }

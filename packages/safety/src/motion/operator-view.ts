@@ -8,17 +8,30 @@ const FIRST_INTERVAL_MS = 100;
 /**
  * How old what the driver sees is: from the robot's capture, over the link, to the operator's eye and back with a
  * command. All on the robot's clock, so no clocks need to be in step.
+ *
+ * Only commands tell. While none comes, nothing is known, and nobody drives by it: the first command after a pause starts
+ * anew, with the age of what it names. A page that hangs and still sends commands names an old picture.
  */
 export class OperatorView {
   /** When the newest picture that the driver has seen was captured, ms; `null` while nothing is known. */
   #capturedMs: number | null = null;
   /** When a command first named it. */
   #namedMs = 0;
+  /** Of the latest command. */
+  #heardMs = Number.NEGATIVE_INFINITY;
+  /** Whether the newest picture is the one that a pause ended with: how long it has been shown says nothing about others. */
+  #isFirst = false;
+  readonly #pauseMs: number;
   readonly #ages = new RecentWorst();
   readonly #intervals = new RecentWorst();
   /** When something was last sent for the driver to see; `null` if that is not known. */
   #sentMs: number | null = null;
   readonly #sendIntervals = new RecentWorst();
+
+  /** @param pauseMs commands further apart than this have a pause between them */
+  constructor(pauseMs: number) {
+    this.#pauseMs = pauseMs;
+  }
 
   /**
    * A command says what the driver sees. An older picture than one that was named before changes nothing.
@@ -27,16 +40,19 @@ export class OperatorView {
    * is none
    */
   note(ageMs: number | null, nowMs: number): void {
+    if (this.#isPaused(nowMs)) this.#capturedMs = null;
+    this.#heardMs = nowMs;
     if (ageMs === null || !(ageMs >= -ROUNDING_MS)) return;
     const capturedMs = nowMs - ageMs;
     if (this.#capturedMs === null) {
+      this.#isFirst = true;
       this.#ages.reset(nowMs);
-      this.#ages.add(ageMs, nowMs);
       this.#intervals.reset(nowMs);
       this.#intervals.add(FIRST_INTERVAL_MS, nowMs);
     } else {
       if (capturedMs <= this.#capturedMs) return;
-      this.#ages.add(nowMs - this.#capturedMs, nowMs);
+      if (!this.#isFirst) this.#ages.add(nowMs - this.#capturedMs, nowMs);
+      this.#isFirst = false;
       this.#intervals.add(nowMs - this.#namedMs, nowMs);
     }
     this.#capturedMs = capturedMs;
@@ -58,12 +74,13 @@ export class OperatorView {
 
   /** Age of what the driver sees, ms; `null` while it is not known. */
   ageMs(nowMs: number): number | null {
-    return this.#capturedMs === null ? null : nowMs - this.#capturedMs;
+    return this.#capturedMs === null || this.#isPaused(nowMs) ? null : nowMs - this.#capturedMs;
   }
 
   /** The greatest age within the last second or so, ms; `null` while it is not known. */
   worstAgeMs(nowMs: number): number | null {
-    return this.#capturedMs === null ? null : Math.max(this.#ages.at(nowMs), nowMs - this.#capturedMs);
+    const ageMs = this.ageMs(nowMs);
+    return ageMs === null ? null : Math.max(this.#ages.at(nowMs), ageMs);
   }
 
   /**
@@ -74,5 +91,9 @@ export class OperatorView {
     const unseenMs = nowMs - this.#namedMs - this.#intervals.at(nowMs);
     if (this.#sentMs === null) return unseenMs;
     return Math.max(unseenMs, nowMs - this.#sentMs - this.#sendIntervals.at(nowMs));
+  }
+
+  #isPaused(nowMs: number): boolean {
+    return !(nowMs - this.#heardMs <= this.#pauseMs);
   }
 }

@@ -4,11 +4,13 @@ import { BlindTravel, blindSpeedMps } from './blind-travel.ts';
 import { OperatorView } from './operator-view.ts';
 import { ViewAge } from './view-age.ts';
 
+/** Longer than any time between two commands here: pauses are OperatorView's. */
+const PAUSE_MS = 10_000;
 const limits = { slowMs: 250, brakeMs: 400, stallMs: 150 };
 const forward = { ...zeroTwist(), linear: { x: 1, y: 0, z: 0 } };
 
 test('motion needs a picture: full speed while it is fresh, slower when it is late, none when it is too old', () => {
-  const view = new OperatorView();
+  const view = new OperatorView(PAUSE_MS);
   const guard = new ViewAge(view, limits);
   expect(guard.bound(forward, 0)).toEqual({ factor: 0, reason: 'view-unknown', urgent: true });
   view.note(100, 0);
@@ -19,7 +21,7 @@ test('motion needs a picture: full speed while it is fresh, slower when it is la
 });
 
 test('pictures that no longer come are noticed before they are old', () => {
-  const view = new OperatorView();
+  const view = new OperatorView(PAUSE_MS);
   const guard = new ViewAge(view, limits);
   for (let t = 0; t <= 3000; t += 30) view.note(20, t);
   expect(guard.bound(forward, 3000 + 30 + 150).reason).toBe(null);
@@ -29,8 +31,9 @@ test('pictures that no longer come are noticed before they are old', () => {
 });
 
 test('after a late picture the robot is slower for a moment, not stopped', () => {
-  const view = new OperatorView();
+  const view = new OperatorView(PAUSE_MS);
   const guard = new ViewAge(view, limits);
+  view.note(100, -50);
   view.note(100, 0);
   view.note(100, 290);
   expect(guard.bound(forward, 290)).toMatchObject({ factor: 0.25, reason: 'view-late' });
@@ -45,7 +48,7 @@ test('the way while blind and the way to brake stay within the length', () => {
     const v = blindSpeedMps(ageMs, travel);
     expect((v * ageMs) / 1000 + (v * v) / 4).toBeCloseTo(0.5);
   }
-  const view = new OperatorView();
+  const view = new OperatorView(PAUSE_MS);
   const guard = new BlindTravel(view, travel);
   expect(guard.bound(forward, 0).reason).toBe(null);
   view.note(500, 0);

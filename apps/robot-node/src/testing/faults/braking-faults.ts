@@ -15,6 +15,10 @@ export const brakingFaults: Fault[] = [
     name: 'the grip is let go and the stick held',
     cause: ({ hand }) => hand.sends(change(() => ({ deadMan: false }))),
   },
+  {
+    name: 'the hand is not read any more',
+    cause: ({ hand }) => hand.sends(change(() => ({ unread: true }))),
+  },
   { name: 'the stick is let go', cause: ({ hand }) => hand.letGoOfStick() },
   {
     name: 'the lease is given back',

@@ -45,6 +45,16 @@ export class FaultHand {
     this.#alter = alter;
   }
 
+  /** Sends nothing for a while, with the grip held. @returns the time between the two commands around it, ms */
+  async pauses(ms: number): Promise<number> {
+    const lastMs = this.newest?.timeMs ?? 0;
+    this.#alter = () => null;
+    await new Promise((resolve) => setTimeout(resolve, ms));
+    this.#alter = (command) => command;
+    this.send();
+    return (this.newest?.timeMs ?? 0) - lastMs;
+  }
+
   letGoOfStick(): void {
     this.#speed = 0;
   }

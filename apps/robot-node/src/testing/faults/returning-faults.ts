@@ -33,7 +33,7 @@ export const hangingFaults: ReturningFault[] = [
 /** The cause goes away with the hand held on: nothing moves until it has let go. */
 export const returningFaults: ReturningFault[] = [
   {
-    name: 'a gap of 300 ms in the commands',
+    name: 'a gap of half a second in the commands',
     cause: ({ hand }) => hand.sends(() => null),
     ends: ({ hand }) => hand.sends((command) => command),
   },
