@@ -2,6 +2,7 @@
  * `pnpm dev`: runs the whole local stack: signaling, one simulated robot and the web app. Prints the address to open.
  * Ctrl-C stops everything.
  */
+import { availableParallelism } from 'node:os';
 import { setTimeout as delay } from 'node:timers/promises';
 import {
   type ChosenPorts,
@@ -16,6 +17,7 @@ import {
 import { portHolder } from '@farpoint/service';
 import { Backoff } from '@farpoint/timing';
 import { DEV_HELP, type DevOptions, readDevOptions } from './lib/dev-options.ts';
+import { simArguments } from './lib/dev-sim.ts';
 import { devVideo } from './lib/dev-video.ts';
 
 /** Leaves a robot's usual port, 9400, free for one that is started beside these. */
@@ -89,7 +91,7 @@ try {
       id: `sim-${index + 1}`,
       name: `Simulated robot ${index + 1}`,
       args: [
-        ...['--source', 'sim', '--sim-seed', String(index + 1), ...args],
+        ...[...simArguments(availableParallelism()), '--sim-seed', String(index + 1), ...args],
         // Browsers must recognise the robot the next time, too.
         ...['--robot-key', `${repositoryRoot}/.farpoint/robot-keys/sim-${index + 1}.json`],
       ],

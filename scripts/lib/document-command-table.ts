@@ -258,6 +258,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
         'guard',
         'guard-runs',
         'guard-runs --rooms',
+        'first-drive',
         'stopping',
         'faults',
         'safety',

@@ -4,12 +4,14 @@ import './ui/picture-panels.css';
 import './ui/sound.css';
 import './ui/minimap.css';
 import './ui/near.css';
+import { isSoftwareRenderer } from '@farpoint/cloud-view';
 import { transformSupport } from '@farpoint/operator';
 import { App } from './app.ts';
 import { readSettings } from './settings.ts';
 import { Notices } from './state/notices.ts';
 import { failureWords, forbiddenAddressWords } from './status/words.ts';
 import { hideToken, loadStored, pageOrigin } from './stored-settings.ts';
+import { elements } from './ui/elements.ts';
 import { showNotices } from './ui/notice.ts';
 
 const settings = readSettings(new URLSearchParams(window.location.search), loadStored(), pageOrigin());
@@ -30,8 +32,9 @@ function start(): void {
   try {
     const app = new App(settings, transform, notices);
     app.start();
-    // The deployed page leaves this out. `vite build --mode testing` includes it.
-    if (import.meta.env.MODE === 'testing')
+    elements.noGpu.hidden = !isSoftwareRenderer(app.stage.gl);
+    // The deployed page leaves this out. `pnpm dev` and `vite build --mode testing` include it.
+    if (import.meta.env.MODE !== 'production')
       void import('./testing/test-hooks.ts').then(({ installTestApi }) => installTestApi(app));
   } catch (error) {
     console.error(error);

@@ -15,6 +15,13 @@ test('too slow for a while: coarser, then fewer points', () => {
   expect(governor.step).toEqual({ scale: 0.5, every: 16 });
 });
 
+test('a computer without a graphics processor begins coarse, and grows', () => {
+  const governor = new DrawingGovernor(true);
+  expect(governor.step).toEqual({ scale: 0.5, every: 8 });
+  run(governor, 60, 0, 30_000);
+  expect(governor.step).toEqual({ scale: 1, every: 1 });
+});
+
 test('a short stall changes nothing', () => {
   const governor = new DrawingGovernor();
   run(governor, 10, 0, 1000);

@@ -18,6 +18,8 @@ export const DRAWING_STEPS: readonly DrawingStep[] = [
   { scale: 0.5, every: 8 },
   { scale: 0.5, every: 16 },
 ];
+/** Where a computer that draws in software begins: coarse at once, and finer if it can, instead of late at first. */
+const SOFTWARE_STEP = 3;
 
 const SLOW_FPS = 24;
 const FAST_FPS = 50;
@@ -28,11 +30,16 @@ const PATIENCE_MS = 60_000;
 
 /** Chooses how much is drawn, from the display frame rate that the machine reaches. */
 export class DrawingGovernor {
-  #step = 0;
+  #step: number;
   #slowSinceMs: number | null = null;
   #fastSinceMs: number | null = null;
   #steppedUpMs = Number.NEGATIVE_INFINITY;
   #noUpBeforeMs = Number.NEGATIVE_INFINITY;
+
+  /** @param software whether the computer has no graphics processor */
+  constructor(software = false) {
+    this.#step = software ? SOFTWARE_STEP : 0;
+  }
 
   /** How much is to be drawn now. */
   get step(): DrawingStep {

@@ -39,6 +39,10 @@ export const videoDescriptionSchema = z.strictObject({
 const MAX_LATENCY_MS = 60_000;
 const latencyMsSchema = z.number().check(z.minimum(0), z.maximum(MAX_LATENCY_MS));
 
+/** Of what an operator's computer draws; one that draws less shows no world that moves. */
+const [LEAST_DISPLAYED_FPS, MOST_DISPLAYED_FPS] = [1, 240];
+const [LEAST_DISPLAYED_POINTS, MOST_DISPLAYED_POINTS] = [1000, 1e8];
+
 /** No robot moves on by itself after a longer gap, ms. */
 const MOST_RESUME_MS = 1000;
 
@@ -192,6 +196,11 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
       type: z.literal('videos'),
       videos: z.array(videoSchema).check(z.maxLength(MAX_VIDEOS)),
       barcode: z.optional(z.boolean()),
+    }),
+    z.strictObject({
+      type: z.literal('display'),
+      framesPerSecond: z.number().check(z.minimum(LEAST_DISPLAYED_FPS), z.maximum(MOST_DISPLAYED_FPS)),
+      points: z.int().check(z.minimum(LEAST_DISPLAYED_POINTS), z.maximum(MOST_DISPLAYED_POINTS)),
     }),
     z.strictObject({ type: z.literal('listen'), on: z.boolean() }),
     z.strictObject({ type: z.literal('speak'), held: z.boolean() }),

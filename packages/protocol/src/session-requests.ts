@@ -68,6 +68,18 @@ export interface LinkShares {
   videos: number[];
 }
 
+/**
+ * What the operator's computer can draw, by its own measurement; more than that is of no use to it. Before this message it
+ * draws all that comes.
+ */
+export interface DisplayCapacity {
+  type: 'display';
+  /** Clouds a second. */
+  framesPerSecond: number;
+  /** Points of each. */
+  points: number;
+}
+
 /** Whether the operator wants to hear the robot's microphone. Before this message it does not. */
 export interface Listen {
   type: 'listen';
@@ -116,6 +128,7 @@ export type OperatorSessionMessage =
   | WantedSensors
   | WantedVideos
   | LinkShares
+  | DisplayCapacity
   | Listen
   | Speak
   | EndSession

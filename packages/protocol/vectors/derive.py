@@ -690,6 +690,11 @@ operator_session.good({"type": "videos", "videos": []}, "videos: none")
 operator_session.good({"type": "videos", "videos": [0], "barcode": True}, "videos: with the latency barcode")
 shares = operator_session.good({"type": "shares", "cloud": 4, "videos": [2, 1, 100]})
 operator_session.good({"type": "shares", "cloud": 1, "videos": []}, "shares: of the cloud only")
+display = operator_session.good({"type": "display", "framesPerSecond": 12.5, "points": 15000})
+operator_session.good({"type": "display", "framesPerSecond": 1, "points": 1000}, "display: the slowest")
+operator_session.good({"type": "display", "framesPerSecond": 240, "points": 10 ** 8}, "display: the fastest")
+operator_session.spoil(display, ("framesPerSecond", 0.5), ("framesPerSecond", 241), ("framesPerSecond", ABSENT), ("points", 999), ("points", 1500.5),
+                       ("points", 10 ** 8 + 1), ("points", ABSENT), ("sensor", 1, ""))
 measured = operator_session.good({"type": "latencyMeasured", "id": 4, "frameNumber": 902, "mtpMs": 98.5, "firstMs": 91.25})
 operator_session.good(changed(measured, "mtpMs", 60000), "latencyMeasured: the longest")
 operator_session.spoil(measured, ("id", -1), ("id", 2 ** 32), ("frameNumber", 1.5), ("frameNumber", ABSENT), ("mtpMs", 60000.5), ("mtpMs", -1),

@@ -7,7 +7,8 @@ import {
   zeroTwist,
 } from '@farpoint/protocol';
 import { describe, expect, test } from 'vitest';
-import { DriveGuard, type DriveGuardOptions } from './drive-guard.ts';
+import { DriveGuard } from './drive-guard.ts';
+import type { DriveGuardOptions } from './drive-guard-options.ts';
 import { defaultDriveLimits } from './limits.ts';
 
 function randomBytes(): (count: number) => Uint8Array {

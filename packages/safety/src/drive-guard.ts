@@ -9,25 +9,14 @@ import {
   type Twist,
   zeroTwist,
 } from '@farpoint/protocol';
-import {
-  CommandGate,
-  type CommandGateOptions,
-  type CommandVerdict,
-  type RejectedCommand,
-  WITHOUT_WHEELS,
-} from './command-gate.ts';
+import { CommandGate, type CommandVerdict, type RejectedCommand, WITHOUT_WHEELS } from './command-gate.ts';
+import type { DriveGuardOptions } from './drive-guard-options.ts';
 import { EstopLatch, type EstopSource } from './estop.ts';
 import { type EstopReleaseOutcome, type EstopReleasePolicy, releaseEstop } from './estop-release.ts';
-import { type LeaseOptions, type LeaseOutcome, LeaseTable } from './lease.ts';
+import { type LeaseOutcome, LeaseTable } from './lease.ts';
 import { OperatorView } from './motion/operator-view.ts';
 import type { RobotStop } from './robot-stop.ts';
 import { Watchdog } from './watchdog.ts';
-
-export interface DriveGuardOptions extends LeaseOptions, CommandGateOptions {
-  limits: DriveLimits;
-  /** Who may release what an operator has latched; default `driver`. */
-  estopRelease?: EstopReleasePolicy | undefined;
-}
 
 /**
  * Everything between the operators' messages and the robot's wheels. All times are the robot's monotonic clock in ms.
@@ -271,10 +260,7 @@ export class DriveGuard {
 
   /** The message that tells every operator about the emergency stop. */
   estopState(): EstopState {
-    const { by, number: latch, holders } = this.#estop;
-    if (by === null) return { type: 'estop', latched: false, latch };
-    const state: EstopState = { type: 'estop', latched: true, by, latch };
-    return holders.size === 0 ? state : { ...state, releasedAt: 'robot' };
+    return this.#estop.state;
   }
 
   /**

@@ -1,3 +1,4 @@
+import type { EstopState } from '@farpoint/protocol';
 import type { RobotStop } from './robot-stop.ts';
 
 /** Who latched the emergency stop. */
@@ -44,6 +45,14 @@ export class EstopLatch {
   /** Number of the latest latch, 0 before the first; wraps at 2³². A latch while it is latched counts as well. */
   get number(): number {
     return this.#number;
+  }
+
+  /** The message that tells every operator about it. */
+  get state(): EstopState {
+    const latch = this.#number;
+    if (this.#by === null) return { type: 'estop', latched: false, latch };
+    const state: EstopState = { type: 'estop', latched: true, by: this.#by, latch };
+    return this.#holders.size === 0 ? state : { ...state, releasedAt: 'robot' };
   }
 
   /** Whether somebody has latched it, apart from the stops at the robot that hold it. */

@@ -1,4 +1,4 @@
-import type { CodedFormat } from './plan.ts';
+import type { CodedFormat, DrawnMost } from './plan.ts';
 
 /** The share of the path that the stream may use. */
 export interface CaptureBudget {
@@ -14,6 +14,8 @@ export interface CaptureBudget {
    * wire. Each `clusterId` is one such request.
    */
   probe: { clusterId: number; bytes: number } | null;
+  /** The most that those who decide can draw; left out if they draw all that comes. */
+  display?: DrawnMost | undefined;
   /** Coded formats that may be used if they fit a frame. Each is read by at least one operator whose path decides. */
   coded: readonly CodedBudget[];
 }

@@ -176,3 +176,45 @@ describe('FramePlanner, coded', () => {
     expect(packets * wireBytesOfPacket(INPUT.overheadBytes)).toBeGreaterThanOrEqual(probing.probeBytes);
   });
 });
+
+describe('FramePlanner, for a computer that draws less than the link carries', () => {
+  const display = { framesPerSecond: 13, points: 9000 };
+  const input = { ...INPUT, display };
+
+  it('plans no more frames a second, and no more points where they are a sample', () => {
+    for (const policy of ['latency', 'paper'] as const) {
+      const { framesPerSecond, points } = planner({ policy, anyRate: true }).plan(input);
+      expect([framesPerSecond, points]).toEqual([13, 9000]);
+    }
+    expect(planner({ anyRate: true }).planCoded('organised', input).framesPerSecond).toBe(13);
+    expect(planner({ anyRate: true }).planCoded('unorganised', input).budgetBytes).toBe((9000 * 64) / 8);
+  });
+
+  it('takes a whole fraction of a camera’s own rate', () => {
+    expect(planner().plan(input).framesPerSecond).toBe(12);
+    expect(planner().plan({ ...INPUT, display: { ...display, framesPerSecond: 29 } }).framesPerSecond).toBe(
+      30,
+    );
+    expect(
+      planner().plan({ ...INPUT, display: { ...display, framesPerSecond: 1 } }).framesPerSecond,
+    ).toBeLessThanOrEqual(1.1);
+  });
+
+  it('wants no more of the link than it can use', () => {
+    const all = planner().usefulBitsPerSecond('points64', INPUT);
+    expect(planner().usefulBitsPerSecond('points64', input)).toBeCloseTo(
+      (all * 13 * 9000) / (60 * 230_400),
+      -3,
+    );
+    expect(planner().usefulBitsPerSecond('organised', input)).toBeCloseTo(
+      (planner().usefulBitsPerSecond('organised', INPUT) * 13) / 60,
+    );
+  });
+
+  it('a link that carries less still decides', () => {
+    const poor = { ...input, targetBitsPerSecond: 1e6 };
+    expect(planner().plan(poor)).toEqual(
+      planner().plan({ ...INPUT, targetBitsPerSecond: 1e6, display: undefined }),
+    );
+  });
+});

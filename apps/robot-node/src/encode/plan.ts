@@ -34,6 +34,14 @@ export interface PlanOptions {
   mostPoints: number;
 }
 
+/** The most that an operator's computer can draw. */
+export interface DrawnMost {
+  /** Clouds a second. */
+  framesPerSecond: number;
+  /** Points of each. */
+  points: number;
+}
+
 export interface PlanInput {
   /** The stream's bit rate on the wire, all headers counted, bit/s. */
   targetBitsPerSecond: number;
@@ -43,6 +51,8 @@ export interface PlanInput {
   overheadBytes: number;
   /** The rate controller wants to probe the link with a train of this many bytes on the wire; 0 for none. */
   probeBytes: number;
+  /** The most that those it is for can draw. */
+  display?: DrawnMost | undefined;
   /** Wall-clock time that the capture thread takes per frame, ms. It includes waiting for busy processors. */
   workMs: number;
 }
@@ -96,6 +106,8 @@ const CODED_NEEDS: Readonly<Record<CodedFormat, CodedNeed>> = {
 };
 /** A coded frame may turn out smaller than its budget by this factor; one that carries a probe train must not. */
 const CODED_SLACK = 1.06;
+/** So much more than a computer says it draws is no more. */
+const DRAWN_SLACK = 1.1;
 /** A probe may enlarge a frame by at most this factor. */
 const MOST_PROBE_FACTOR = 8;
 
@@ -110,14 +122,14 @@ export class FramePlanner {
 
   /** The plan for the frame that is being captured. */
   plan(input: PlanInput): FramePlan {
-    const { policy, mostFramesPerSecond, floorFraction, mostPoints } = this.#options;
+    const { policy, floorFraction } = this.#options;
     const { rawPoints } = input;
     const wireBytes = wireBytesOfPacket(input.overheadBytes);
     // Of a packet's bytes on the wire, only the points count in the equation.
     const pointBitsPerSecond = (input.targetBitsPerSecond * MAX_POINT_DATA_BYTES) / wireBytes;
-    const most = Math.floor(mostPoints / POINTS_PER_PACKET) * POINTS_PER_PACKET;
+    const most = this.#mostPoints(input);
     if (policy === 'paper') {
-      const framesPerSecond = mostFramesPerSecond;
+      const framesPerSecond = this.#mostFramesPerSecond(input);
       const planned = maxPoints({
         bitsPerSecond: pointBitsPerSecond,
         framesPerSecond,
@@ -137,7 +149,7 @@ export class FramePlanner {
   /** Points per frame at this frame rate: what the bit rate allows, or enough for the rate controller's probe train. */
   pointsAt(framesPerSecond: number, input: PlanInput): number {
     const wireBytes = wireBytesOfPacket(input.overheadBytes);
-    const most = Math.floor(this.#options.mostPoints / POINTS_PER_PACKET) * POINTS_PER_PACKET;
+    const most = this.#mostPoints(input);
     const points = maxPoints({
       bitsPerSecond: (input.targetBitsPerSecond * MAX_POINT_DATA_BYTES) / wireBytes,
       framesPerSecond,
@@ -163,7 +175,7 @@ export class FramePlanner {
     const dataShare = MAX_POINT_DATA_BYTES / wireBytes;
     const bitsPerSecond = input.targetBitsPerSecond * dataShare;
     const framesPerSecond = this.#chooseFrameRate(bitsPerSecond / need.whole, rawPoints, input, rawPoints);
-    const enough = this.enoughBytes(format, rawPoints);
+    const enough = this.enoughBytes(format, this.#drawnPoints(format, input));
     const afforded = Math.min(BitRate.toBytesPerSecond(bitsPerSecond) / framesPerSecond, enough);
     const probed = Math.min(
       input.probeBytes * dataShare * CODED_SLACK,
@@ -186,13 +198,28 @@ export class FramePlanner {
   }
 
   /** The highest bit rate that frames like this one can use, all headers counted, bit/s. */
-  usefulBitsPerSecond(format: CloudFormat, { rawPoints, overheadBytes }: PlanInput): number {
-    const { mostFramesPerSecond, mostPoints } = this.#options;
-    const plain = format === 'points64';
-    const bits = plain
-      ? Math.min(rawPoints, mostPoints) * BITS_PER_POINT
-      : rawPoints * CODED_NEEDS[format].enough;
-    return (bits * mostFramesPerSecond * wireBytesOfPacket(overheadBytes)) / MAX_POINT_DATA_BYTES;
+  usefulBitsPerSecond(format: CloudFormat, input: PlanInput): number {
+    const bits =
+      format === 'points64'
+        ? Math.min(input.rawPoints, this.#mostPoints(input)) * BITS_PER_POINT
+        : this.#drawnPoints(format, input) * CODED_NEEDS[format].enough;
+    const wireBytes = wireBytesOfPacket(input.overheadBytes);
+    return (bits * this.#mostFramesPerSecond(input) * wireBytes) / MAX_POINT_DATA_BYTES;
+  }
+
+  /** Points of a frame that a coded format is to carry. A depth camera's frame is whole, or it has holes. */
+  #drawnPoints(format: CodedFormat, { rawPoints, display }: PlanInput): number {
+    return format === 'organised' ? rawPoints : Math.min(rawPoints, display?.points ?? rawPoints);
+  }
+
+  /** Of a sample, in whole packets. */
+  #mostPoints({ display }: PlanInput): number {
+    const most = Math.min(this.#options.mostPoints, display?.points ?? Number.POSITIVE_INFINITY);
+    return Math.max(Math.floor(most / POINTS_PER_PACKET), 1) * POINTS_PER_PACKET;
+  }
+
+  #mostFramesPerSecond({ display }: PlanInput): number {
+    return Math.min(this.#options.mostFramesPerSecond, display?.framesPerSecond ?? Number.POSITIVE_INFINITY);
   }
 
   /**
@@ -202,11 +229,13 @@ export class FramePlanner {
   #chooseFrameRate(
     pointsPerSecond: number,
     mostPoints: number,
-    { workMs }: PlanInput,
+    input: PlanInput,
     wanted = LEAST_POINTS,
   ): number {
     const { mostFramesPerSecond, anyRate } = this.#options;
-    const floor = Math.min(LEAST_FRAMES_PER_SECOND, mostFramesPerSecond);
+    const { workMs } = input;
+    const drawn = this.#mostFramesPerSecond(input);
+    const floor = Math.min(LEAST_FRAMES_PER_SECOND, drawn);
     const least = Math.min(wanted, mostPoints);
     const load = anyRate ? MOST_LOAD_AT_ANY_RATE : MOST_LOAD;
     const affordable = workMs > 0 ? (1000 * load) / workMs : Number.POSITIVE_INFINITY;
@@ -214,11 +243,13 @@ export class FramePlanner {
       const candidate = mostFramesPerSecond / divisor;
       const next = mostFramesPerSecond / (divisor + 1);
       const margin = candidate > this.#framesPerSecond ? UPWARD_MARGIN : 1;
+      // A source with a rate of its own gives the next whole fraction of it that can be drawn.
+      if (!anyRate && candidate > drawn * DRAWN_SLACK) continue;
       const inTime = anyRate || candidate * (margin === 1 ? 1 : 1.1) <= affordable;
       const fits = pointsPerSecond / candidate >= least * margin && inTime;
       if (!fits && next >= floor) continue;
       this.#framesPerSecond = candidate;
-      return anyRate ? Math.max(Math.min(candidate, affordable), floor) : candidate;
+      return anyRate ? Math.max(Math.min(candidate, affordable, drawn), floor) : candidate;
     }
   }
 }

@@ -2,7 +2,7 @@ import { expect, it } from 'vitest';
 import type { ReadyFrame } from '../capture/capture-messages.ts';
 import type { CaptureBudget } from '../encode/capture-budget.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
-import type { CodedFormat } from '../encode/plan.ts';
+import type { CodedFormat, DrawnMost } from '../encode/plan.ts';
 import { RobotCounters } from '../telemetry/robot-counters.ts';
 import { StageTimer } from '../telemetry/stage-timer.ts';
 import { FrameFanOut, type FrameTarget } from './frame-fan-out.ts';
@@ -10,6 +10,7 @@ import { FrameFanOut, type FrameTarget } from './frame-fan-out.ts';
 class Viewer implements FrameTarget {
   readonly id: string;
   streaming = true;
+  display: DrawnMost | null = null;
   readonly #bitsPerSecond: number;
   readonly formats: readonly CodedFormat[];
   sender: FrameTarget['sender'] = null;
@@ -152,4 +153,22 @@ it('enlarges the frames of one sensor for a probe, if a single path decides', ()
   expect(setUp(viewers).budget?.probe).toBeNull();
   for (const viewer of viewers) viewer.probed = 1;
   expect(setUp(viewers, 'a').budget?.probe).toBeNull();
+});
+
+it('captures no more than the driver’s computer draws, and without one no more than the fastest watcher’s', () => {
+  const viewers = [
+    new Viewer('slow', 8e6, BOTH),
+    new Viewer('quick', 8e6, BOTH),
+    new Viewer('fast', 8e6, BOTH),
+  ] as const;
+  const [slow, quick, fast] = viewers;
+  slow.display = { framesPerSecond: 5, points: 20_000 };
+  quick.display = { framesPerSecond: 20, points: 10_000 };
+  expect(setUp([slow, quick]).budget?.display).toEqual({ framesPerSecond: 20, points: 20_000 });
+  expect(setUp([slow, quick], 'slow').budget?.display).toEqual({ framesPerSecond: 5, points: 20_000 });
+  expect(setUp([...viewers], 'slow').budget?.display).toEqual({ framesPerSecond: 5, points: 20_000 });
+  // One that draws all that comes.
+  expect(fast.display).toBe(null);
+  expect(setUp([...viewers]).budget?.display).toBe(undefined);
+  expect(setUp([...viewers], 'fast').budget?.display).toBe(undefined);
 });

@@ -4,7 +4,7 @@ import type { ReadyFrame } from '../capture/capture-messages.ts';
 import { type CaptureBudget, type CodedBudget, NO_BUDGET, UNSENT_BUDGET } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
-import { CODED_FORMATS, type CodedFormat } from '../encode/plan.ts';
+import { CODED_FORMATS, type CodedFormat, type DrawnMost } from '../encode/plan.ts';
 import type { FrameLog } from '../telemetry/frame-log.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { StageTimer } from '../telemetry/stage-timer.ts';
@@ -28,6 +28,8 @@ export interface FrameTarget {
   probesWith(sensor: number): boolean;
   reads(format: CodedFormat): boolean;
   readonly sender: Pick<StreamSender, 'probeWish' | 'overheadBytes'> | null;
+  /** The most that the operator's computer draws; left out or `null`: all that comes. */
+  readonly display?: DrawnMost | null;
   enqueue(shared: SharedFrame): void;
   /** Sends the header that a coded stream's frames are decoded with, to operators who read the format. */
   announce?(stream: CodedStream, sensor: number): void;
@@ -100,8 +102,10 @@ export class FrameFanOut {
     const [only] = deciding;
     const probing = deciding.length === 1 && only?.probesWith(sensor) === true;
     const probe = probing ? (only.sender?.probeWish ?? null) : null;
+    const display = mostDrawn(deciding);
     const next: CaptureBudget = {
       coded,
+      ...(display === null ? {} : { display }),
       targetBitsPerSecond: narrowest(deciding, sensor),
       probe: probe === null ? null : { clusterId: probe.clusterId, bytes: probe.bytes },
       overheadBytes: Math.max(0, ...streaming.map((operator) => operator.sender?.overheadBytes ?? 0)),
@@ -117,6 +121,7 @@ export class FrameFanOut {
       next.targetBitsPerSecond === last.targetBitsPerSecond &&
       next.overheadBytes === last.overheadBytes &&
       isDeepStrictEqual(next.coded, last.coded) &&
+      isDeepStrictEqual(next.display, last.display) &&
       next.streaming === last.streaming &&
       next.unsent === last.unsent
     ) {
@@ -152,6 +157,17 @@ export class FrameFanOut {
 function isFor(target: FrameTarget, audience: FrameAudience): boolean {
   if (audience === 'everyone') return true;
   return 'readers' in audience ? target.reads(audience.readers) : !target.reads(audience.others);
+}
+
+/** What the fastest of them draws; `null` if one draws all that comes. */
+function mostDrawn(targets: readonly FrameTarget[]): DrawnMost | null {
+  const most = { framesPerSecond: 0, points: 0 };
+  for (const { display } of targets) {
+    if (display == null) return null;
+    most.framesPerSecond = Math.max(most.framesPerSecond, display.framesPerSecond);
+    most.points = Math.max(most.points, display.points);
+  }
+  return targets.length === 0 ? null : most;
 }
 
 /** Empty if none of the deciding operators reads the format. */

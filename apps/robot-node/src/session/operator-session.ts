@@ -1,7 +1,7 @@
-import type { CloudFormat, Sound, StageTimings, StreamStatus } from '@farpoint/protocol';
+import type { Sound, StageTimings, StreamStatus } from '@farpoint/protocol';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import { slotSequenceOffset } from '../encode/packetiser.ts';
-import type { CodedFormat } from '../encode/plan.ts';
+import type { CodedFormat, DrawnMost } from '../encode/plan.ts';
 import type { ReadyPicture } from '../pictures/picture-messages.ts';
 import { PictureSender } from '../pictures/picture-sender.ts';
 import { cloudShare, probingSensor } from '../sensors/cloud-shares.ts';
@@ -21,12 +21,14 @@ import { OperatorVideos } from '../video/operator-videos.ts';
 import type { VideoFrame } from '../video/video-frame.ts';
 import type { FrameTarget } from './frame-fan-out.ts';
 import { type LatencyTest, LatencyTests } from './latency-tests.ts';
+import { listenToWishes } from './listen-to-wishes.ts';
 import { OperatorMessages, type SessionHost } from './operator-messages.ts';
 import type { OperatorSessionEvents, OperatorSessionOptions } from './operator-session-options.ts';
 import { PathBudget } from './path-budget.ts';
 import { RestartPolicy } from './restart-policy.ts';
 import { ResumeKey } from './resume-key.ts';
 import { droppedFrames, StreamMeter } from './stream-meter.ts';
+import { WantedClouds } from './wanted-clouds.ts';
 
 /** One operator: connection, session and stream. */
 export class OperatorSession implements FrameTarget {
@@ -36,10 +38,6 @@ export class OperatorSession implements FrameTarget {
   readonly resumeKey = new ResumeKey();
   sender: StreamSender | null = null;
   readonly #claims: OperatorSessionOptions['claims'];
-  /** The sensors whose clouds the operator wants. */
-  #sensors: ReadonlySet<number> = new Set([0]);
-  /** The coded formats that the operator says it reads. */
-  #formats: ReadonlySet<CloudFormat> = new Set();
   /** Nothing has been heard from the operator for a while, so its points would be lost. */
   quiet = false;
   readonly #host: SessionHost;
@@ -53,6 +51,7 @@ export class OperatorSession implements FrameTarget {
   readonly videos: OperatorVideos;
   readonly sound: OperatorSound;
   readonly #tests = new LatencyTests();
+  readonly #clouds = new WantedClouds();
   readonly #onViewSent = () => this.#host.drive.guard.onViewSent(this.id, this.#host.now());
   #pathHeardMs = 0;
 
@@ -86,31 +85,10 @@ export class OperatorSession implements FrameTarget {
       this.sender?.onReceiverLimit(bitsPerSecond);
       events.onBudgetChanged();
     };
-    this.messages.wishes.onStreamSwitch = (running) => {
-      if (!running) this.#clear();
-      events.onBudgetChanged();
-    };
-    this.messages.wishes.onSensors = (sensors) => {
-      this.#sensors = new Set(sensors);
-      events.onCloudFormats();
-      events.onBudgetChanged();
-    };
-    this.messages.wishes.onListen = (on) => this.sound.listen(on);
-    this.messages.wishes.onSpeak = (held) => this.sound.speak(held);
-    this.messages.wishes.onPictures = (cameras) => this.pictures.watch(cameras);
-    this.messages.wishes.onVideos = (videos, barcode) => {
-      this.videos.want(videos, barcode);
-      events.onBudgetChanged();
-    };
-    this.messages.wishes.onShares = (shares) => {
-      this.#budget.weigh(shares);
-      events.onBudgetChanged();
-    };
-    this.messages.wishes.onCloudFormats = (formats) => {
-      this.#formats = new Set(formats);
-      events.onCloudFormats();
-      events.onBudgetChanged();
-    };
+    listenToWishes(this.messages.wishes, {
+      ...{ clouds: this.#clouds, videos: this.videos, pictures: this.pictures, sound: this.sound },
+      ...{ budget: this.#budget, clear: () => this.#clear(), events },
+    });
   }
 
   /** The operator's answer to our latest offer. Never throws. */
@@ -122,7 +100,7 @@ export class OperatorSession implements FrameTarget {
 
   /** Whether the operator reads this format. Formats are independent: reading one implies no other. */
   reads(format: CodedFormat): boolean {
-    return this.#formats.has(format);
+    return this.#clouds.formats.has(format);
   }
 
   /** The name by which the guard knows the operator. */
@@ -148,12 +126,16 @@ export class OperatorSession implements FrameTarget {
     return Math.max(this.messages.heardMs, this.sender?.heardMs ?? 0, this.#pathHeardMs);
   }
 
+  get display(): DrawnMost | null {
+    return this.#clouds.display;
+  }
+
   wants(sensor: number): boolean {
-    return this.#sensors.has(sensor);
+    return this.#clouds.sensors.has(sensor);
   }
 
   probesWith(sensor: number): boolean {
-    return probingSensor(this.#claims(), this.#sensors) === sensor;
+    return probingSensor(this.#claims(), this.#clouds.sensors) === sensor;
   }
 
   /** How much of the path a sensor's points may take, bit/s on the wire; 0 while there is no path. */
@@ -161,7 +143,7 @@ export class OperatorSession implements FrameTarget {
     const { sender } = this;
     if (sender === null) return 0;
     const total = this.#budget.cloudBitsPerSecond(sender.targetBitsPerSecond) * sender.fit;
-    return cloudShare(sensor, total, this.#claims(), this.#sensors);
+    return cloudShare(sensor, total, this.#claims(), this.#clouds.sensors);
   }
 
   get watchedCameras(): ReadonlySet<number> {
@@ -211,6 +193,7 @@ export class OperatorSession implements FrameTarget {
     if (this.sender === null || !this.streaming) return;
     const { frame } = shared;
     const { frameNumber, points, capturedAtMs } = frame;
+    if (!frame.latencyTest && !this.#clouds.takes(frame.sensor, capturedAtMs)) return;
     for (const { id, commandMs } of this.#tests.answeredBy(shared)) {
       const moments = { commandMs, captureMs: capturedAtMs };
       this.messages.send({ type: 'latencyFrame', id, frameNumber, points, ...moments });

@@ -1,4 +1,4 @@
-import type { CloudFormat, LinkShares, OperatorSessionMessage } from '@farpoint/protocol';
+import type { CloudFormat, DisplayCapacity, LinkShares, OperatorSessionMessage } from '@farpoint/protocol';
 
 /** What an operator wants of the robot's streams. Nothing of it moves the robot. The session's parts listen here. */
 export class OperatorWishes {
@@ -10,6 +10,7 @@ export class OperatorWishes {
   onSensors: ((sensors: readonly number[]) => void) | null = null;
   onVideos: ((videos: readonly number[], barcode: boolean) => void) | null = null;
   onShares: ((shares: LinkShares) => void) | null = null;
+  onDisplay: ((display: DisplayCapacity) => void) | null = null;
   onListen: ((on: boolean) => void) | null = null;
   onSpeak: ((held: boolean) => void) | null = null;
 
@@ -33,6 +34,9 @@ export class OperatorWishes {
         break;
       case 'shares':
         this.onShares?.(message);
+        break;
+      case 'display':
+        this.onDisplay?.(message);
         break;
       case 'listen':
         this.onListen?.(message.on);

@@ -20,6 +20,7 @@ import type { PageStats } from '../status/page-stats.ts';
 import type { DrivePath } from '../view/drive-path.ts';
 import type { NearRing } from '../view/near-ring.ts';
 import type { ViewFigures } from '../view/predicted-view.ts';
+import type { DriveRecording } from './drive-record.ts';
 
 export interface PageState {
   signaling: SignalingState;
@@ -219,6 +220,9 @@ export interface FarpointTestApi {
    * robot's clock as the page estimates it, accurate to half of `minRttMs`.
    */
   recordedPackets(): { values: number[]; minRttMs: number | null };
+  /** Starts recording anew how the robot obeys; `false` stops it. */
+  recordDrive(on: boolean): void;
+  recordedDrive(): DriveRecording | null;
   /** Colour of one pixel after the next display frame. x and y are shares of the canvas, from the top left. */
   pixel(x: number, y: number): Promise<[number, number, number]>;
 }

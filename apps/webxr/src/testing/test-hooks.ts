@@ -6,6 +6,7 @@ import { Quaternion, Vector3 } from 'three';
 import type { App } from '../app.ts';
 import { nearestHits } from '../near-field/directions.ts';
 import { nearDetails, nearWords } from '../status/near-words.ts';
+import { DriveRecord } from './drive-record.ts';
 import { PacketRecord } from './packet-record.ts';
 import { PresentationRecord } from './presentation-record.ts';
 import { ScriptInput } from './script-input.ts';
@@ -22,6 +23,7 @@ export function installTestApi(app: App): void {
   let release: ReturnType<typeof setTimeout> | undefined;
   let packets: PacketRecord | null = null;
   let presentations: PresentationRecord | null = null;
+  let drive: DriveRecord | null = null;
   const robotNowMs = () => {
     const { offsetMs } = app.client.link.session.clock;
     return offsetMs === null ? null : performance.now() + offsetMs;
@@ -164,6 +166,12 @@ export function installTestApi(app: App): void {
         values[i] = (values[i] as number) + (clock.offsetMs ?? Number.NaN);
       return { values, minRttMs: clock.minRttMs };
     },
+    recordDrive(on) {
+      drive?.stop();
+      if (on) drive = new DriveRecord(client);
+    },
+    recordedDrive: () =>
+      drive === null ? null : { rows: drive.rows, gripsLost: drive.gripsLost, refusals: drive.refusals },
     pixel: (x, y) =>
       new Promise((resolve) => {
         app.frames.afterNextFrame(() => {

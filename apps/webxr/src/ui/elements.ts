@@ -58,6 +58,7 @@ export const elements = {
   robotsEmpty: byId('robots-empty', HTMLElement),
   hud: byId('hud', HTMLElement),
   facts: byId('facts', HTMLElement),
+  noGpu: byId('no-gpu', HTMLDetailsElement),
   sensors: byId('sensors', HTMLElement),
   sound: byId('sound', HTMLElement),
   clouds: byId('clouds', HTMLElement),

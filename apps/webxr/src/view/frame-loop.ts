@@ -1,5 +1,13 @@
 /** The frame loop. Decides when a picture is drawn, and how coarsely if the machine cannot keep up. */
-import { type CloudView, DrawGate, DrawingGovernor, GpuCompletion } from '@farpoint/cloud-view';
+import {
+  ALL_FRAMES_PER_SECOND,
+  type CloudView,
+  DisplayCapacity,
+  DrawGate,
+  DrawingGovernor,
+  GpuCompletion,
+  isSoftwareRenderer,
+} from '@farpoint/cloud-view';
 import type { RobotClient } from '@farpoint/operator';
 import type { Settings } from '../settings.ts';
 import type { PageStatistics } from '../status/page-stats.ts';
@@ -10,6 +18,11 @@ import type { RememberedWorld } from './remembered-world.ts';
 import type { SensorClouds } from './sensor-clouds.ts';
 import type { Stage } from './stage.ts';
 import type { VrSession } from './vr-session.ts';
+
+/** What is said of a computer that draws all that comes. */
+const MOST_FRAMES_PER_SECOND = 240;
+/** As many points as any sensor has; divided by the governor's thinning. */
+const MOST_POINTS = 240_000;
 
 export interface FrameLoopParts {
   readonly settings: Settings;
@@ -30,11 +43,15 @@ export class FrameLoop {
   readonly #parts: FrameLoopParts;
   readonly #completion: GpuCompletion;
   readonly #gate = new DrawGate();
-  readonly #governor = new DrawingGovernor();
+  readonly #governor: DrawingGovernor;
+  readonly #capacity = new DisplayCapacity();
   #afterDrawing: (() => void)[] = [];
 
   constructor(parts: FrameLoopParts) {
     this.#parts = parts;
+    // A canvas of a fixed size is small, and there to be measured.
+    const { canvas } = parts.settings;
+    this.#governor = new DrawingGovernor(canvas === null && isSoftwareRenderer(parts.stage.gl));
     this.#completion = new GpuCompletion(parts.stage.renderer);
     this.#completion.onCost = (costMs) => this.#gate.onCost(costMs);
   }
@@ -45,6 +62,9 @@ export class FrameLoop {
       client.drawEvery(settings.drawEvery, settings.drawEvery);
       clouds.every = settings.drawEvery;
     }
+    this.#thin();
+    // Each session begins with a robot that knows nothing of this computer.
+    client.on('welcome', () => this.#tellDisplay());
     stage.renderer.setAnimationLoop((nowMs) => this.#frame(nowMs));
   }
 
@@ -55,19 +75,40 @@ export class FrameLoop {
 
   /** Call this a few times a second. Draws less if the machine cannot keep up, and follows the scene that is seen. */
   govern(nowMs: number): void {
-    const { client, clouds, settings, stage, stats } = this.#parts;
+    const { client, clouds, stage, stats } = this.#parts;
     followScene(stage, clouds.all.peek());
-    if (document.hidden || client.phase !== 'live') this.#governor.pause();
-    else if (this.#governor.update(stats.displayFramesPerSecond, nowMs)) {
-      const { scale, every } = this.#governor.step;
-      stage.resolution = scale;
-      // A sampled cloud is not thinned further: a few thousand points are not what slows the machine down.
-      if (settings.drawEvery === null) {
-        client.drawEvery(every);
-        clouds.every = every;
-        stats.drawnOneOf = clouds.drawnOneOf(every);
-      }
+    if (document.hidden || client.phase !== 'live') {
+      this.#governor.pause();
+      this.#capacity.pause();
+      return;
     }
+    const coarser = this.#governor.update(stats.displayFramesPerSecond, nowMs);
+    if (coarser) this.#thin();
+    if (this.#capacity.update(nowMs) || coarser) this.#tellDisplay();
+  }
+
+  /** Draws as much as the governor says. */
+  #thin(): void {
+    const { client, clouds, settings, stage, stats } = this.#parts;
+    const { scale, every } = this.#governor.step;
+    stage.resolution = scale;
+    // A sampled cloud is not thinned further: a few thousand points are not what slows the machine down.
+    if (settings.drawEvery !== null) return;
+    client.drawEvery(every);
+    clouds.every = every;
+    stats.drawnOneOf = clouds.drawnOneOf(every);
+  }
+
+  /** What is decoded and not seen delays what is: the robot sends no more than this computer draws. */
+  #tellDisplay(): void {
+    const { framesPerSecond } = this.#capacity;
+    const points = Math.ceil(MOST_POINTS / this.#governor.step.every);
+    const all = framesPerSecond >= ALL_FRAMES_PER_SECOND;
+    this.#parts.client.link.sendSession({
+      type: 'display',
+      framesPerSecond: all ? MOST_FRAMES_PER_SECOND : framesPerSecond,
+      points,
+    });
   }
 
   #frame(nowMs: number): void {
@@ -96,6 +137,7 @@ export class FrameLoop {
     } else if (!inVr) this.#completion.mark();
     const endedMs = performance.now();
     client.noteDrawn(endedMs);
+    this.#capacity.onDrawn(cloud.endedFrame);
     stats.onDrawn(endedMs - beganMs);
     if (this.#afterDrawing.length > 0) {
       for (const act of this.#afterDrawing) act();

@@ -1,0 +1,185 @@
+/** `pnpm bench first-drive`: what a newcomer's first drive is like on this computer, by the README's first command. */
+import { type ChildProcess, execFileSync, spawn } from 'node:child_process';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { availableParallelism, tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { parseArgs } from 'node:util';
+import { chromiumLaunchOptions, freePorts, ManagedProcess, repositoryRoot } from '@farpoint/local-stack';
+import type {} from '@farpoint/webxr/test-api';
+import { type Browser, chromium } from '@playwright/test';
+import { type DriveFigures, driveFigures } from './first-drive-figures.ts';
+import { driveAbout } from './first-drive-hand.ts';
+import { type Bench, numberOption, printJson, printTable } from './report.ts';
+
+const USAGE = `pnpm bench first-drive [--seconds 60] [--sizes 1280x720,1920x1080] [--busy 0] [--here] [--throttle 1] [--json]
+
+Clones the last commit, starts it by the README's first command, and drives the simulated robot about in a real Chromium
+with real key presses, with nothing set: everything that a newcomer gets. Software renders where there is no GPU.
+
+  --busy N      runs N busy loops beside it
+  --here        uses this checkout as it is, and not a clone
+  --throttle N  the page's main thread is N times slower (Chromium's own emulation)
+
+obeyed is the share of the time with a grip held in which the robot did what it was told, without the time in which its
+obstacle guard bounded it. view age is that of what is on the screen.`;
+
+const START_MS = 15 * 60_000;
+/** Before the drive: somebody looks at the page. */
+const LOOK_MS = 5000;
+
+interface Row extends DriveFigures {
+  size: string;
+  /** Clouds that were drawn, and frames of the page, a second. */
+  drawnFramesPerSecond: number;
+  displayFramesPerSecond: number;
+}
+
+export const bench: Bench = {
+  name: 'first-drive',
+  summary: 'a newcomer’s first drive on this computer',
+  async run(argv) {
+    const { values } = parseArgs({
+      args: argv,
+      options: {
+        seconds: { type: 'string', default: '60' },
+        sizes: { type: 'string', default: '1280x720,1920x1080' },
+        busy: { type: 'string', default: '0' },
+        throttle: { type: 'string', default: '1' },
+        here: { type: 'boolean', default: false },
+        json: { type: 'boolean' },
+        help: { type: 'boolean' },
+      },
+    });
+    if (values.help) return console.log(USAGE);
+    const seconds = numberOption('seconds', values.seconds, 1);
+    const busy = numberOption('busy', values.busy, 0);
+    const throttle = numberOption('throttle', values.throttle, 1);
+    const sizes = values.sizes.split(',').map((size) => {
+      const [width, height] = size.split('x').map(Number);
+      if (!(width && height)) throw new Error(`--sizes: \`${size}\` is not WIDTHxHEIGHT`);
+      return { width, height };
+    });
+
+    const folder = values.here ? repositoryRoot : clone();
+    const loops: ChildProcess[] = [];
+    let stack: ManagedProcess | null = null;
+    let browser: Browser | null = null;
+    const rows: Row[] = [];
+    try {
+      const [port] = (await freePorts(1)) as [number];
+      console.error(`npx -y pnpm@12 dev, in ${folder}`);
+      stack = await ManagedProcess.start({
+        name: 'dev',
+        command: ['npx', '-y', 'pnpm@12', 'dev', '--port', String(port)],
+        cwd: folder,
+        readyUrl: `http://localhost:${port}/`,
+        readyTimeoutMs: START_MS,
+      });
+      const address = await addressOf(stack);
+      for (let i = 0; i < busy; i++)
+        loops.push(spawn(process.execPath, ['-e', 'for (;;);'], { stdio: 'ignore' }));
+      browser = await chromium.launch(chromiumLaunchOptions());
+      for (const viewport of sizes) {
+        console.error(`${viewport.width}x${viewport.height}, ${seconds} s`);
+        rows.push(await firstDrive(browser, address, viewport, { seconds, throttle }));
+      }
+    } finally {
+      for (const loop of loops) loop.kill();
+      await browser?.close();
+      await stack?.stop();
+      if (!values.here) rmSync(folder, { recursive: true, force: true });
+    }
+    printTable(
+      [
+        'page',
+        'metres',
+        'held, s',
+        'guarded, s',
+        'obeyed',
+        'view age p50',
+        'p95, ms',
+        'clouds/s',
+        'frames/s',
+        'grips lost',
+      ],
+      rows.map((row) => [
+        ...[
+          row.size,
+          row.metres,
+          row.heldS,
+          row.guardedS,
+          row.obeyedShare,
+          row.viewAgeMs.p50,
+          row.viewAgeMs.p95,
+        ],
+        ...[row.drawnFramesPerSecond, row.displayFramesPerSecond, row.gripsLost],
+      ]),
+    );
+    for (const { size, whyNotS } of rows) console.log(`${size}: not obeyed, s: ${JSON.stringify(whyNotS)}`);
+    if (values.json)
+      printJson({ bench: 'first-drive', seconds, busy, throttle, cores: availableParallelism(), rows });
+  },
+};
+
+/** @returns a fresh clone of the last commit */
+function clone(): string {
+  const folder = mkdtempSync(join(tmpdir(), 'farpoint-first-drive-'));
+  if (execFileSync('git', ['status', '--porcelain'], { cwd: repositoryRoot, encoding: 'utf8' }).trim() !== '')
+    console.error(
+      'this checkout has changes that are not committed: they are not in the clone (--here uses them)',
+    );
+  execFileSync('git', ['clone', '--quiet', '--depth', '1', `file://${repositoryRoot}`, folder]);
+  return folder;
+}
+
+/** The address that the command tells people to open. */
+async function addressOf(dev: ManagedProcess): Promise<string> {
+  for (;;) {
+    const found = /Open {2}(http\S+)/.exec(dev.output)?.[1];
+    if (found !== undefined) return found;
+    if (!dev.running) throw new Error(`dev has ended:\n${dev.output}`);
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+}
+
+async function firstDrive(
+  browser: Browser,
+  address: string,
+  viewport: { width: number; height: number },
+  { seconds, throttle }: { seconds: number; throttle: number },
+): Promise<Row> {
+  const page = await browser.newPage({ viewport });
+  try {
+    if (throttle > 1) {
+      const devTools = await page.context().newCDPSession(page);
+      await devTools.send('Emulation.setCPUThrottlingRate', { rate: throttle });
+    }
+    await page.goto(address);
+    await page.getByRole('button', { name: /Simulated robot 1/ }).click({ timeout: 60_000 });
+    await page.waitForFunction(
+      () => window.farpoint !== undefined && window.farpoint.stats().framesDrawn > 5,
+    );
+    await page.waitForTimeout(LOOK_MS);
+    const before = await page.evaluate(() => {
+      window.farpoint.recordDrive(true);
+      return { frames: window.farpoint.stats().framesDrawn, atMs: performance.now() };
+    });
+    await driveAbout(page, seconds * 1000);
+    const after = await page.evaluate(() => {
+      const { framesDrawn, displayFramesPerSecond } = window.farpoint.stats();
+      window.farpoint.recordDrive(false);
+      const recording = window.farpoint.recordedDrive();
+      return { frames: framesDrawn, displayFramesPerSecond, recording, atMs: performance.now() };
+    });
+    if (after.recording === null) throw new Error('the page has recorded nothing');
+    const elapsedS = (after.atMs - before.atMs) / 1000;
+    return {
+      size: `${viewport.width}x${viewport.height}`,
+      ...driveFigures(after.recording),
+      drawnFramesPerSecond: Number(((after.frames - before.frames) / elapsedS).toFixed(1)),
+      displayFramesPerSecond: Number(after.displayFramesPerSecond.toFixed(1)),
+    };
+  } finally {
+    await page.close();
+  }
+}
