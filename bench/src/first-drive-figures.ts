@@ -60,9 +60,13 @@ export function driveFigures({ rows, gripsLost, refusals }: DriveRecording): Dri
   };
 }
 
+/** Up to this age of the view, blind travel bounds only turns at full speed, on the fastest computer too, ms. */
+const FRESH_MS = 250;
+
 /** Why the robot does not do what a hand that holds on tells it; `null` if it does. */
-function whyNot({ reasons, factor, drive, paused }: DriveRow): string | null {
-  const other = reasons.find((reason) => !OF_GUARDS.has(reason));
+function whyNot({ reasons, factor, drive, paused, viewMs }: DriveRow): string | null {
+  const isFresh = viewMs !== null && viewMs <= FRESH_MS;
+  const other = reasons.find((reason) => !OF_GUARDS.has(reason) && !(reason === 'blind-travel' && isFresh));
   if (other !== undefined) return other;
   if (reasons.length > 0) return 'guard';
   if (paused) return 'grip-not-read';

@@ -24,6 +24,7 @@ obeyed is the share of the time with a grip held in which the robot did what it 
 obstacle guard bounded it. view age is that of what is on the screen.`;
 
 const START_MS = 15 * 60_000;
+const END_MS = 10_000;
 /** Before the drive: somebody looks at the page. */
 const LOOK_MS = 5000;
 
@@ -86,7 +87,7 @@ export const bench: Bench = {
     } finally {
       for (const loop of loops) loop.kill();
       await browser?.close();
-      await stack?.stop();
+      if (stack !== null) await endGroup(stack);
       if (!values.here) rmSync(folder, { recursive: true, force: true });
     }
     printTable(
@@ -130,6 +131,22 @@ function clone(): string {
     );
   execFileSync('git', ['clone', '--quiet', '--depth', '1', `file://${repositoryRoot}`, folder]);
   return folder;
+}
+
+/** As Ctrl-C in a terminal does: the launchers between this and the command pass no other signal on. */
+async function endGroup(stack: ManagedProcess): Promise<void> {
+  const signal = (name: NodeJS.Signals | 0): boolean => {
+    try {
+      return process.kill(-stack.pid, name);
+    } catch {
+      return false;
+    }
+  };
+  signal('SIGINT');
+  const deadlineMs = performance.now() + END_MS;
+  while (signal(0) && performance.now() < deadlineMs)
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  signal('SIGKILL');
 }
 
 /** The address that the command tells people to open. */

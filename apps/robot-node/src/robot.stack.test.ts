@@ -149,6 +149,23 @@ describe('robot process', { timeout: 30_000 }, () => {
     expect(await metric('sessions_refused_total')).toBe(refused + 1);
   });
 
+  it('sends each operator no more clouds than its computer draws', async () => {
+    const [{ client }, { client: slow }] = [await connect(), await connect()];
+    slow.sendSession({ type: 'display', framesPerSecond: 5, points: 1000 });
+    // Those that were sent before the robot heard of it.
+    await slow.message('welcome');
+    await slow.until(() => slow.telemetry !== null);
+    const { sequence } = slow.telemetry ?? { sequence: 0 };
+    await slow.until(() => (slow.telemetry?.sequence ?? 0) > sequence + 4);
+    const [before, beforeSlow] = [client.completeFrames.length, slow.completeFrames.length];
+    await client.until(() => client.completeFrames.length >= before + 60);
+    const all = client.completeFrames.length - before;
+    const few = slow.completeFrames.length - beforeSlow;
+    // At 60 a second, or whatever this machine can: never every one.
+    expect(few).toBeLessThan(all / 1.5);
+    await slow.until(() => slow.completeFrames.length >= beforeSlow + 5);
+  });
+
   it('a stranger who knows the session’s handle but not its key cannot disturb anybody', async () => {
     const operator = await connect();
     const { client, session } = operator;

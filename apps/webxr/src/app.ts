@@ -196,6 +196,7 @@ export class App {
     this.#show();
     setInterval(() => {
       const nowMs = performance.now();
+      this.frames.tick(nowMs);
       this.#inputs.poll(nowMs);
       const away = this.#handsAway();
       this.#estop.tick(nowMs, away);
@@ -252,8 +253,7 @@ export class App {
     showSensorSwitches(state.sensors);
     showPicturePanels(state, { inVr: vr.active, isGripped: () => this.client.driver.stream.held });
     const { appearance, clouds } = this;
-    const inVr = vr.active;
-    const { headset } = stage;
+    const [inVr, { headset }] = [vr.active, stage];
     applyAppearance({
       ...{ appearance, sensors: state.sensors, rings: state.rings, clouds, stage, inVr },
       inTabletop: computed(() => headset.view.value === 'tabletop'),

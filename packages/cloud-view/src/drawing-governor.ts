@@ -17,18 +17,25 @@ export const DRAWING_STEPS: readonly DrawingStep[] = [
   { scale: 0.5, every: 4 },
   { scale: 0.5, every: 8 },
   { scale: 0.5, every: 16 },
+  { scale: 0.35, every: 16 },
 ];
 /** Where a computer that draws in software begins: coarse at once, and finer if it can, instead of late at first. */
-const SOFTWARE_STEP = 3;
+const SOFTWARE_STEP = DRAWING_STEPS.length - 1;
 
 const SLOW_FPS = 24;
 const FAST_FPS = 50;
+/** A timer that is so late keeps the operator's hand from being read, and one that is less late than that does not, ms. */
+const HITCH_MS = 80;
+const SMOOTH_MS = 55;
 const SLOW_FOR_MS = 1500;
 const FAST_FOR_MS = 6000;
 /** Wait before the next step up after one that was too much. */
 const PATIENCE_MS = 60_000;
 
-/** Chooses how much is drawn, from the display frame rate that the machine reaches. */
+/**
+ * Chooses how much is drawn, from the display frame rate that the machine reaches, and from how late the page's timers are:
+ * where the processor draws, every point takes its time from the hand, the network and the robot's pictures.
+ */
 export class DrawingGovernor {
   #step: number;
   #slowSinceMs: number | null = null;
@@ -49,13 +56,16 @@ export class DrawingGovernor {
   /**
    * Call it about once a second.
    *
-   * @param displayFps display frames per second over the last second
+   * @param displayFps display frames per second that it could draw, over the last second
    * @param nowMs `performance.now()`
+   * @param worstGapMs the longest time between two ticks of a frequent timer within the last second
    * @returns whether {@link step} has changed
    */
-  update(displayFps: number, nowMs: number): boolean {
-    this.#slowSinceMs = displayFps < SLOW_FPS ? (this.#slowSinceMs ?? nowMs) : null;
-    this.#fastSinceMs = displayFps > FAST_FPS ? (this.#fastSinceMs ?? nowMs) : null;
+  update(displayFps: number, nowMs: number, worstGapMs = 0): boolean {
+    const isLate = displayFps < SLOW_FPS || worstGapMs > HITCH_MS;
+    const isSmooth = displayFps > FAST_FPS && worstGapMs < SMOOTH_MS;
+    this.#slowSinceMs = isLate ? (this.#slowSinceMs ?? nowMs) : null;
+    this.#fastSinceMs = isSmooth ? (this.#fastSinceMs ?? nowMs) : null;
     const isSlow = this.#slowSinceMs !== null && nowMs - this.#slowSinceMs >= SLOW_FOR_MS;
     const isFast = this.#fastSinceMs !== null && nowMs - this.#fastSinceMs >= FAST_FOR_MS;
     if (isSlow && this.#step < DRAWING_STEPS.length - 1) {

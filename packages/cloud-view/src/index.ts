@@ -29,3 +29,4 @@ export type { SceneFigures } from './scene-estimate.ts';
 export { isSoftwareRenderer } from './software-renderer.ts';
 export { LIT_AMBIENT } from './surface-normal.ts';
 export { type Stride, strideFor } from './tile-geometry.ts';
+export { WorstGap } from './worst-gap.ts';

@@ -53,7 +53,9 @@ export class PageStatistics {
   readonly #frames = new RateMeter();
   readonly #points = new RateMeter();
   readonly #display = new RateMeter();
+  readonly #possible = new RateMeter();
   #displayFrames = 0;
+  #sparedFrames = 0;
   /** Set by what governs the drawing. */
   drawnOneOf = 1;
   /** Set by what draws the remembered world. */
@@ -75,15 +77,26 @@ export class PageStatistics {
     this.#render.add(renderMs);
   }
 
+  /** A display frame could have been drawn, but nothing new was to be seen. */
+  onSpared(): void {
+    this.#sparedFrames++;
+  }
+
   /** Call this a few times a second. */
   tick(drawn: DrawnCounts, nowMs: number): void {
     this.#frames.update(drawn.frames, nowMs);
     this.#points.update(drawn.points, nowMs);
     this.#display.update(this.#displayFrames, nowMs);
+    this.#possible.update(this.#displayFrames + this.#sparedFrames, nowMs);
   }
 
   get displayFramesPerSecond(): number {
     return this.#display.perSecond;
+  }
+
+  /** Display frames a second that this computer could draw, whether or not there was something new. */
+  get possibleFramesPerSecond(): number {
+    return this.#possible.perSecond;
   }
 
   snapshot(

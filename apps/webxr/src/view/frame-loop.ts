@@ -7,6 +7,7 @@ import {
   DrawingGovernor,
   GpuCompletion,
   isSoftwareRenderer,
+  WorstGap,
 } from '@farpoint/cloud-view';
 import type { RobotClient } from '@farpoint/operator';
 import type { Settings } from '../settings.ts';
@@ -45,6 +46,7 @@ export class FrameLoop {
   readonly #gate = new DrawGate();
   readonly #governor: DrawingGovernor;
   readonly #capacity = new DisplayCapacity();
+  readonly #gaps = new WorstGap();
   #afterDrawing: (() => void)[] = [];
 
   constructor(parts: FrameLoopParts) {
@@ -73,6 +75,11 @@ export class FrameLoop {
     this.#afterDrawing.push(act);
   }
 
+  /** Call this at each tick of the timer that reads the operator's hand. */
+  tick(nowMs: number): void {
+    this.#gaps.tick(nowMs);
+  }
+
   /** Call this a few times a second. Draws less if the machine cannot keep up, and follows the scene that is seen. */
   govern(nowMs: number): void {
     const { client, clouds, stage, stats } = this.#parts;
@@ -80,9 +87,10 @@ export class FrameLoop {
     if (document.hidden || client.phase !== 'live') {
       this.#governor.pause();
       this.#capacity.pause();
+      this.#gaps.pause();
       return;
     }
-    const coarser = this.#governor.update(stats.displayFramesPerSecond, nowMs);
+    const coarser = this.#governor.update(stats.possibleFramesPerSecond, nowMs, this.#gaps.at(nowMs));
     if (coarser) this.#thin();
     if (this.#capacity.update(nowMs) || coarser) this.#tellDisplay();
   }
@@ -123,7 +131,10 @@ export class FrameLoop {
     const beganMs = performance.now();
     cloud.update(beganMs);
     clouds.update(beganMs);
-    if (!inVr && !this.#gate.mayDraw(cloud.endedFrame, beganMs)) return;
+    if (!inVr && !this.#gate.mayDraw(cloud.endedFrame, beganMs)) {
+      stats.onSpared();
+      return;
+    }
     this.#gate.onDraw(cloud.endedFrame, beganMs);
     if (inVr) this.#parts.readHeadset();
     stage.predicted?.update(performance.now());
