@@ -119,7 +119,7 @@ describe.skipIf(!isAvailable())(
         await rig.wheels.until(({ linear }) => linear === 0);
         if (withinMs !== undefined) judge(name, causeMs, withinMs);
         // Longer than a gap after which it would move on.
-        await (silent ? rig.wheels.silence(600) : rig.wheels.beats(20));
+        await (silent ? rig.wheels.silence(600) : rig.wheels.beats(40));
       } finally {
         await ends(driving);
       }
