@@ -2,21 +2,8 @@ import { join } from 'node:path';
 import { chromiumLaunchOptions } from '@farpoint/local-stack';
 import { defineConfig } from '@playwright/test';
 
-// A software-rendered page shows its robot late: too late for a robot of default limits to move. Tests of those limits set
-// their own. Each of these goes once what its line names is done.
-for (const [name, value] of [
-  // A pause of a slow page no longer counts as the age of what is seen.
-  ['VIEW_SLOW_MS', '3000'],
-  // The same.
-  ['VIEW_BRAKE_MS', '4000'],
-  // The same.
-  ['VIEW_STALL_MS', '3000'],
-  // A slow page drives at the speed that its pictures permit, and the tests wait for less.
-  ['BLIND_TRAVEL_M', '8'],
-  // The simulated robot sees the floor before its wheels; until then it would set off too slowly for tests.
-  ['GUARD_UNSEEN_MPS', '10'],
-] as const)
-  process.env[`FARPOINT_ROBOT_${name}`] ??= value;
+// The simulated robot does not see the floor before its wheels, and would set off too slowly for tests. This goes once it does.
+process.env.FARPOINT_ROBOT_GUARD_UNSEEN_MPS ??= '10';
 
 /**
  * `pnpm test` runs a failed test again, alone, and names the folder for what it leaves behind, by which the failure is to be

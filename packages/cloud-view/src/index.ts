@@ -16,7 +16,7 @@ export type { CameraPicture, CloudPaint, PictureUse } from './cloud-paint.ts';
 export type { CloudSource, CloudViewOptions } from './cloud-source.ts';
 export { CloudView } from './cloud-view.ts';
 export { COLOUR_STOPS, colourAt, colourStops, type Rgb } from './colour-map.ts';
-export { ALL_FRAMES_PER_SECOND, DisplayCapacity } from './display-capacity.ts';
+export { ALL_FRAMES_PER_SECOND, DisplayMeter } from './display-meter.ts';
 export { DrawGate } from './draw-gate.ts';
 export { DrawingGovernor, type DrawingStep } from './drawing-governor.ts';
 export type { DrawnPoints, FramePose } from './drawn-points.ts';

@@ -1,22 +1,31 @@
-/** How late a page's own timer comes: what keeps it from running keeps it from reading the operator's hand as well. */
-
 const BUCKET_MS = 500;
 
-/** The longest time between two calls within the last second or so. No clock here. */
+/**
+ * How late a page's own timer comes, as the longest time between two of its ticks within the last second or so: what keeps
+ * it from running keeps it from reading the operator's hand as well. No clock here.
+ */
 export class WorstGap {
   #tickMs: number | null = null;
   #bucketMs = 0;
   #worst = 0;
   #before = 0;
 
-  /** Call it many times a second. @param nowMs `performance.now()` */
+  /**
+   * Call it many times a second.
+   *
+   * @param nowMs `performance.now()`
+   */
   tick(nowMs: number): void {
     this.#turn(nowMs);
     if (this.#tickMs !== null) this.#worst = Math.max(this.#worst, nowMs - this.#tickMs);
     this.#tickMs = nowMs;
   }
 
-  /** In ms. */
+  /**
+   * The longest, ms.
+   *
+   * @param nowMs `performance.now()`
+   */
   at(nowMs: number): number {
     this.#turn(nowMs);
     return Math.max(this.#worst, this.#before);

@@ -2,7 +2,7 @@
 import {
   ALL_FRAMES_PER_SECOND,
   type CloudView,
-  DisplayCapacity,
+  DisplayMeter,
   DrawGate,
   DrawingGovernor,
   GpuCompletion,
@@ -45,7 +45,7 @@ export class FrameLoop {
   readonly #completion: GpuCompletion;
   readonly #gate = new DrawGate();
   readonly #governor: DrawingGovernor;
-  readonly #capacity = new DisplayCapacity();
+  readonly #meter = new DisplayMeter();
   readonly #gaps = new WorstGap();
   #afterDrawing: (() => void)[] = [];
 
@@ -86,13 +86,13 @@ export class FrameLoop {
     followScene(stage, clouds.all.peek());
     if (document.hidden || client.phase !== 'live') {
       this.#governor.pause();
-      this.#capacity.pause();
+      this.#meter.pause();
       this.#gaps.pause();
       return;
     }
     const coarser = this.#governor.update(stats.possibleFramesPerSecond, nowMs, this.#gaps.at(nowMs));
     if (coarser) this.#thin();
-    if (this.#capacity.update(nowMs) || coarser) this.#tellDisplay();
+    if (this.#meter.update(nowMs) || coarser) this.#tellDisplay();
   }
 
   /** Draws as much as the governor says. */
@@ -109,7 +109,7 @@ export class FrameLoop {
 
   /** What is decoded and not seen delays what is: the robot sends no more than this computer draws. */
   #tellDisplay(): void {
-    const { framesPerSecond } = this.#capacity;
+    const { framesPerSecond } = this.#meter;
     const points = Math.ceil(MOST_POINTS / this.#governor.step.every);
     const all = framesPerSecond >= ALL_FRAMES_PER_SECOND;
     this.#parts.client.link.sendSession({
@@ -148,7 +148,7 @@ export class FrameLoop {
     } else if (!inVr) this.#completion.mark();
     const endedMs = performance.now();
     client.noteDrawn(endedMs);
-    this.#capacity.onDrawn(cloud.endedFrame);
+    this.#meter.onDrawn(cloud.endedFrame);
     stats.onDrawn(endedMs - beganMs);
     if (this.#afterDrawing.length > 0) {
       for (const act of this.#afterDrawing) act();

@@ -1,7 +1,3 @@
-/**
- * Measures how many clouds a second this computer shows, so that its operator's robot need not send more: what is decoded
- * and never seen delays what is. No clock here.
- */
 import { sequenceDelta32 } from '@farpoint/protocol';
 
 /** At this rate and above, all that comes is wanted, clouds/s. */
@@ -19,7 +15,11 @@ const RAISE = 1.3;
 const PATIENCE_WINDOWS = 15;
 const MOST_PATIENCE_WINDOWS = 120;
 
-export class DisplayCapacity {
+/**
+ * Measures how many clouds a second this computer shows, so that its operator's robot need not send more: what is decoded
+ * and never seen delays what is. No clock here.
+ */
+export class DisplayMeter {
   #most = ALL_FRAMES_PER_SECOND;
   #beganMs: number | null = null;
   #first = 0;
@@ -37,7 +37,11 @@ export class DisplayCapacity {
     return this.#most;
   }
 
-  /** A picture was drawn. @param frame the robot's newest frame in it; `null` for none */
+  /**
+   * A picture was drawn.
+   *
+   * @param frame the robot's newest frame in it; `null` for none
+   */
   onDrawn(frame: number | null): void {
     if (frame === null || frame === this.#newest) return;
     if (this.#newest === null || sequenceDelta32(frame, this.#newest) < 0) this.#first = frame;
@@ -45,7 +49,12 @@ export class DisplayCapacity {
     this.#shown++;
   }
 
-  /** Call it a few times a second. @returns whether {@link framesPerSecond} has changed */
+  /**
+   * Call it a few times a second.
+   *
+   * @param nowMs `performance.now()`
+   * @returns whether {@link framesPerSecond} has changed
+   */
   update(nowMs: number): boolean {
     this.#beganMs ??= nowMs;
     const ms = nowMs - this.#beganMs;

@@ -1,11 +1,8 @@
 import { expect, test } from 'vitest';
-import { ALL_FRAMES_PER_SECOND, DisplayCapacity } from './display-capacity.ts';
+import { ALL_FRAMES_PER_SECOND, DisplayMeter } from './display-meter.ts';
 
 /** A robot that sends at most what it is told, and a computer that shows at most `shows` of it, for some seconds. */
-function run(
-  capacity: DisplayCapacity,
-  { sends = 30, shows = 60, seconds = 60, fromMs = 0, frame = 0 } = {},
-) {
+function run(capacity: DisplayMeter, { sends = 30, shows = 60, seconds = 60, fromMs = 0, frame = 0 } = {}) {
   const changes: number[] = [];
   let sent = frame;
   let [sendsMs, showsMs] = [fromMs, fromMs];
@@ -24,14 +21,14 @@ function run(
 }
 
 test('a computer that shows all wants all', () => {
-  const capacity = new DisplayCapacity();
+  const capacity = new DisplayMeter();
   expect(run(capacity).changes).toEqual([]);
-  expect(run(new DisplayCapacity(), { sends: 60, shows: 60 }).changes).toEqual([]);
+  expect(run(new DisplayMeter(), { sends: 60, shows: 60 }).changes).toEqual([]);
   expect(capacity.framesPerSecond).toBe(ALL_FRAMES_PER_SECOND);
 });
 
 test('a slower one asks for about what it shows, and tries more ever more seldom', () => {
-  const capacity = new DisplayCapacity();
+  const capacity = new DisplayMeter();
   const { changes } = run(capacity, { sends: 30, shows: 8, seconds: 300 });
   expect(changes[0]).toBeGreaterThan(6);
   expect(changes[0]).toBeLessThan(9.5);
@@ -40,7 +37,7 @@ test('a slower one asks for about what it shows, and tries more ever more seldom
 });
 
 test('it recovers when the computer does', () => {
-  const capacity = new DisplayCapacity();
+  const capacity = new DisplayMeter();
   const { frame } = run(capacity, { shows: 6, seconds: 10 });
   expect(capacity.framesPerSecond).toBeLessThan(10);
   run(capacity, { shows: 60, seconds: 120, fromMs: 10_000, frame });
@@ -48,7 +45,7 @@ test('it recovers when the computer does', () => {
 });
 
 test('a short hitch, a slow link and a hidden page change nothing', () => {
-  const capacity = new DisplayCapacity();
+  const capacity = new DisplayMeter();
   let { frame } = run(capacity, { seconds: 5 });
   // A second without a picture: the robot's frames went on.
   ({ frame } = run(capacity, { seconds: 5, fromMs: 6000, frame: frame + 30 }));
@@ -59,5 +56,5 @@ test('a short hitch, a slow link and a hidden page change nothing', () => {
 });
 
 test('frame numbers wrap', () => {
-  expect(run(new DisplayCapacity(), { frame: 0xffff_ffff - 20, seconds: 5 }).changes).toEqual([]);
+  expect(run(new DisplayMeter(), { frame: 0xffff_ffff - 20, seconds: 5 }).changes).toEqual([]);
 });
