@@ -133,7 +133,7 @@ test('from above, the robot is in the middle, can be driven, and stops', async (
     const [share = 0] = await sharesNear(page, await page.screenshot(), middle, [MARKER]);
     return share;
   };
-  expect(await marked()).toBe(0);
+  await expect.poll(marked).toBe(0);
 
   // A click on the picture takes the focus from the slider.
   await page.mouse.click(600, 300);
