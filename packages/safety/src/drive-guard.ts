@@ -14,6 +14,7 @@ import type { DriveGuardOptions } from './drive-guard-options.ts';
 import { EstopLatch, type EstopSource } from './estop.ts';
 import { type EstopReleaseOutcome, type EstopReleasePolicy, releaseEstop } from './estop-release.ts';
 import { type LeaseOutcome, LeaseTable } from './lease.ts';
+import { MOST_RESUME_MS } from './limits.ts';
 import { OperatorView } from './motion/operator-view.ts';
 import type { RobotStop } from './robot-stop.ts';
 import { Watchdog } from './watchdog.ts';
@@ -49,7 +50,8 @@ export class DriveGuard {
     this.#limits = Object.freeze({ ...options.limits });
     this.#gate = new CommandGate(this.#limits, options);
     this.#leases = new LeaseTable(options);
-    this.#estop = new EstopLatch(this.#limits.watchdogMs);
+    // A hand that was only not heard for so long may have held on.
+    this.#estop = new EstopLatch(Math.max(this.#limits.watchdogMs, options.letGoAfterMs ?? MOST_RESUME_MS));
     this.#estopRelease = options.estopRelease ?? 'driver';
     this.#watchdog = new Watchdog(this.#limits.watchdogMs);
     this.view = new OperatorView(this.#limits.watchdogMs);

@@ -176,6 +176,19 @@ describe('the motion supervisor', () => {
     }
   });
 
+  test('a gap is no letting go after a released emergency stop, as long as it would let the hand drive on', () => {
+    for (const gapMs of [151, 300, 399]) {
+      const { guard, command } = supervised({}, RESUME_WITHIN_MS);
+      guard.latchEstop('operator', 'op');
+      guard.releaseEstop('op', 1000);
+      const held = (t: number) => guard.onCommand('op', command(t, 1), t);
+      for (let t = 1010; t <= 1100; t += 10) expect(held(t)).toMatchObject({ reason: 'estop-latched' });
+      expect(held(1100 + gapMs)).toMatchObject({ reason: 'estop-latched' });
+      guard.onCommand('op', command(2000, 0, 0, false), 2000);
+      expect(held(2010).accepted).toBe(true);
+    }
+  });
+
   test('a hand that is not read brakes at once, and that is no letting go', () => {
     const { guard, motion, drive, command } = supervised({ ramps, staleMs: 1000 }, RESUME_WITHIN_MS);
     for (let t = 0; t <= 2000; t += 20) drive(t, 1);
