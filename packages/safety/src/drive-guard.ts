@@ -50,8 +50,7 @@ export class DriveGuard {
     this.#limits = Object.freeze({ ...options.limits });
     this.#gate = new CommandGate(this.#limits, options);
     this.#leases = new LeaseTable(options);
-    // A hand that was only not heard for so long may have held on.
-    this.#estop = new EstopLatch(Math.max(this.#limits.watchdogMs, options.letGoAfterMs ?? MOST_RESUME_MS));
+    this.#estop = new EstopLatch(this.#limits.watchdogMs, options.letGoAfterMs ?? MOST_RESUME_MS);
     this.#estopRelease = options.estopRelease ?? 'driver';
     this.#watchdog = new Watchdog(this.#limits.watchdogMs);
     this.view = new OperatorView(this.#limits.watchdogMs);
@@ -284,6 +283,7 @@ export class DriveGuard {
   #changeDriver(): void {
     this.#halt();
     this.view.forget();
+    this.#estop.changeHand();
   }
 
   #halt(): void {

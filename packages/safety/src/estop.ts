@@ -12,7 +12,8 @@ const MOST_LATCHERS = 64;
 /**
  * The emergency stop: anyone can latch it, and only a deliberate action releases it. After the release, motion stays
  * refused until the hand has let go of the stick once (a command for zero, or no request for motion for `letGoMs`),
- * because a reset must not by itself start the machine (ISO 13850, 4.1.4).
+ * because a reset must not by itself start the machine (ISO 13850, 4.1.4). Of a hand that asked for motion shortly before the
+ * release or since, only a longer silence (`heldGapMs`) counts: it may have held on through a hitch.
  *
  * A stop at the robot itself, such as a button on it, *holds* it: while anything holds it, nothing else releases it.
  */
@@ -26,11 +27,15 @@ export class EstopLatch {
   readonly #holders = new Set<RobotStop>();
   /** Operators who have latched it since it was last clear, and are still there. */
   readonly #latchers = new Set<string>();
+  readonly #heldGapMs: number;
   /** When motion was last requested since the release; `null` once the hand has let go. */
   #heldMs: number | null = null;
+  /** When motion was last requested; `null` once the hand has let go. */
+  #askedMs: number | null = null;
 
-  constructor(letGoMs: number) {
+  constructor(letGoMs: number, heldGapMs = letGoMs) {
     this.#letGoMs = letGoMs;
+    this.#heldGapMs = Math.max(letGoMs, heldGapMs);
   }
 
   get latched(): boolean {
@@ -123,14 +128,22 @@ export class EstopLatch {
 
   /** Records a request of the lease holder and returns the answer to it. */
   meet(motion: boolean, nowMs: number): EstopAnswer {
+    const askedMs = this.#askedMs;
+    this.#askedMs = motion ? nowMs : null;
     if (this.#by !== null) return 'latched';
     if (this.#heldMs === null) return 'clear';
-    if (!motion || nowMs - this.#heldMs >= this.#letGoMs) {
+    const holds = askedMs !== null && nowMs - askedMs < this.#heldGapMs;
+    if (!motion || (!holds && nowMs - this.#heldMs >= this.#letGoMs)) {
       this.#heldMs = null;
       return 'clear';
     }
     this.#heldMs = nowMs;
     return 'let-go';
+  }
+
+  /** Another operator drives: what the last one's hand asked for says nothing of it. */
+  changeHand(): void {
+    this.#askedMs = null;
   }
 
   #latch(by: EstopSource): boolean {

@@ -186,6 +186,14 @@ describe('the motion supervisor', () => {
       expect(held(1100 + gapMs)).toMatchObject({ reason: 'estop-latched' });
       guard.onCommand('op', command(2000, 0, 0, false), 2000);
       expect(held(2010).accepted).toBe(true);
+      // A hand that grips afresh, as another operator's does, need not.
+      guard.latchEstop('operator', 'op');
+      held(2400);
+      guard.releaseEstop('op', 2410);
+      guard.releaseLease('op');
+      const granted = guard.requestLease('next', false, 2420);
+      const lease = granted.granted ? granted.lease : '';
+      expect(guard.onCommand('next', { ...command(2600, 1), lease }, 2600).accepted).toBe(true);
     }
   });
 
