@@ -13,6 +13,7 @@ import {
 } from 'three';
 import { writePose } from './batch-pose.ts';
 import type { PointUniforms } from './point-material.ts';
+import { featuresOf, setFeatures } from './shader-features.ts';
 import { createSurfaceMaterial } from './surface-material.ts';
 import { SurfacePaint } from './surface-paint.ts';
 import { STRIDES, strideFor, TILE, tileIndices } from './tile-geometry.ts';
@@ -29,6 +30,7 @@ export class CloudSurface extends Mesh<InstancedBufferGeometry, RawShaderMateria
   readonly paint: SurfacePaint;
   readonly #renderer: WebGLRenderer;
   readonly #uniforms: ReturnType<typeof createSurfaceMaterial>['uniforms'];
+  readonly #points: PointUniforms;
   readonly #indices = STRIDES.map((stride) => new BufferAttribute(tileIndices(stride), 1));
   readonly #grid: TileGrid = { width: 0, height: 0, fx: 0, fy: 0, cx: 0, cy: 0 };
   readonly #given: TileGrid = { ...this.#grid };
@@ -42,6 +44,7 @@ export class CloudSurface extends Mesh<InstancedBufferGeometry, RawShaderMateria
     super(new InstancedBufferGeometry(), material);
     this.#renderer = renderer;
     this.#uniforms = uniforms;
+    this.#points = points;
     this.paint = new SurfacePaint(renderer, uniforms);
     this.geometry.boundingSphere = new Sphere(new Vector3(), Number.POSITIVE_INFINITY);
     this.frustumCulled = false;
@@ -98,6 +101,7 @@ export class CloudSurface extends Mesh<InstancedBufferGeometry, RawShaderMateria
     const { map } = this;
     this.visible = map.shown > 0;
     if (!this.visible) return;
+    setFeatures(this.material, featuresOf(this.#points));
     if (this.#changed) this.#textures?.writeSlots(map.slots);
     this.#changed = false;
     this.paint.update(nowMs);

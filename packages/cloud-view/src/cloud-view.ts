@@ -23,6 +23,7 @@ import { GpuCompletion } from './gpu-completion.ts';
 import { PointColouring } from './point-colouring.ts';
 import { createPointMaterial, spacingPerMetre } from './point-material.ts';
 import { PointRing } from './point-ring.ts';
+import { featuresOf, setFeatures } from './shader-features.ts';
 import { TileSampler } from './tile-sampler.ts';
 import { type UploadEvents, uploadPoints } from './upload-points.ts';
 import { viewportHeightOf } from './viewport-height.ts';
@@ -94,14 +95,11 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.#colouring = new PointColouring(uniforms);
     this.colouring = this.#colouring;
     uniforms.runs.value = this.window.runs;
-    this.#ring = new PointRing(
-      renderer.getContext() as WebGL2RenderingContext,
-      FIRST_CAPACITY,
-      (attribute) => {
-        // three's types require a BufferAttribute, but three also draws a GLBufferAttribute.
-        this.geometry.setAttribute('position', attribute as never);
-      },
-    );
+    const gl = renderer.getContext() as WebGL2RenderingContext;
+    this.#ring = new PointRing(gl, FIRST_CAPACITY, (attribute) => {
+      // three's types require a BufferAttribute, but three also draws a GLBufferAttribute.
+      this.geometry.setAttribute('position', attribute as never);
+    });
     this.#surface = new CloudSurface(renderer, uniforms);
     this.paint = this.#surface.paint;
     this.add(this.#surface);
@@ -189,6 +187,7 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.#uniforms.viewportHeight.value = this.viewportHeight;
     this.#uniforms.freshness.value = freshnessAt(nowMs, this.#source.pointsAtMs);
     this.#colouring.update(nowMs);
+    setFeatures(this.material, featuresOf(this.#uniforms));
     this.geometry.setDrawRange(head, tail - head);
     this.#surface.update(nowMs);
     // The surface is a child, so it is drawn only if this is.

@@ -1,4 +1,7 @@
-/** Tints what the robot would hit and where its floor is missing, over whatever colours a cloud has. */
+/**
+ * Tints what the robot would hit and where its floor is missing, over whatever colours a cloud has. Compiled in only while
+ * something is tinted (shader-features.ts).
+ */
 import type { Rgb } from './colour-map.ts';
 import { DROP_TINT, HIT_TINT, LAST_TINTED_M, TINT_SHARE, TINTED_M } from './hazards.ts';
 
@@ -13,13 +16,13 @@ export const HAZARD_UNIFORMS = /* glsl */ `
 uniform vec4 hazardBase;
 // The z axis of base_link in the world.
 uniform vec3 hazardUp;
-// Clearance, height, drop (metres) and slope. A height of 0: nothing is tinted.
+// Clearance, height, drop (metres) and slope.
 uniform vec4 hazardBand;
 `;
 
 export const HAZARD_FUNCTION = /* glsl */ `
 vec3 hazardTinted(vec3 rgb, vec3 world) {
-  if (hazardBand.y == 0.0) return rgb;
+#ifdef HAZARDS
   vec3 fromBase = world - hazardBase.xyz;
   float away = length(fromBase.xy);
   if (away < hazardBase.w || away > ${LAST_TINTED_M.toFixed(1)}) return rgb;
@@ -33,5 +36,8 @@ vec3 hazardTinted(vec3 rgb, vec3 world) {
   float deep = -hazardBand.z - tolerance;
   float drop = 1.0 - smoothstep(deep - ${EDGE_M}, deep + ${EDGE_M}, height);
   return mix(mix(rgb, ${glslOf(HIT_TINT)}, share * hit), ${glslOf(DROP_TINT)}, share * drop);
+#else
+  return rgb;
+#endif
 }
 `;

@@ -9,6 +9,7 @@ import { MEMORY_LAYOUT } from '@farpoint/operator';
 import { type ExternalTexture, GLSL3, RawShaderMaterial, Vector2 } from 'three';
 import { HAZARD_FUNCTION, HAZARD_UNIFORMS } from './hazard-shader.ts';
 import { type HazardUniforms, hazardUniforms } from './hazards.ts';
+import { HEIGHT_CUT_FUNCTION, UNLIMITED_M } from './shader-features.ts';
 
 /** Pages in a row of the texture: 2048 texels, which every WebGL 2 has room for. */
 export const PAGES_PER_ROW = 8;
@@ -38,7 +39,7 @@ ${HAZARD_UNIFORMS}
 // Chunk, and the page's number and, from bit 16 on, its surfels.
 in ivec4 place;
 flat out vec3 pointColour;
-${HAZARD_FUNCTION}
+${HEIGHT_CUT_FUNCTION}${HAZARD_FUNCTION}
 void main() {
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   gl_PointSize = 1.0;
@@ -48,7 +49,7 @@ void main() {
     surfels, ivec2((page % ${PAGES_PER_ROW}) * ${pageSurfels} + gl_VertexID, page / ${PAGES_PER_ROW}), 0).rg;
   vec3 steps = vec3(uvec3(surfel.r, surfel.r >> 10, surfel.r >> 20) & 1023u);
   vec3 world = (vec3(place.xyz) + (steps + 0.5) / ${chunkSteps.toFixed(1)}) * ${chunkM.toFixed(2)};
-  if (world.z < heightCut.x || world.z > heightCut.y) return;
+  if (isCut(world.z)) return;
   vec4 inView = modelViewMatrix * vec4(world, 1.0);
   float away = length(inView.xyz);
   float behind = ${BEHIND_M.toFixed(2)} + ${BEHIND_SHARE.toFixed(2)} * away;
@@ -96,7 +97,7 @@ export function createMemoryMaterial(surfels: ExternalTexture): {
     surfels: { value: surfels },
     viewportHeight: { value: 1 },
     nowUnits: { value: 0 },
-    heightCut: { value: new Vector2(-1e30, 1e30) },
+    heightCut: { value: new Vector2(-UNLIMITED_M, UNLIMITED_M) },
     ...hazardUniforms(),
   };
   const material = new RawShaderMaterial({

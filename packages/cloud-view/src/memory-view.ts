@@ -19,13 +19,13 @@ import type { HeightCut } from './cloud-colouring.ts';
 import { type Hazards, setHazards } from './hazards.ts';
 import { createMemoryMaterial } from './memory-material.ts';
 import { MemoryTexture } from './memory-texture.ts';
+import { featuresOf, setFeatures, UNLIMITED_M } from './shader-features.ts';
 import { viewportHeightOf } from './viewport-height.ts';
 
 const { pages: PAGES, pageSurfels, chunkM, ageUnitS, clockStartS } = MEMORY_LAYOUT;
 const PLACE = 4;
 /** Half of a chunk's diagonal, and what a headset may turn between two pictures, metres. */
 const RADIUS_M = (chunkM * Math.sqrt(3)) / 2 + 0.5;
-const UNLIMITED_M = 1e30;
 
 /** What a view needs of a {@link WorldMemory}. */
 export type MemorySource = Pick<WorldMemory, 'listener' | 'nowS' | 'resend'>;
@@ -129,6 +129,7 @@ export class MemoryView extends Points<InstancedBufferGeometry, RawShaderMateria
       cut.above === null ? UNLIMITED_M : ground + cut.above,
     );
     setHazards(this.#uniforms, this.hazards);
+    setFeatures(this.material, featuresOf(this.#uniforms));
     this.#uniforms.viewportHeight.value = viewportHeightOf(this.#renderer);
   }
 

@@ -15,6 +15,7 @@ import { elevationOf, intensityOf, turnedZ } from './point-values.ts';
 import { MOST_RINGS, RingEstimator } from './ring-estimate.ts';
 import { fillRingTable, ringScale } from './ring-table.ts';
 import { SceneEstimate } from './scene-estimate.ts';
+import { UNLIMITED_M } from './shader-features.ts';
 
 /** Number of points of a frame whose values are looked at. */
 const SAMPLES_PER_FRAME = 200;
@@ -40,8 +41,6 @@ const FIRST_MAX: Readonly<Record<ColourMode, number>> = {
 };
 /** A coordinate's step moves a point's elevation by less than this, or the point says nothing about rings, radians. */
 const MOST_STEP_RAD = 0.004;
-/** Heights without a limit. */
-const UNLIMITED_M = 1e30;
 /** Frame interval until it is known, and the longest that counts as one, s. */
 const FIRST_INTERVAL_S = 0.1;
 const MAX_INTERVAL_S = 2;

@@ -15,6 +15,7 @@ import { HAZARD_FUNCTION, HAZARD_UNIFORMS } from './hazard-shader.ts';
 import { type HazardUniforms, hazardUniforms } from './hazards.ts';
 import { ROTATE } from './pose-shader.ts';
 import { ringTexture } from './ring-texture.ts';
+import { HEIGHT_CUT_FUNCTION, UNLIMITED_M } from './shader-features.ts';
 
 /** m: metres added to every point's size. */
 export const SIZE_OFFSET_M = 0.002;
@@ -41,7 +42,7 @@ in ivec4 position;
 flat out vec3 pointColour;
 flat out float pointSize;
 
-${ROTATE}${COLOUR_FUNCTIONS}${HAZARD_FUNCTION}
+${ROTATE}${COLOUR_FUNCTIONS}${HEIGHT_CUT_FUNCTION}${HAZARD_FUNCTION}
 void main() {
   int run = runCount - 1;
   while (run > 0 && gl_VertexID < runs[run].x) run--;
@@ -53,7 +54,7 @@ void main() {
   int slot = runs[run].z;
   vec3 camera = vec3(position.xyz) * frameUnit[slot];
   vec3 world = rotate(frameOrientation[slot], camera) + framePosition[slot].xyz;
-  if (world.z < heightCut.x || world.z > heightCut.y) {
+  if (isCut(world.z)) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     gl_PointSize = 1.0;
     return;
@@ -73,7 +74,9 @@ void main() {
     float(((colour >> 4) & 63u) * 4u + 2u),
     float((colour & 15u) * 16u + 8u)
   ) / 255.0;
-  if (colourMode != 0) rgb = coloured(rgb, camera, world.z - groundHeight, frameAge[slot]);
+#ifdef COLOURED
+  rgb = coloured(rgb, camera, world.z - groundHeight, frameAge[slot]);
+#endif
   // The latency test's green has no grey in it, and no tint.
   if (colour == 0x03f0u) rgb = vec3(0.0, 1.0, 0.0);
   else rgb = hazardTinted(rgb, world);
@@ -140,7 +143,7 @@ export function createPointMaterial(): { material: RawShaderMaterial; uniforms: 
     ringMap: { value: ringTexture() },
     ringScale: { value: new Vector2(0, 0) },
     groundHeight: { value: 0 },
-    heightCut: { value: new Vector2(-1e30, 1e30) },
+    heightCut: { value: new Vector2(-UNLIMITED_M, UNLIMITED_M) },
     frameAge: { value: [0, 0] },
     ...hazardUniforms(),
   };

@@ -16,6 +16,7 @@ import { COLOUR_FUNCTIONS, COLOUR_UNIFORMS, FADED } from './colour-shader.ts';
 import { HAZARD_FUNCTION, HAZARD_UNIFORMS } from './hazard-shader.ts';
 import type { PointUniforms } from './point-material.ts';
 import { ROTATE } from './pose-shader.ts';
+import { HEIGHT_CUT_FUNCTION } from './shader-features.ts';
 import { NORMAL_FUNCTIONS } from './surface-normal.ts';
 import { TILE_VERTICES } from './tile-geometry.ts';
 import { FRAME_SLOTS, HIDDEN } from './tile-map.ts';
@@ -145,17 +146,19 @@ void main() {
   paint = vec3(floor(painted), 2.0 * fract(painted), 1.0);
   uint colour = texel >> 16;
   vec3 rgb = vec3(float(colour >> 11) / 31.0, float((colour >> 5) & 63u) / 63.0, float(colour & 31u) / 31.0);
-  if (colourMode != 0) {
-    paint.y = 0.0;
-    float depth = 1.0 / max(inverse, 1e-4);
-    rgb = coloured(rgb, ray * depth, world.z * depth - groundHeight, pose.w);
-  }
-  if (colourMode == 6 && inverse > 0.0) {
+#ifdef COLOURED
+  paint.y = 0.0;
+  float depth = 1.0 / max(inverse, 1e-4);
+  rgb = coloured(rgb, ray * depth, world.z * depth - groundHeight, pose.w);
+#endif
+#ifdef LIT
+  if (inverse > 0.0) {
     vec3 normal = rotate(tileOrientation[slot], normalAt(tile, slot, at, inverse, ray));
     // An orthographic camera looks along z from everywhere.
     vec3 fromEye = projectionMatrix[3][3] == 1.0 ? vec3(0.0, 0.0, -1.0) : (modelViewMatrix * world).xyz;
     rgb *= litBy(mat3(modelViewMatrix) * normal, fromEye);
   }
+#endif
   // The latency test's green has no grey in it, and no tint.
   if (colour == 0x07e0u) {
     rgb = vec3(0.0, 1.0, 0.0);
@@ -182,7 +185,7 @@ flat in vec3 paint;
 in vec3 surfaceColour;
 in vec4 place;
 out vec4 fragColour;
-${FADED}${HAZARD_FUNCTION}
+${FADED}${HEIGHT_CUT_FUNCTION}${HAZARD_FUNCTION}
 void main() {
   vec2 across = dFdx(pixel);
   vec2 down = dFdy(pixel);
@@ -192,7 +195,7 @@ void main() {
   float pixels = abs(across.x * down.y - across.y * down.x);
   if ((state & 4) != 0 && pixels < leastPixels) discard;
   vec3 world = place.xyz / place.w;
-  if (world.z < heightCut.x || world.z > heightCut.y) discard;
+  if (isCut(world.z)) discard;
   vec3 picture = texture(pictures, vec3((pixel + 0.5) / gridSize, paint.x)).rgb;
   vec3 rgb = mix(surfaceColour, picture, paint.y);
   if (paint.z > 0.0) rgb = hazardTinted(rgb, world);

@@ -16,6 +16,14 @@ export interface FloorMemory {
   freeMemoryM: number;
 }
 
+/** Cells around a place, by the numbers of their columns and rows. */
+export interface CellRectangle {
+  left: number;
+  low: number;
+  width: number;
+  height: number;
+}
+
 /**
  * What sensors of one kind say about the cells around the robot. A cell is what the newest grid that sees it says; of
  * grids of the same age, an obstacle wins. What is no longer seen is remembered for a while: an obstacle does not go away
@@ -98,6 +106,20 @@ export class FloorLayer {
     if (!(ageMs <= freeMemoryMs)) return floorClasses.unknown;
     if (placed || travel - (this.#seenTravel[cell] as number) <= freeMemoryM) return known;
     return floorClasses.unknown;
+  }
+
+  /** What is known of a rectangle of cells, row by row from its lowest: as `classAt` says, without a call for each. */
+  read(
+    cells: Readonly<CellRectangle>,
+    nowMs: number,
+    travel: number,
+    placed: boolean,
+    into: Uint8Array,
+  ): void {
+    const { left, low, width, height } = cells;
+    let at = 0;
+    for (let y = low; y < low + height; y++)
+      for (let x = left; x < left + width; x++) into[at++] = this.classAt(x, y, nowMs, travel, placed);
   }
 
   /** How far the robot had gone when a cell was last seen, metres. */

@@ -1,4 +1,4 @@
-import { FloorLayer, type FloorMemory } from './floor-layer.ts';
+import { type CellRectangle, FloorLayer, type FloorMemory } from './floor-layer.ts';
 import { floorClasses, type SensorGrid } from './sensor-grid.ts';
 
 export interface FloorMapOptions extends FloorMemory {
@@ -20,6 +20,7 @@ export class FloorMap {
   readonly #planes: readonly FloorLayer[];
   readonly #planesShowFloor: boolean;
   #placed = true;
+  #said = new Uint8Array(0);
 
   constructor(options: FloorMapOptions) {
     this.cellM = options.cellM;
@@ -62,13 +63,33 @@ export class FloorMap {
   /** What is known of a cell. @param travel how far the robot has gone by now, metres */
   classAt(x: number, y: number, nowMs: number, travel: number): number {
     let known = this.#floor.classAt(x, y, nowMs, travel, this.#placed);
-    if (known >= floorClasses.occupied) return known;
-    for (const plane of this.#planes) {
-      const said = plane.classAt(x, y, nowMs, travel, this.#placed);
-      if (said === floorClasses.occupied) return said;
-      if (said === floorClasses.free && this.#planesShowFloor) known = said;
-    }
+    for (const plane of this.#planes)
+      known = this.#together(known, plane.classAt(x, y, nowMs, travel, this.#placed));
     return known;
+  }
+
+  /**
+   * What is known of a rectangle of cells, row by row from its lowest: as `classAt` says, without a call for each.
+   *
+   * @param into at least as long as the rectangle has cells
+   */
+  read(cells: Readonly<CellRectangle>, nowMs: number, travel: number, into: Uint8Array): void {
+    this.#floor.read(cells, nowMs, travel, this.#placed, into);
+    if (this.#planes.length === 0) return;
+    const count = cells.width * cells.height;
+    if (this.#said.length < count) this.#said = new Uint8Array(count);
+    const said = this.#said;
+    for (const plane of this.#planes) {
+      plane.read(cells, nowMs, travel, this.#placed, said);
+      for (let i = 0; i < count; i++) into[i] = this.#together(into[i] as number, said[i] as number);
+    }
+  }
+
+  /** What a cell is, of which one plane says something, too. */
+  #together(known: number, said: number): number {
+    if (known >= floorClasses.occupied) return known;
+    if (said === floorClasses.occupied) return said;
+    return said === floorClasses.free && this.#planesShowFloor ? said : known;
   }
 
   /** How far the robot may have come nearer to what stands in a cell since it was seen, metres. */

@@ -1,4 +1,5 @@
 import type { Twist } from '@farpoint/protocol';
+import { FloorAround } from './floor-around.ts';
 import type { FloorMap } from './floor-map.ts';
 import type { Footprint, Nearness, Outline } from './footprint.ts';
 import { OWN_BODY_M } from './obstacle-guard-options.ts';
@@ -44,12 +45,14 @@ export class FreeWaySearch {
   /** From the widest to the narrowest, which is the footprint itself. */
   readonly #outlines: readonly Outline[];
   readonly #leading: Float64Array;
+  readonly #around: FloorAround;
   readonly #near: Nearness = { distance: 0, x: 0, y: 0 };
   readonly #way: FreeWay = { contactS: 0, cause: null, unknownS: 0 };
 
   /** @param margins metres, from the widest to the narrowest; the footprint itself follows */
   constructor(map: FloorMap, footprint: Footprint, margins: readonly number[]) {
     this.#map = map;
+    this.#around = new FloorAround(map);
     this.#footprint = footprint;
     const spacing = map.cellM * STEP_CELLS;
     this.#outlines = [...margins, 0].map((margin) => footprint.outline(margin, spacing));
@@ -132,17 +135,18 @@ export class FreeWaySearch {
     const grown = margin + HALF_DIAGONAL * map.cellM;
     const reach = this.#footprint.reach + grown;
     const [cos, sin] = [Math.cos(pose.yaw), Math.sin(pose.yaw)];
-    const [left, right] = [map.cellOf(pose.x - reach), map.cellOf(pose.x + reach)];
-    for (let j = map.cellOf(pose.y - reach); j <= map.cellOf(pose.y + reach); j++) {
-      for (let i = left; i <= right; i++) {
-        const known = map.classAt(i, j, nowMs, travel);
-        if (known !== floorClasses.occupied && known !== floorClasses.dropOff) continue;
-        const [dx, dy] = [(i + 0.5) * map.cellM - pose.x, (j + 0.5) * map.cellM - pose.y];
-        const [x, y] = [dx * cos + dy * sin, dy * cos - dx * sin];
-        if (x * x + y * y >= reach * reach) continue;
-        const near = this.#footprint.nearness(x, y, this.#near);
-        if (near.distance < grown && near.distance > -OWN_BODY_M) visit(x, y, near, known);
-      }
+    this.#around.read(pose, reach, nowMs, travel);
+    const { classes, cells } = this.#around;
+    const { left, low, width, height } = cells;
+    for (let at = 0; at < width * height; at++) {
+      const known = classes[at] as number;
+      if (known !== floorClasses.occupied && known !== floorClasses.dropOff) continue;
+      const [i, j] = [left + (at % width), low + Math.floor(at / width)];
+      const [dx, dy] = [(i + 0.5) * map.cellM - pose.x, (j + 0.5) * map.cellM - pose.y];
+      const [x, y] = [dx * cos + dy * sin, dy * cos - dx * sin];
+      if (x * x + y * y >= reach * reach) continue;
+      const near = this.#footprint.nearness(x, y, this.#near);
+      if (near.distance < grown && near.distance > -OWN_BODY_M) visit(x, y, near, known);
     }
   }
 

@@ -1,4 +1,5 @@
 import { NEAR_REACH_M, NEAR_SECTORS, NEAR_UNSEEN_M, type NearSector } from '@farpoint/protocol';
+import { FloorAround } from './floor-around.ts';
 import type { FloorMap } from './floor-map.ts';
 import type { Footprint, Nearness } from './footprint.ts';
 import { OWN_BODY_M } from './obstacle-guard-options.ts';
@@ -27,9 +28,11 @@ export class NearFieldSearch {
   /** Distances from the footprint in base_link: there is much unseen floor. Made when it is first needed. */
   #distances: Float32Array | null = null;
   readonly #tableSide: number;
+  readonly #around: FloorAround;
 
   constructor(map: FloorMap, footprint: Footprint) {
     this.#map = map;
+    this.#around = new FloorAround(map);
     this.#footprint = footprint;
     this.#rings = Math.ceil(NEAR_UNSEEN_M / map.cellM);
     this.#unseen = new Uint8Array(NEAR_SECTORS * this.#rings);
@@ -44,27 +47,9 @@ export class NearFieldSearch {
    * @returns of each sector, by the protocol's numbers
    */
   look(pose: Readonly<FloorPose>, nowMs: number, travel: number): NearSector[] {
-    const map = this.#map;
-    const { cellM } = map;
-    this.#hitM.fill(Number.POSITIVE_INFINITY);
-    this.#unseen.fill(0);
-    this.#distances ??= this.#table();
-    const [cos, sin] = [Math.cos(pose.yaw), Math.sin(pose.yaw)];
-    const reach = this.#footprint.reach + NEAR_REACH_M + cellM;
-    const [left, right] = [map.cellOf(pose.x - reach), map.cellOf(pose.x + reach)];
-    for (let j = map.cellOf(pose.y - reach); j <= map.cellOf(pose.y + reach); j++) {
-      const dy = (j + 0.5) * cellM - pose.y;
-      for (let i = left; i <= right; i++) {
-        const dx = (i + 0.5) * cellM - pose.x;
-        const squared = dx * dx + dy * dy;
-        if (squared > reach * reach) continue;
-        const known = map.classAt(i, j, nowMs, travel);
-        if (known === floorClasses.free) continue;
-        const [x, y] = [dx * cos + dy * sin, dy * cos - dx * sin];
-        if (known !== floorClasses.unknown) this.#hit(x, y, known, map.travelSince(i, j, nowMs, travel));
-        else if (squared < this.#unseenReach * this.#unseenReach) this.#markUnseen(x, y, Math.sqrt(squared));
-      }
-    }
+    this.#around.read(pose, this.#footprint.reach + NEAR_REACH_M + this.#map.cellM, nowMs, travel);
+    this.#findHits(pose, nowMs, travel);
+    this.#findUnseen(pose);
     return Array.from({ length: NEAR_SECTORS }, (_, i) => {
       const hit = this.#hitM[i] as number;
       const kind = this.#isDrop[i] === 1 ? 'drop' : 'thing';
@@ -73,6 +58,24 @@ export class NearFieldSearch {
         unseen: this.#stretch(i),
       };
     });
+  }
+
+  #findHits(pose: Readonly<FloorPose>, nowMs: number, travel: number): void {
+    const map = this.#map;
+    const { cellM } = map;
+    const { classes, cells } = this.#around;
+    const { left, low, width, height } = cells;
+    this.#hitM.fill(Number.POSITIVE_INFINITY);
+    const [cos, sin] = [Math.cos(pose.yaw), Math.sin(pose.yaw)];
+    const reach = this.#footprint.reach + NEAR_REACH_M + cellM;
+    for (let at = 0; at < width * height; at++) {
+      const known = classes[at] as number;
+      if (known === floorClasses.free || known === floorClasses.unknown) continue;
+      const [i, j] = [left + (at % width), low + Math.floor(at / width)];
+      const [dx, dy] = [(i + 0.5) * cellM - pose.x, (j + 0.5) * cellM - pose.y];
+      if (dx * dx + dy * dy > reach * reach) continue;
+      this.#hit(dx * cos + dy * sin, dy * cos - dx * sin, known, map.travelSince(i, j, nowMs, travel));
+    }
   }
 
   #hit(x: number, y: number, known: number, since: number): void {
@@ -91,21 +94,40 @@ export class NearFieldSearch {
     }
   }
 
-  #markUnseen(x: number, y: number, range: number): void {
+  /** Marks the lengths and sectors of all unseen floor. One loop without calls: there may be thousands of cells. */
+  #findUnseen(pose: Readonly<FloorPose>): void {
     const { cellM } = this.#map;
-    const middle = this.#tableSide >> 1;
-    const row = middle + Math.round(y / TABLE_M);
-    const distance = this.#distances?.[row * this.#tableSide + middle + Math.round(x / TABLE_M)] ?? 0;
-    // The robot stands there.
-    if (distance <= Math.SQRT1_2 * cellM) return;
-    const first = Math.floor(distance / cellM - 0.5);
-    const until = Math.min(Math.floor(distance / cellM + 0.5), this.#rings - 1);
-    const half = this.#halfWidth(range);
-    const bearing = Math.atan2(y, x);
-    const last = Math.round((bearing + half) / SECTOR);
-    for (let n = Math.round((bearing - half) / SECTOR); n <= last; n++) {
-      const at = sectorOf(n) * this.#rings;
-      for (let ring = first; ring <= until; ring++) this.#unseen[at + ring] = 1;
+    const { classes, cells } = this.#around;
+    const { left, low, width, height } = cells;
+    this.#distances ??= this.#table();
+    const [distances, unseen] = [this.#distances, this.#unseen];
+    unseen.fill(0);
+    const [cos, sin] = [Math.cos(pose.yaw), Math.sin(pose.yaw)];
+    const [rings, side, reach] = [this.#rings, this.#tableSide, this.#unseenReach];
+    const middle = side >> 1;
+    for (let row = 0; row < height; row++) {
+      const dy = (low + row + 0.5) * cellM - pose.y;
+      for (let column = 0; column < width; column++) {
+        if (classes[row * width + column] !== floorClasses.unknown) continue;
+        const dx = (left + column + 0.5) * cellM - pose.x;
+        const squared = dx * dx + dy * dy;
+        if (squared >= reach * reach) continue;
+        const x = dx * cos + dy * sin;
+        const y = dy * cos - dx * sin;
+        const entry = (middle + Math.round(y / TABLE_M)) * side + middle + Math.round(x / TABLE_M);
+        const distance = distances[entry] as number;
+        // The robot stands there.
+        if (distance <= Math.SQRT1_2 * cellM) continue;
+        const first = Math.floor(distance / cellM - 0.5);
+        const until = Math.min(Math.floor(distance / cellM + 0.5), rings - 1);
+        const half = this.#halfWidth(Math.sqrt(squared));
+        const bearing = Math.atan2(y, x);
+        const last = Math.round((bearing + half) / SECTOR);
+        for (let n = Math.round((bearing - half) / SECTOR); n <= last; n++) {
+          const of = sectorOf(n) * rings;
+          for (let ring = first; ring <= until; ring++) unseen[of + ring] = 1;
+        }
+      }
     }
   }
 
