@@ -37,6 +37,8 @@ export class BlankFloor {
   /** Of each pixel that looks at floor: its place in the image, and the floor's in base_link. */
   readonly #pixels: Int32Array;
   readonly #floor: Float64Array;
+  /** Of those, the ones without depth in the present image. */
+  readonly #missing: Int32Array;
   readonly #sensor: { x: number; y: number };
   readonly #blank: Uint8Array;
   readonly #found: number[] = [];
@@ -65,6 +67,7 @@ export class BlankFloor {
       }
     }
     this.#pixels = Int32Array.from(pixels);
+    this.#missing = new Int32Array(pixels.length + 1);
     this.#floor = Float64Array.from(floor);
   }
 
@@ -79,28 +82,42 @@ export class BlankFloor {
     const half = side / 2;
     const [cos, sin] = [Math.cos(base.yaw) / cellM, Math.sin(base.yaw) / cellM];
     const [left, low] = [base.x / cellM + half, base.y / cellM + half];
-    const [pixels, floor, blank] = [this.#pixels, this.#floor, this.#blank];
+    const count = this.#collectBlank(depth);
+    if (count === 0) return;
+    const [missing, floor, blank] = [this.#missing, this.#floor, this.#blank];
     blank.fill(0);
-    let any = false;
-    const { width } = this.#camera;
-    const [first, last] = this.#columns(depth);
-    for (let k = 0; k < pixels.length; k++) {
-      const pixel = pixels[k] as number;
-      if ((depth[pixel] as number) > 0) continue;
-      const column = pixel % width;
-      if (column < first || column > last) continue;
+    for (let n = 0; n < count; n++) {
+      const k = missing[n] as number;
       const [x, y] = [floor[2 * k] as number, floor[2 * k + 1] as number];
       const i = Math.floor(left + x * cos - y * sin);
       const j = Math.floor(low + x * sin + y * cos);
       if (i < 0 || i >= side || j < 0 || j >= side || classes[j * side + i] !== unknown) continue;
       blank[j * side + i] = 1;
-      any = true;
     }
-    if (!any) return;
     const { x, y } = this.#sensor;
     this.#find(left + x * cos - y * sin, low + x * sin + y * cos, classes);
     // Not before all are found: what was marked is not looked at again.
     for (const cell of this.#found) this.#fill(cell, classes);
+  }
+
+  /**
+   * Collects the pixels of floor without depth, of which there are few. A loop of its own, without anything rare in it: the
+   * engine compiles it once, and not anew for every cloud.
+   *
+   * @returns their number
+   */
+  #collectBlank(depth: Float32Array): number {
+    const [pixels, missing] = [this.#pixels, this.#missing];
+    const { width } = this.#camera;
+    const [first, last] = this.#columns(depth);
+    let count = 0;
+    for (let k = 0; k < pixels.length; k++) {
+      const pixel = pixels[k] as number;
+      const column = pixel % width;
+      missing[count] = k;
+      count += (depth[pixel] as number) > 0 || column < first || column > last ? 0 : 1;
+    }
+    return count;
   }
 
   /** The first and the last column in which the camera sees anything. */

@@ -53,7 +53,7 @@ export class SrtpTransport implements RtpTransport {
    * Encrypted packets, kept as they are: encrypting other bytes under the same number would reveal the key (RFC 7714
    * §8.4).
    */
-  readonly #sent = new ResendHistory<readonly Buffer[]>();
+  readonly #sent = new ResendHistory();
   readonly #unixOffsetMs: number;
   readonly #payloadTypes: ReadonlyMap<VideoCodec, number> | undefined;
   /** Of the newest packet. */
@@ -170,8 +170,8 @@ export class SrtpTransport implements RtpTransport {
     this.#refreshPath();
     const sealed = this.#pathIsOpen ? this.#sent.take(sequence, nowMs) : null;
     if (sealed === null) return 0;
-    this.#path.send(sealed);
-    return sealed.reduce((sum, part) => sum + part.length, UDP_IPV4_BYTES);
+    this.#path.send([sealed]);
+    return sealed.length + UDP_IPV4_BYTES;
   }
 
   /** @returns whether anything was heard from the peer since the last call, including connectivity checks */
