@@ -38,12 +38,22 @@ export class NearPicture {
   #shown: NearView['sectors'] | null = null;
   #stale = false;
   #body: RobotBody | null = null;
+  /** Side of the picture that was drawn, pixels. */
   #size = 0;
+  /** Side of its place on the page, CSS pixels. */
+  #side = 0;
+
+  constructor() {
+    // To ask the element at every call would have the browser lay the page out anew, fifty times a second.
+    new ResizeObserver(() => {
+      this.#side = elements.nearRing.clientWidth;
+    }).observe(elements.nearRing);
+  }
 
   /** Call it often: it draws only what has changed. */
   show(body: RobotBody | null, view: NearView | null): void {
     const canvas = elements.nearRing;
-    const size = Math.round(canvas.clientWidth * Math.min(window.devicePixelRatio, 3));
+    const size = Math.round(this.#side * Math.min(window.devicePixelRatio, 3));
     const [sectors, stale] = [view?.sectors ?? null, view?.stale ?? false];
     const isSame = sectors === this.#shown && stale === this.#stale && body === this.#body;
     if (size === 0 || body === null || (isSame && size === this.#size)) return;
@@ -53,8 +63,12 @@ export class NearPicture {
   }
 }
 
-/** @param bearing on the screen, radians counter-clockwise from up; `null` for nothing */
+let shownBearing: number | null = null;
+
+/** Call it often. @param bearing on the screen, radians counter-clockwise from up; `null` for nothing */
 export function showBlockedEdge(bearing: number | null): void {
+  if (bearing === shownBearing) return;
+  shownBearing = bearing;
   const { blockedEdge } = elements;
   blockedEdge.hidden = bearing === null;
   if (bearing === null) return;
