@@ -45,8 +45,9 @@ export class FrameCapture {
   #stream: CodedStream | null = null;
   /** The cluster of the probe for which a frame was last enlarged. */
   #probeCluster = 0;
-  /** Moving average of the time that a frame takes, ms. */
+  /** Moving average of the time that a frame takes, ms ({@link workOf}). */
   #workMs = 0;
+  readonly #anyRate: boolean;
   #latencyTest = false;
 
   constructor(
@@ -72,10 +73,11 @@ export class FrameCapture {
     this.#recording = recording;
     this.#guard = guard;
     this.#pool = new BufferPool(BUFFERS, packetCountOf(description.capacity) * SLOT_BYTES);
+    this.#anyRate = source.onReady === undefined;
     const planner = new FramePlanner({
       policy: plan,
       mostFramesPerSecond: Math.min(framesPerSecond, description.framesPerSecond ?? framesPerSecond),
-      anyRate: source.onReady === undefined,
+      anyRate: this.#anyRate,
       ...{ floorFraction, mostPoints },
     });
     this.#formats = new FrameFormats(codec, description, { ...sampling, sensor }, planner, clocks.now);
@@ -142,7 +144,8 @@ export class FrameCapture {
     if (frame.form === 'images') this.#pictures.offer(frame);
     this.#record(frame, budget.unsent ? [] : encoded.frames);
     if (latencyTest) this.#latencyTest = false;
-    this.#workMs += (now() - beganMs - workMs) * (workMs === 0 ? 1 : SMOOTHING);
+    const work = workOf(now() - beganMs, threadCpu() - cpuBefore, this.#anyRate);
+    this.#workMs += (work - workMs) * (workMs === 0 ? 1 : SMOOTHING);
     return intervalMs;
   }
 
@@ -221,4 +224,16 @@ interface FrameFacts {
   capturedAtMs: number;
   captureMs: number;
   captureCpuMs: number;
+}
+
+/** How much of the time that a frame waits for busy processors counts as its own, for a source that is asked. */
+const WAITING_SHARE = 0.6;
+
+/**
+ * The time that counts as a frame's work. A source with its own timing must be ready before its next cloud, by the clock. One
+ * that is asked takes its share of the processor, whoever else uses it: only when it waits for most of the time does that
+ * count, so that it is asked less often.
+ */
+export function workOf(wallMs: number, cpuMs: number, anyRate: boolean): number {
+  return anyRate ? Math.max(cpuMs, WAITING_SHARE * wallMs) : wallMs;
 }

@@ -22,7 +22,7 @@ export interface FormatRequest {
   budget: CaptureBudget;
   /** Bytes of the packet train that the rate controller wants; 0 for none. */
   probeBytes: number;
-  /** Processor time per frame, ms. */
+  /** Time that the capture thread takes per frame, ms. */
   workMs: number;
   latencyTest: boolean;
 }

@@ -53,7 +53,7 @@ export interface PlanInput {
   probeBytes: number;
   /** The most that those it is for can draw. */
   display?: DrawnMost | undefined;
-  /** Wall-clock time that the capture thread takes per frame, ms. It includes waiting for busy processors. */
+  /** Time that the capture thread takes per frame, ms, with waiting for busy processors as far as it counts. */
   workMs: number;
 }
 
