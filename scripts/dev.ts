@@ -13,11 +13,11 @@ import {
   ManagedProcess,
   PortTaken,
   repositoryRoot,
+  simArguments,
 } from '@farpoint/local-stack';
 import { portHolder } from '@farpoint/service';
 import { Backoff } from '@farpoint/timing';
 import { DEV_HELP, type DevOptions, readDevOptions } from './lib/dev-options.ts';
-import { simArguments } from './lib/dev-sim.ts';
 import { devVideo } from './lib/dev-video.ts';
 
 /** Leaves a robot's usual port, 9400, free for one that is started beside these. */

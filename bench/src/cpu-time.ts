@@ -4,7 +4,7 @@ import { readdirSync, readFileSync } from 'node:fs';
 /** Linux reports in units of 1/100 s on every architecture that Node runs on. */
 const TICKS_PER_SECOND = 100;
 
-interface ProcessTimes {
+export interface ProcessTimes {
   parent: number;
   seconds: number;
 }
@@ -36,12 +36,18 @@ export function isDescendant(pid: number, ancestor: number): boolean {
   return isWithin(pid, ancestor, readProcesses() ?? new Map());
 }
 
-function isWithin(pid: number, ancestor: number, processes: ReadonlyMap<number, ProcessTimes>): boolean {
+/** Whether a process is another, or was started by it, at any remove. */
+export function isWithin(
+  pid: number,
+  ancestor: number,
+  processes: ReadonlyMap<number, ProcessTimes>,
+): boolean {
   for (let at = pid; at > 1; at = processes.get(at)?.parent ?? 0) if (at === ancestor) return true;
   return false;
 }
 
-function readProcesses(): Map<number, ProcessTimes> | null {
+/** All processes, by their ids; `null` without /proc. */
+export function readProcesses(): Map<number, ProcessTimes> | null {
   let names: string[];
   try {
     names = readdirSync('/proc').filter((name) => /^\d+$/.test(name));

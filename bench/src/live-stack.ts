@@ -14,8 +14,13 @@ import { type Browser, type BrowserServer, chromium, type Page } from '@playwrig
 
 export interface LiveStackOptions {
   robot: RobotSpec;
-  /** Size of the page's canvas in pixels. It is small, because there is no GPU and only the stream is measured. */
+  /**
+   * Size of the page's canvas in pixels, or of its window if it has its own canvas. Small where only the stream is measured:
+   * there is no GPU.
+   */
   canvas: string;
+  /** The page sizes its canvas itself, as it does for people. */
+  ownCanvas?: boolean;
   /** Additional parameters of the page's address. */
   query?: string;
   /** A bad network between the robots and everything else. */
@@ -74,7 +79,8 @@ export async function startLiveStack(options: LiveStackOptions): Promise<LiveSta
       const page = await browser.newPage({
         viewport: { width: Math.max(width, 320), height: Math.max(height, 180) },
       });
-      await page.goto(`${stack.webUrl}?canvas=${options.canvas}&measure=1&${options.query ?? ''}`);
+      const canvas = options.ownCanvas ? '' : `canvas=${options.canvas}&measure=1&`;
+      await page.goto(`${stack.webUrl}?${canvas}${options.query ?? ''}`);
       await page.waitForFunction(() => window.farpoint !== undefined);
       await page.waitForFunction(
         (id) => window.farpoint.robots().some((listed) => listed.id === id),

@@ -1,6 +1,7 @@
 /** `pnpm bench page`: what the operator's page costs its own main thread and memory, for as long as one likes. */
 import { parseArgs } from 'node:util';
 import type { Page } from '@playwright/test';
+import { driveInCircles } from './drive-in-circles.ts';
 import { startLiveStack } from './live-stack.ts';
 import { type CpuProfile, mainThreadTime } from './page-profile.ts';
 import { memoryMbOf } from './process-memory.ts';
@@ -158,19 +159,6 @@ function timeFirstPicture(page: Page): Promise<number> {
     await connected;
     return tookMs;
   });
-}
-
-/** Runs in the page. */
-async function driveInCircles(ms: number): Promise<void> {
-  const { farpoint } = window;
-  const end = performance.now() + ms;
-  while (performance.now() < end) {
-    const { session, holder } = farpoint.state();
-    if (session === 'live' && holder === 'nobody') farpoint.requestLease();
-    // Let go from time to time: after an interruption, the robot wants the grip to be released once.
-    await farpoint.drive({ forward: 0.4, left: 0.5 }, 900);
-    await new Promise((resolve) => setTimeout(resolve, 100));
-  }
 }
 
 async function profileFor(page: Page, ms: number) {
