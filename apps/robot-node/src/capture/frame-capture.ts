@@ -18,6 +18,8 @@ const BUFFERS = 4;
 const SMOOTHING = 0.1;
 /** While nobody drives, clouds that are sent are judged at most this often, ms: operators see what is near the robot. */
 const JUDGED_EVERY_MS = 100;
+/** While the robot moves, and its clouds come faster than a camera's 30/s, not each is judged, ms. */
+const GUARDED_EVERY_MS = 25;
 
 /** The clocks that capturing reads, ms. */
 export interface CaptureClocks {
@@ -123,7 +125,8 @@ export class FrameCapture {
     const room = this.#formats.room(budget.coded.length > 0);
     const frame = this.#source.capture(beganMs, this.wishes(budget), room);
     if (frame === null) return null;
-    if (this.#guarding || beganMs - this.#judgedMs >= JUDGED_EVERY_MS) this.#judge(frame, beganMs);
+    if (beganMs - this.#judgedMs >= (this.#guarding ? GUARDED_EVERY_MS : JUDGED_EVERY_MS))
+      this.#judge(frame, beganMs);
     const taken = { captureMs: now() - beganMs, captureCpuMs: threadCpu() - cpuBefore };
     const latencyTest = this.#latencyTest && frame.latencyTest !== false;
     const frameNumber = this.#frameNumber;

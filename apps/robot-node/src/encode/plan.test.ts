@@ -90,6 +90,17 @@ describe('FramePlanner, for latency', () => {
     expect(coded.framesPerSecond * coded.budgetBytes * 8).toBeLessThan(INPUT.targetBitsPerSecond);
   });
 
+  it('returns to a high rate when there is room for as many frames as there is time for', () => {
+    /** The bit rate at which it does, Mbit/s. */
+    const returnsAt = (workMs: number) => {
+      const plan = planner({ anyRate: true });
+      const at = (mbps: number) =>
+        plan.planCoded('organised', { ...INPUT, targetBitsPerSecond: mbps * 1e6, workMs }).framesPerSecond;
+      return Array.from({ length: 600 }, (_, i) => (i + 1) / 10).find((mbps) => at(mbps) > 30) ?? Number.NaN;
+    };
+    expect(returnsAt(10) / returnsAt(5)).toBeCloseTo(50 / 60, 2);
+  });
+
   it('makes a frame large enough for the requested probe train', () => {
     const small = { ...INPUT, targetBitsPerSecond: 2e6 };
     const plain = planner().plan(small).points;

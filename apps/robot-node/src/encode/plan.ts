@@ -246,10 +246,12 @@ export class FramePlanner {
       // A source with a rate of its own gives the next whole fraction of it that can be drawn.
       if (!anyRate && candidate > drawn * DRAWN_SLACK) continue;
       const inTime = anyRate || candidate * (margin === 1 ? 1 : 1.1) <= affordable;
-      const fits = pointsPerSecond / candidate >= least * margin && inTime;
+      // A source that is asked may have no time for the candidate: then its frames are larger.
+      const rate = anyRate ? Math.max(Math.min(candidate, affordable, drawn), floor) : candidate;
+      const fits = pointsPerSecond / rate >= least * margin && inTime;
       if (!fits && next >= floor) continue;
       this.#framesPerSecond = candidate;
-      return anyRate ? Math.max(Math.min(candidate, affordable, drawn), floor) : candidate;
+      return rate;
     }
   }
 }
