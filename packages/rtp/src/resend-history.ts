@@ -1,5 +1,3 @@
-import { Buffer } from 'node:buffer';
-
 /** Why a requested packet is not sent again. */
 export type ResendRefusal =
   | 'unknown' // never sent, or so long ago that it has been forgotten
@@ -25,7 +23,7 @@ export class ResendHistory {
   /** Until when it is of use, ms. */
   readonly #usefulUntilMs: Float64Array;
   readonly #resent: Uint8Array;
-  #bytes: Buffer | null = null;
+  #bytes: Uint8Array | null = null;
   /** How often a packet was not resent, by reason. */
   readonly refusals: Record<ResendRefusal, number> = { unknown: 0, 'too-late': 0, resent: 0 };
 
@@ -55,7 +53,7 @@ export class ResendHistory {
       return;
     }
     // A stream of which nothing is sent takes no memory.
-    this.#bytes ??= Buffer.allocUnsafeSlow((this.#mask + 1) * MOST_PACKET_BYTES);
+    this.#bytes ??= new Uint8Array((this.#mask + 1) * MOST_PACKET_BYTES);
     let at = place * MOST_PACKET_BYTES;
     for (const part of parts) {
       this.#bytes.set(part, at);
@@ -68,14 +66,14 @@ export class ResendHistory {
   }
 
   /** @returns a copy of the packet to resend now; `null` if that is no use, counted in {@link refusals} */
-  take(sequence: number, nowMs: number): Buffer | null {
+  take(sequence: number, nowMs: number): Uint8Array | null {
     const place = sequence & this.#mask;
     if (this.#bytes === null || this.#sequences[place] !== sequence) return this.#refuse('unknown');
     if (nowMs >= (this.#usefulUntilMs[place] as number)) return this.#refuse('too-late');
     if (this.#resent[place] === 1) return this.#refuse('resent');
     this.#resent[place] = 1;
     const at = place * MOST_PACKET_BYTES;
-    return Buffer.from(this.#bytes.subarray(at, at + (this.#lengths[place] as number)));
+    return this.#bytes.slice(at, at + (this.#lengths[place] as number));
   }
 
   #refuse(reason: ResendRefusal): null {

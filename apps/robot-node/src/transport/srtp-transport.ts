@@ -170,7 +170,7 @@ export class SrtpTransport implements RtpTransport {
     this.#refreshPath();
     const sealed = this.#pathIsOpen ? this.#sent.take(sequence, nowMs) : null;
     if (sealed === null) return 0;
-    this.#path.send([sealed]);
+    this.#path.send([Buffer.from(sealed.buffer)]);
     return sealed.length + UDP_IPV4_BYTES;
   }
 
