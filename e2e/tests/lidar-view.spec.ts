@@ -177,11 +177,22 @@ for (const { width, height } of screenSizes) {
     await operator.expectPoints();
     const controls = page.locator(
       '#bar button:visible, #drive button:visible, #joystick:visible, #holder, #drive-hint:visible, #sensors button, #clouds .heads button, ' +
-        '#clouds .legend, #clouds .controls:visible',
+        '#clouds .legend, #clouds .controls:visible, #facts:visible, #no-gpu:visible',
     );
     await expect(page.locator('.legend')).toBeVisible();
     await operator.screenshot(testInfo, `closed-${width}`);
     await expectOnScreenAndApart(controls, screen);
+    // The column has more to say than there is room for: what is only read gives way.
+    const facts = page.locator('#facts');
+    await facts.evaluate((list) => {
+      const row = () => Object.assign(document.createElement('dd'), { textContent: 'one more figure' });
+      list.append(...Array.from({ length: 40 }, row));
+    });
+    await page.locator('#no-gpu').evaluate((note: HTMLDetailsElement) => {
+      note.open = true;
+    });
+    await expectOnScreenAndApart(controls, screen);
+    await operator.screenshot(testInfo, `much-to-say-${width}`);
     await page.getByRole('button', { name: 'Colours' }).click();
     await page.getByRole('button', { name: 'From above' }).click();
     await operator.expectFrames(5);

@@ -8,10 +8,10 @@ import { type CloudAppearance, UNNAMED } from '../state/cloud-appearance.ts';
 import type { RobotState } from '../state/robot-state.ts';
 import type { Switches } from '../state/switches.ts';
 import { colourControls } from './colour-controls.ts';
-import { keepInRoom } from './controls-room.ts';
 import { cutControls } from './cut-controls.ts';
 import { elements } from './elements.ts';
 import { hazardLegend } from './hazard-legend.ts';
+import { boundLeftColumn } from './left-column.ts';
 import { type Legend, legendOf } from './legend.ts';
 import { type MemoryControlsParts, memoryControls } from './memory-controls.ts';
 import { quietButton, rowOf } from './panel-parts.ts';
@@ -47,7 +47,7 @@ export class CloudPanel {
     const heads = element('heads');
     heads.append(fromAbove, colours);
     elements.clouds.append(heads, legends, controls);
-    keepInRoom(controls);
+    boundLeftColumn(controls);
     effect(() => {
       fromAbove.ariaPressed = String(appearance.fromAbove.value);
     });
