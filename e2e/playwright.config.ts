@@ -2,9 +2,6 @@ import { join } from 'node:path';
 import { chromiumLaunchOptions } from '@farpoint/local-stack';
 import { defineConfig } from '@playwright/test';
 
-// The simulated robot does not see the floor before its wheels, and would set off too slowly for tests. This goes once it does.
-process.env.FARPOINT_ROBOT_GUARD_UNSEEN_MPS ??= '10';
-
 /**
  * `pnpm test` runs a failed test again, alone, and names the folder for what it leaves behind, by which the failure is to be
  * understood.

@@ -2,11 +2,11 @@
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import type { Page } from '@playwright/test';
 import type { BenchCamera } from './camera-list.ts';
 import { type AskedShares, type SharePair, sharesSeen } from './camera-shares.ts';
 import { commandDelays } from './command-delay.ts';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
+import { driveInCircles } from './drive-in-circles.ts';
 import { type LatencySeries, latencySeries } from './latency-series.ts';
 import { queueQuantiles } from './link-analysis.ts';
 import { clockOffsetOf, monotonicMs, readRobotSamples, readUplink, scrape } from './link-run.ts';
@@ -117,7 +117,7 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
       window.farpoint.recordPresentations(capacity);
     }, MOST_PRESENTATIONS);
     const before = await counters();
-    await drive(page, seconds);
+    await page.evaluate(driveInCircles, { ms: seconds * 1000, forward: 0.3 });
     const after = await counters();
     const { rows, figures } = await page.evaluate(() => ({
       rows: window.farpoint.recordedPresentations(),
@@ -188,20 +188,6 @@ function linkSpec(trace: string, statsFile: string) {
     statsFile,
     env: { FARPOINT_LOG_LEVEL: 'warn' },
   };
-}
-
-/** Drives in circles, and lets go now and then, as an operator does. */
-async function drive(page: Page, seconds: number): Promise<void> {
-  await page.evaluate(async (ms) => {
-    const { farpoint } = window;
-    const end = performance.now() + ms;
-    while (performance.now() < end) {
-      const { session, holder } = farpoint.state();
-      if (session === 'live' && holder === 'nobody') farpoint.requestLease();
-      await farpoint.drive({ forward: 0.3, left: 0.5 }, 900);
-      await new Promise((resolve) => setTimeout(resolve, 100));
-    }
-  }, seconds * 1000);
 }
 
 async function soundPackets(adminUrl: string): Promise<number> {

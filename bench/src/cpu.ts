@@ -85,7 +85,7 @@ export const bench: Bench = {
         { name: 'browser', pid: browserPid },
         ...(link === null ? [] : [{ name: 'link', pid: link.process.pid }]),
       ];
-      const driving = page.evaluate(driveInCircles, WARM_UP_MS + seconds * 1000);
+      const driving = page.evaluate(driveInCircles, { ms: WARM_UP_MS + seconds * 1000, forward: 0.4 });
       await page.waitForTimeout(WARM_UP_MS);
       console.error(`${seconds} s`);
       const [before, drawnBefore, beganMs] = [threadSeconds(trees), await drawn(page), performance.now()];

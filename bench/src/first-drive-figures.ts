@@ -4,7 +4,7 @@ import type { DriveRecording, DriveRow } from '@farpoint/webxr/drive-record';
 import { quantile } from './stats.ts';
 
 /** What the obstacle guard and the like demand: right, whatever the computer. */
-const OF_GUARDS: ReadonlySet<Intervention> = new Set([
+export const OF_GUARDS: ReadonlySet<Intervention> = new Set([
   'obstacle-near',
   'obstacle',
   'drop-off',

@@ -1,5 +1,7 @@
 /** A newcomer at the keyboard: drives about with Space, W, A and D, turns away from what is in the way, and lets go where told. */
+
 import type { Page } from '@playwright/test';
+import { OF_GUARDS } from './first-drive-figures.ts';
 
 const LOOKS_MS = 250;
 /** From time to time it steers, and after being stopped it turns for so long, ms. */
@@ -27,6 +29,7 @@ export async function driveAbout(page: Page, ms: number): Promise<void> {
       down.add(key);
     }
   };
+  const ofGuards = [...OF_GUARDS];
   const beganMs = performance.now();
   let steersMs = beganMs + STEERS_EVERY_MS;
   let turn = LEFT;
@@ -35,17 +38,15 @@ export async function driveAbout(page: Page, ms: number): Promise<void> {
     await page.waitForTimeout(LOOKS_MS);
     const nowMs = performance.now();
     if (nowMs - beganMs >= ms) break;
-    const { blocked, mustOpen } = await page.evaluate(() => {
+    const { blocked, mustOpen } = await page.evaluate((ofGuards) => {
       const newest = window.farpoint.recordedDrive()?.rows.at(-1);
       const { gripLost } = window.farpoint.state();
-      const isGuard = (newest?.reasons ?? []).some(
-        (reason) => !reason.startsWith('view') && reason !== 'blind-travel',
-      );
+      const isGuard = (newest?.reasons ?? []).some((reason) => ofGuards.includes(reason));
       return {
         blocked: newest !== undefined && isGuard && newest.factor < 0.3,
         mustOpen: gripLost !== null || newest?.letGoFirst === true,
       };
-    });
+    }, ofGuards);
     if (mustOpen) {
       await hold();
       await page.waitForTimeout(OPENS_MS);

@@ -64,7 +64,7 @@ export const bench: Bench = {
     try {
       const { page, browserPid } = live;
       const firstPictureMs = await timeFirstPicture(page);
-      const driving = page.evaluate(driveInCircles, seconds * 1000);
+      const driving = page.evaluate(driveInCircles, { ms: seconds * 1000, forward: 0.4 });
       const memory: Memory[] = [];
       const beganMs = performance.now();
       const noteMemory = async () => {

@@ -157,7 +157,7 @@ describe('a robot that has lost its operators', { timeout: 90_000 }, () => {
   });
 
   it('stays where no sensor sees the way back, unless it is told otherwise', async () => {
-    await start('--return-blocked-s', '1');
+    await start('--return-blocked-s', '1', '--sim-floor', 'unseen');
     const driver = await connect();
     await drive(driver.client);
     const far = xOf(driver.client);

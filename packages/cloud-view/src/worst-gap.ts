@@ -1,4 +1,4 @@
-const BUCKET_MS = 500;
+import { RecentWorst } from '@farpoint/timing';
 
 /**
  * How late a page's own timer comes, as the longest time between two of its ticks within the last second or so: what keeps
@@ -6,9 +6,7 @@ const BUCKET_MS = 500;
  */
 export class WorstGap {
   #tickMs: number | null = null;
-  #bucketMs = 0;
-  #worst = 0;
-  #before = 0;
+  readonly #gaps = new RecentWorst();
 
   /**
    * Call it many times a second.
@@ -16,8 +14,7 @@ export class WorstGap {
    * @param nowMs `performance.now()`
    */
   tick(nowMs: number): void {
-    this.#turn(nowMs);
-    if (this.#tickMs !== null) this.#worst = Math.max(this.#worst, nowMs - this.#tickMs);
+    if (this.#tickMs !== null) this.#gaps.add(nowMs - this.#tickMs, nowMs);
     this.#tickMs = nowMs;
   }
 
@@ -27,22 +24,12 @@ export class WorstGap {
    * @param nowMs `performance.now()`
    */
   at(nowMs: number): number {
-    this.#turn(nowMs);
-    return Math.max(this.#worst, this.#before);
+    return this.#gaps.at(nowMs);
   }
 
   /** The page was hidden: its timers rest. */
   pause(): void {
+    if (this.#tickMs !== null) this.#gaps.reset(this.#tickMs);
     this.#tickMs = null;
-    this.#worst = 0;
-    this.#before = 0;
-  }
-
-  #turn(nowMs: number): void {
-    const buckets = Math.floor((nowMs - this.#bucketMs) / BUCKET_MS);
-    if (buckets < 1) return;
-    this.#before = buckets === 1 ? this.#worst : 0;
-    this.#worst = 0;
-    this.#bucketMs += buckets * BUCKET_MS;
   }
 }

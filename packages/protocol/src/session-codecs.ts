@@ -12,7 +12,12 @@ import { quantitySchema } from './quantity.ts';
 import { robotModelSchema } from './robot-model.ts';
 import { roles } from './role.ts';
 import { sensorRingsSchema, sensorSchema } from './sensor-rings.ts';
-import { afterGapChoices, faultReasons, type RobotSessionMessage } from './session-messages.ts';
+import {
+  afterGapChoices,
+  faultReasons,
+  MOST_RESUME_MS,
+  type RobotSessionMessage,
+} from './session-messages.ts';
 import type { OperatorSessionMessage } from './session-requests.ts';
 import { MICROPHONE_STATES, VOICE_STATES } from './sound-media.ts';
 import { MAX_VIDEOS, VIDEO_CODECS } from './video-media.ts';
@@ -42,9 +47,6 @@ const latencyMsSchema = z.number().check(z.minimum(0), z.maximum(MAX_LATENCY_MS)
 /** Of what an operator's computer draws; one that draws less shows no world that moves. */
 const [LEAST_DISPLAYED_FPS, MOST_DISPLAYED_FPS] = [1, 240];
 const [LEAST_DISPLAYED_POINTS, MOST_DISPLAYED_POINTS] = [1000, 1e8];
-
-/** No robot moves on by itself after a longer gap, ms. */
-const MOST_RESUME_MS = 1000;
 
 /** Corners farther from base_link are no robot's, m. */
 const MOST_REACH_M = 10;

@@ -25,6 +25,9 @@ export interface DriveLimits {
   maxCommandsPerSecond: number;
 }
 
+/** After a longer gap no robot moves on by itself, whatever its configuration, ms. */
+export const MOST_RESUME_MS = 1000;
+
 /** What a robot does when commands come again after a gap that stopped it. */
 export const afterGapChoices = [
   'resume', // it moves again at once, after a gap of less than 1 s

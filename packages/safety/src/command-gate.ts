@@ -3,13 +3,13 @@ import {
   type CommandRejection,
   type DriveLimits,
   isZeroTwist,
+  MOST_RESUME_MS,
   sequenceDelta32,
   type Twist,
   zeroTwist,
 } from '@farpoint/protocol';
 import { TokenBucket } from '@farpoint/timing';
 import type { EstopAnswer } from './estop.ts';
-import { MOST_RESUME_MS } from './limits.ts';
 import { QueueingDelay } from './queueing-delay.ts';
 
 export interface RejectedCommand {

@@ -6,6 +6,7 @@ import {
   type EstopState,
   isZeroTwist,
   type LeaseState,
+  MOST_RESUME_MS,
   type Twist,
   zeroTwist,
 } from '@farpoint/protocol';
@@ -14,7 +15,6 @@ import type { DriveGuardOptions } from './drive-guard-options.ts';
 import { EstopLatch, type EstopSource } from './estop.ts';
 import { type EstopReleaseOutcome, type EstopReleasePolicy, releaseEstop } from './estop-release.ts';
 import { type LeaseOutcome, LeaseTable } from './lease.ts';
-import { MOST_RESUME_MS } from './limits.ts';
 import { OperatorView } from './motion/operator-view.ts';
 import type { RobotStop } from './robot-stop.ts';
 import { Watchdog } from './watchdog.ts';

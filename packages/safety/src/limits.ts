@@ -18,9 +18,6 @@ export const driveLimitsSchema = z.strictObject({
 
 export const defaultDriveLimits: Readonly<DriveLimits> = Object.freeze(driveLimitsSchema.parse({}));
 
-/** After a longer gap no robot moves on by itself, whatever its configuration, ms. */
-export const MOST_RESUME_MS = 1000;
-
 /**
  * A hand that holds on through a shorter gap in its commands or in what it sees need not let go, by default, ms. Long enough
  * for a hitch of a slow page, and too short for its operator to look away.

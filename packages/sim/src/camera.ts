@@ -49,6 +49,19 @@ export const DEFAULT_CAMERA: Readonly<Required<CameraOptions>> = {
   colourNoise: 1,
 };
 
+const FLOOR_CAMERA = {
+  ...{ width: 128, height: 128, fieldOfView: 2, up: 0.5, pitch: 1, near: 0.1 },
+} as const satisfies CameraOptions;
+
+/**
+ * Two small wide depth cameras low on the robot, of which one looks at the floor before its wheels, the other behind them,
+ * from the wheels to where {@link DEFAULT_CAMERA} sees it, or as far as a robot goes while it brakes.
+ */
+export const FLOOR_CAMERAS: Readonly<Record<'ahead' | 'behind', CameraOptions>> = {
+  ahead: { ...FLOOR_CAMERA, forward: 0.1, yaw: 0 },
+  behind: { ...FLOOR_CAMERA, forward: -0.1, yaw: Math.PI },
+};
+
 /** Views into the camera's memory, row by row; the next frame overwrites them. */
 export interface Images {
   /**

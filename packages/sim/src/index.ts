@@ -3,6 +3,7 @@ export {
   type CameraOptions,
   DEFAULT_CAMERA,
   depthToMillimetres,
+  FLOOR_CAMERAS,
   type Images,
   type WasmSource,
 } from './camera.ts';

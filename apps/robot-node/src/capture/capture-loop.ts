@@ -1,9 +1,9 @@
+import { EvenPace } from '@farpoint/timing';
 import type { BaseState } from '../base/base.ts';
 import { type CaptureBudget, NO_BUDGET } from '../encode/capture-budget.ts';
 import type { CaptureReport, CaptureRequest, ReportSink } from './capture-messages.ts';
 import type { FrameCapture } from './frame-capture.ts';
 import type { FrameSource } from './frame-source.ts';
-import { ReadyGate } from './ready-gate.ts';
 
 const STATE_INTERVAL_MS = 20;
 /** An unchanged state is repeated at this interval, as a sign of life, ms. */
@@ -49,9 +49,10 @@ export class CaptureLoop {
   readonly #frames: LoopFrames;
   readonly #now: () => number;
   readonly #send: ReportSink;
-  readonly #gate: ReadyGate;
-  /** Time between two frames before the first plan, ms. */
+  readonly #pace = new EvenPace();
+  /** Time between two frames before the first plan, and as last planned, ms. */
   readonly #defaultIntervalMs: number;
+  #plannedMs: number;
   #budget: CaptureBudget = NO_BUDGET;
   #nextFrameMs: number;
   /** When the obstacle guard needs its next cloud. */
@@ -75,7 +76,7 @@ export class CaptureLoop {
     this.#defaultIntervalMs = 1000 / framesPerSecond;
     this.#lookIntervalMs = Math.max(LOOK_INTERVAL_MS, 1000 / sourceFramesPerSecond);
     this.#nextFrameMs = now();
-    this.#gate = new ReadyGate(now(), this.#defaultIntervalMs);
+    this.#plannedMs = this.#defaultIntervalMs;
     if (this.#ownRhythm) {
       // A cloud may have arrived before there was a listener.
       this.#readySinceMs = now();
@@ -168,12 +169,14 @@ export class CaptureLoop {
     }
     const aged = now - this.#readySinceMs > MAX_READY_AGE_MS;
     this.#readySinceMs = null;
-    if (aged || !this.#frames.hasRoom || !this.#gate.takes(now)) {
+    if (aged || !this.#frames.hasRoom || !this.#pace.takes(now, this.#plannedMs)) {
       this.#pass(now);
       return;
     }
     const interval = this.#capture();
-    if (interval !== null) this.#gate.taken(now, interval);
+    if (interval === null) return;
+    this.#plannedMs = interval;
+    this.#pace.taken(now, interval);
   }
 
   /** A cloud that is not sent: the obstacle guard may need it. */

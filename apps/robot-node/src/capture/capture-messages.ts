@@ -7,7 +7,7 @@ import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { EncodedFrame, SamplingOptions } from '../encode/encoded-frame.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
 import type { PlanPolicy } from '../encode/plan.ts';
-import type { CloudGuardOptions } from '../obstacles/cloud-guard.ts';
+import type { SensorGuardOptions } from '../obstacles/sensor-guard.ts';
 import type { PlayedMessage } from '../telemetry/played-telemetry.ts';
 import type { CameraDescription, SourceDescription } from './frame-source.ts';
 import type { SourceOptions } from './open-source.ts';
@@ -26,7 +26,7 @@ export interface CaptureOptions {
   /** Also offer the colour pictures of the camera that the clouds come from, if they come from one. */
   picturesOfCloud?: boolean;
   /** Judges every whole cloud for the obstacle guard. */
-  guard?: CloudGuardOptions;
+  guard?: SensorGuardOptions;
 }
 
 export type CaptureRequest =

@@ -6,7 +6,7 @@ import { parentPort, workerData } from 'node:worker_threads';
 import { CloudTap } from '@farpoint/recording';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { monotonicMs, threadCpuMs } from '../clock.ts';
-import { CloudGuard } from '../obstacles/cloud-guard.ts';
+import { SensorGuard } from '../obstacles/sensor-guard.ts';
 import type { CaptureRecording } from './capture.ts';
 import { CaptureLoop } from './capture-loop.ts';
 import type { CaptureOptions, CaptureRequest, ReportSink } from './capture-messages.ts';
@@ -25,7 +25,10 @@ const pictures = new CapturePictures(source, options.picturesOfCloud === true);
 const tap =
   recording === null ? null : new CloudTap(recording.clouds, recording.perSecond, recording.livePerSecond);
 const clocks = { now: monotonicMs, threadCpu: threadCpuMs };
-const guard = options.guard === undefined ? null : new CloudGuard(codec, source.description, options.guard);
+const guard =
+  options.guard === undefined
+    ? null
+    : await SensorGuard.open(codec, options.source, source.description, options.guard);
 const frames = new FrameCapture(source, codec, options, clocks, send, { pictures, recording: tap, guard });
 const loop = new CaptureLoop(source, frames, {
   framesPerSecond: options.framesPerSecond,

@@ -1,12 +1,13 @@
 import { nextSequence32, packetCountOf } from '@farpoint/protocol';
 import type { CloudTap } from '@farpoint/recording';
+import { EvenPace } from '@farpoint/timing';
 import type { Codec } from '@farpoint/wasm-codec';
 import type { CaptureBudget } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import { type FormattedFrame, FrameFormats } from '../encode/frame-formats.ts';
 import { SLOT_BYTES } from '../encode/packetiser.ts';
 import { FramePlanner } from '../encode/plan.ts';
-import type { CloudGuard } from '../obstacles/cloud-guard.ts';
+import type { SensorGuard } from '../obstacles/sensor-guard.ts';
 import { BufferPool } from './buffer-pool.ts';
 import type { CaptureOptions, ReportSink } from './capture-messages.ts';
 import type { CapturePictures } from './capture-pictures.ts';
@@ -37,9 +38,9 @@ export class FrameCapture {
   readonly #send: ReportSink;
   readonly #pictures: CapturePictures;
   readonly #recording: CloudTap | null;
-  readonly #guard: CloudGuard | null;
+  readonly #guard: SensorGuard | null;
   #guarding = false;
-  #judgedMs = Number.NEGATIVE_INFINITY;
+  readonly #judging = new EvenPace();
   readonly #pool: BufferPool;
   readonly #formats: FrameFormats;
   #frameNumber = 0;
@@ -63,7 +64,7 @@ export class FrameCapture {
       pictures,
       recording,
       guard,
-    }: { pictures: CapturePictures; recording: CloudTap | null; guard: CloudGuard | null },
+    }: { pictures: CapturePictures; recording: CloudTap | null; guard: SensorGuard | null },
   ) {
     const { description } = source;
     const { plan, framesPerSecond, floorFraction, mostPoints, sampling, sensor } = options;
@@ -125,8 +126,7 @@ export class FrameCapture {
     const room = this.#formats.room(budget.coded.length > 0);
     const frame = this.#source.capture(beganMs, this.wishes(budget), room);
     if (frame === null) return null;
-    if (beganMs - this.#judgedMs >= (this.#guarding ? GUARDED_EVERY_MS : JUDGED_EVERY_MS))
-      this.#judge(frame, beganMs);
+    this.#judge(frame, beganMs);
     const taken = { captureMs: now() - beganMs, captureCpuMs: threadCpu() - cpuBefore };
     const latencyTest = this.#latencyTest && frame.latencyTest !== false;
     const frameNumber = this.#frameNumber;
@@ -154,7 +154,10 @@ export class FrameCapture {
 
   /** Whether the obstacle guard needs every cloud, and some that are not sent. */
   guard(wanted: boolean): void {
-    this.#guarding = wanted && this.#guard !== null;
+    const guarding = wanted && this.#guard !== null;
+    if (guarding === this.#guarding) return;
+    this.#guarding = guarding;
+    this.#judging.reset();
   }
 
   get guarding(): boolean {
@@ -169,7 +172,9 @@ export class FrameCapture {
   }
 
   #judge(frame: SourceFrame, nowMs: number): void {
-    this.#judgedMs = nowMs;
+    const everyMs = this.#guarding ? GUARDED_EVERY_MS : JUDGED_EVERY_MS;
+    if (!this.#judging.takes(nowMs, everyMs)) return;
+    this.#judging.taken(nowMs, everyMs);
     this.#guard?.take(frame);
   }
 

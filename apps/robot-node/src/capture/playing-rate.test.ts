@@ -1,4 +1,5 @@
 /** Checks that a recording plays with all of its clouds, by counting, and with its own clock. */
+
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -11,11 +12,11 @@ import {
   writeFile,
 } from '@farpoint/recording/testing';
 import { resolveOptions } from '@farpoint/service';
+import { EvenPace } from '@farpoint/timing';
 import { afterAll, expect, test } from 'vitest';
 import { FramePlanner } from '../encode/plan.ts';
 import { toRobotOptions } from '../options/robot-options.ts';
 import { robotProgram } from '../options/robot-program.ts';
-import { ReadyGate } from './ready-gate.ts';
 
 const folder = mkdtempSync(join(tmpdir(), 'farpoint-playing-rate-'));
 afterAll(() => rmSync(folder, { recursive: true }));
@@ -79,11 +80,12 @@ async function play(
     mostFramesPerSecond: Math.min(most, framesPerSecond ?? most),
     ...{ anyRate: false, floorFraction: 0.1, mostPoints: 100_000 },
   });
-  const gate = new ReadyGate(0, 1000 / most);
+  const pace = new EvenPace();
+  let plannedMs = 1000 / most;
   const into = new Float32Array(player.stream.capacity * 4);
   let taken = 0;
   player.onCloud = () => {
-    if (!gate.takes(nowMs) || player.take(into) === null) {
+    if (!pace.takes(nowMs, plannedMs) || player.take(into) === null) {
       player.skip();
       return;
     }
@@ -91,7 +93,8 @@ async function play(
     const plan = planner.plan({
       ...{ targetBitsPerSecond: 40e6, rawPoints: 3, overheadBytes: 60, probeBytes: 0, workMs: 3 },
     });
-    gate.taken(nowMs, 1000 / plan.framesPerSecond);
+    plannedMs = 1000 / plan.framesPerSecond;
+    pace.taken(nowMs, plannedMs);
   };
   await player.run();
   await player.close();

@@ -7,6 +7,8 @@ export interface SimSourceOptions {
   seed: number;
   /** Side of the square image in pixels, a multiple of 4. */
   size: number;
+  /** Whether the robot has cameras for the floor at its wheels, through which its obstacle guard looks. */
+  floorCameras?: boolean | undefined;
   /** The base's thread writes the world here. If undefined, the robot stays at its start and nothing moves. */
   snapshot?: SharedArrayBuffer | undefined;
   /** Put into the world. */

@@ -86,6 +86,7 @@ export class BlankFloor {
     if (count === 0) return;
     const [missing, floor, blank] = [this.#missing, this.#floor, this.#blank];
     blank.fill(0);
+    let any = 0;
     for (let n = 0; n < count; n++) {
       const k = missing[n] as number;
       const [x, y] = [floor[2 * k] as number, floor[2 * k + 1] as number];
@@ -93,7 +94,9 @@ export class BlankFloor {
       const j = Math.floor(low + x * sin + y * cos);
       if (i < 0 || i >= side || j < 0 || j >= side || classes[j * side + i] !== unknown) continue;
       blank[j * side + i] = 1;
+      any = 1;
     }
+    if (any === 0) return;
     const { x, y } = this.#sensor;
     this.#find(left + x * cos - y * sin, low + x * sin + y * cos, classes);
     // Not before all are found: what was marked is not looked at again.

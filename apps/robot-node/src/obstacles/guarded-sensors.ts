@@ -1,7 +1,8 @@
 import type { Pose } from '@farpoint/protocol';
 import type { Corner } from '@farpoint/safety';
-import { DEFAULT_CAMERA } from '@farpoint/sim';
+import { type CameraOptions, DEFAULT_CAMERA } from '@farpoint/sim';
 import type { SourceOptions } from '../capture/open-source.ts';
+import { SIM_FLOOR_CAMERAS } from '../capture/sim-floor-camera.ts';
 import { lidarHeight } from '../capture/sim-lidar-source.ts';
 import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
 import type { GuardTopicsOptions } from './guard-topics-messages.ts';
@@ -37,7 +38,16 @@ export const GRID_SHAPE: GridShape = { side: 160, cellM: 0.05 };
 export interface GuardedSensors {
   sensors: readonly CloudSensorOptions[];
   /** One for each guarded sensor; empty if the guard is off. */
-  grids: readonly { sensor: number; reader: SharedGridReader }[];
+  grids: readonly GuardedGrid[];
+}
+
+/** The guard's end of a grid. */
+export interface GuardedGrid {
+  /** The sensor whose thread writes it. */
+  sensor: number;
+  /** What it is of, if it is not of the sensor's clouds. */
+  looks?: string;
+  reader: SharedGridReader;
 }
 
 /** Gives the capture thread of each sensor whose place on the robot is known a grid to write to. */
@@ -47,16 +57,25 @@ export function guardedSensors(
 ): GuardedSensors {
   const { mode, clearanceM, heightM, dropM, blankIsMissing = false } = configuration;
   if (mode === 'off') return { sensors, grids: [] };
-  const grids: { sensor: number; reader: SharedGridReader }[] = [];
+  const grids: GuardedGrid[] = [];
   const guarded = sensors.map((sensor) => {
     const { source } = sensor.capture;
     const mount = mountOf(source, configuration.mount);
     if (mount === null) return sensor;
-    const memory = makeSharedGrid(GRID_SHAPE);
-    grids.push({ sensor: sensor.capture.sensor, reader: new SharedGridReader(memory, GRID_SHAPE) });
-    const odometry = hasOdometry(source);
-    const band = { clearanceM, heightM, dropM, blankIsMissing };
-    const guard = { memory, shape: GRID_SHAPE, mount, odometry, ...band };
+    const common = { shape: GRID_SHAPE, odometry: hasOdometry(source), clearanceM, heightM, dropM };
+    const gridOf = (looks?: string): SharedArrayBuffer => {
+      const memory = makeSharedGrid(GRID_SHAPE);
+      const grid = { sensor: sensor.capture.sensor, reader: new SharedGridReader(memory, GRID_SHAPE) };
+      grids.push(looks === undefined ? grid : { ...grid, looks });
+      return memory;
+    };
+    const clouds = { ...common, memory: gridOf(), mount, blankIsMissing };
+    const floor = (source.kind === 'sim' && source.floorCameras === true ? SIM_FLOOR_CAMERAS : []).map(
+      ({ looks, place }) => {
+        return { ...common, memory: gridOf(looks), mount: simMount(place), blankIsMissing };
+      },
+    );
+    const guard = { clouds, floor };
     return { ...sensor, capture: { ...sensor.capture, guard } };
   });
   return { sensors: guarded, grids };
@@ -64,14 +83,17 @@ export function guardedSensors(
 
 /** The pose of a sensor's optical frame in base_link; `null` if nobody knows. */
 export function mountOf(source: SourceOptions, configured: SensorMount | null): Pose | null {
-  if (source.kind === 'sim') {
-    const { forward: x, left: y, up: z, pitch, yaw } = DEFAULT_CAMERA;
-    return opticalMount({ x, y, z, roll: 0, pitch, yaw });
-  }
+  if (source.kind === 'sim') return simMount({});
   if (source.kind === 'sim-lidar') {
     return opticalMount({ x: 0, y: 0, z: lidarHeight(source.index), roll: 0, pitch: 0, yaw: 0 });
   }
   return configured === null ? null : opticalMount(configured);
+}
+
+/** Where a simulated camera sits. */
+function simMount(place: CameraOptions): Pose {
+  const { forward: x, left: y, up: z, pitch, yaw } = { ...DEFAULT_CAMERA, ...place };
+  return opticalMount({ x, y, z, roll: 0, pitch, yaw });
 }
 
 /** Whether the poses of a source's clouds say where the robot is. */

@@ -19,7 +19,12 @@ import type { TimedBaseState } from '../base/base.ts';
 import type { Capture } from '../capture/capture.ts';
 import type { GuardReport } from './guard-report.ts';
 import { GuardTopics } from './guard-topics.ts';
-import { GRID_SHAPE, type GuardedSensors, type ObstacleGuardConfiguration } from './guarded-sensors.ts';
+import {
+  GRID_SHAPE,
+  type GuardedGrid,
+  type GuardedSensors,
+  type ObstacleGuardConfiguration,
+} from './guarded-sensors.ts';
 import type { SharedGridReader } from './shared-grid.ts';
 
 export interface ObstacleStationOptions {
@@ -83,7 +88,9 @@ export class ObstacleStation implements MotionGuard, Lookout {
     const { grids, names = [] } = this.#options;
     this.#readGrids();
     const seen = this.#guard?.sensors(nowMs) ?? [];
-    const called = [...grids.map(({ sensor }) => names[sensor] ?? `sensor ${sensor}`), ...this.#scans];
+    const nameOf = ({ sensor, looks }: GuardedGrid) =>
+      [names[sensor] ?? `sensor ${sensor}`, ...(looks === undefined ? [] : [looks])].join(', ');
+    const called = [...grids.map(nameOf), ...this.#scans];
     return {
       state: this.state(nowMs),
       driven: this.#driven,
@@ -177,6 +184,7 @@ export function openObstacleGuard(
   const { configuration, grids, captures } = options;
   const { mode, clearanceM, heightM, footprint } = configuration;
   const isOff = mode === 'off';
+  const guarded = new Set(grids.map(({ sensor }) => sensor)).size;
   const scans = isOff ? [] : (configuration.topics?.scans ?? []);
   const collision = configuration.topics?.collision ?? null;
   if (isOff) {
@@ -188,7 +196,7 @@ export function openObstacleGuard(
     );
   } else {
     log.info(
-      { sensors: grids.length, scans: scans.length, unguarded: captures.length - grids.length },
+      { sensors: guarded, scans: scans.length, unguarded: captures.length - guarded },
       'the obstacle guard is on',
     );
   }

@@ -1,6 +1,6 @@
 /** The safety limits, and how many operators may connect. */
-import { afterGapChoices } from '@farpoint/protocol';
-import { defaultDriveLimits, estopReleasePolicies, MOST_RESUME_MS, RESUME_WITHIN_MS } from '@farpoint/safety';
+import { afterGapChoices, MOST_RESUME_MS } from '@farpoint/protocol';
+import { defaultDriveLimits, estopReleasePolicies, RESUME_WITHIN_MS } from '@farpoint/safety';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 
 export const limitsOptions = optionGroup('limits', {

@@ -1,8 +1,8 @@
 /** Turns option values that are valid one by one into the parts of the robot. */
 import { randomBytes } from 'node:crypto';
 import { join } from 'node:path';
+import { MOST_RESUME_MS } from '@farpoint/protocol';
 import { RosFault, ros1Hostname, type TopicEntry, topicAs } from '@farpoint/ros';
-import { MOST_RESUME_MS } from '@farpoint/safety';
 import { type OptionMistake, OptionsError } from '@farpoint/service';
 import { BitRate } from '@farpoint/timing';
 import { SIM_FIX, SIM_MOTORS } from '../base/sim-topics.ts';
@@ -200,6 +200,7 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
         kind: 'sim',
         seed: values.simSeed,
         size: values.simSize,
+        floorCameras: values.simFloor === 'seen',
         triggerPerS: cloudTrigger(values.videos, framesPerS(values)),
       };
     case 'shm':

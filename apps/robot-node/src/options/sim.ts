@@ -93,6 +93,12 @@ export const simOptions = optionGroup('source', {
     argument: 'X,Y',
     help: 'the simulated robot has a plan to this place in its building, as a navigator would publish it; metres',
   }),
+  simFloor: defineOption({
+    schema: schema.choice(['seen', 'unseen']),
+    default: 'seen',
+    argument: 'CHOICE',
+    help: 'floor at the wheels of the simulated robot: seen by two small cameras of the obstacle guard, or unseen, as by robots with nothing but a camera that looks ahead',
+  }),
   simSize: defineOption({
     schema: schema.integer({ min: 16, max: 1024 }),
     default: 480,

@@ -39,7 +39,7 @@ export function listenToWishes(wishes: OperatorWishes, parts: WishedParts): void
     events.onCloudFormats();
   });
   wishes.onDisplay = budgeted(({ framesPerSecond, points }) => {
-    clouds.display = { framesPerSecond, points };
+    clouds.pace.display = { framesPerSecond, points };
   });
   wishes.onVideos = budgeted((wanted, barcode) => videos.want(wanted, barcode));
   wishes.onShares = budgeted((shares) => budget.weigh(shares));

@@ -127,7 +127,7 @@ export class OperatorSession implements FrameTarget {
   }
 
   get display(): DrawnMost | null {
-    return this.#clouds.display;
+    return this.#clouds.pace.display;
   }
 
   wants(sensor: number): boolean {
@@ -193,7 +193,7 @@ export class OperatorSession implements FrameTarget {
     if (this.sender === null || !this.streaming) return;
     const { frame } = shared;
     const { frameNumber, points, capturedAtMs } = frame;
-    if (!frame.latencyTest && !this.#clouds.takes(frame.sensor, capturedAtMs)) return;
+    if (!frame.latencyTest && !this.#clouds.pace.takes(frame.sensor, capturedAtMs)) return;
     for (const { id, commandMs } of this.#tests.answeredBy(shared)) {
       const moments = { commandMs, captureMs: capturedAtMs };
       this.messages.send({ type: 'latencyFrame', id, frameNumber, points, ...moments });

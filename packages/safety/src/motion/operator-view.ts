@@ -1,4 +1,4 @@
-import { RecentWorst } from './recent-worst.ts';
+import { RecentWorst } from '@farpoint/timing';
 
 /** A stamp may be this far ahead of the robot's clock: it is rounded on its way. */
 const ROUNDING_MS = 2;
