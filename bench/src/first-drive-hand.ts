@@ -1,6 +1,5 @@
-/** A newcomer at the keyboard: drives about with Space, W, A and D, turns away from what is in the way, and lets go where told. */
-
-import type { Page } from '@playwright/test';
+/** A newcomer's hand: drives about, turns away from what is in the way, and lets go where told. */
+import type {} from '@farpoint/webxr/test-api';
 import { OF_GUARDS } from './first-drive-figures.ts';
 
 const LOOKS_MS = 250;
@@ -10,32 +9,83 @@ const STEERS_MS = 700;
 const TURNS_MS = 1500;
 const OPENS_MS = 400;
 
-const GRIP = 'Space';
-const AHEAD = 'KeyW';
-const LEFT = 'KeyA';
-const RIGHT = 'KeyD';
+/** What a hand can hold. */
+export type Held = 'grip' | 'ahead' | 'left' | 'right';
 
-/** Drives about for a while, and lets go. Real key presses. */
-export async function driveAbout(page: Page, ms: number): Promise<void> {
-  const { keyboard } = page;
-  const down = new Set<string>();
-  const hold = async (...keys: string[]): Promise<void> => {
-    for (const key of [...down].filter((each) => !keys.includes(each))) {
-      await keyboard.up(key);
-      down.delete(key);
+/** Holds exactly this from now on. */
+export type Hand = (...held: Held[]) => Promise<void>;
+
+/** What Playwright's pages and those of WebDriver BiDi have in common. */
+export interface DrivenPage {
+  evaluate<Answer, Given>(ask: (given: Given) => Answer, given: Given): Promise<Awaited<Answer>>;
+}
+
+/** By key, as a browser calls them. */
+const KEYS = { grip: 'Space', ahead: 'KeyW', left: 'KeyA', right: 'KeyD' } as const satisfies Record<
+  Held,
+  string
+>;
+export type DriveKey = (typeof KEYS)[Held];
+
+/** Real key presses. */
+export function handOnKeys(keyboard: {
+  down(key: DriveKey): Promise<void>;
+  up(key: DriveKey): Promise<void>;
+}): Hand {
+  const down = new Set<Held>();
+  return async (...held) => {
+    for (const each of [...down].filter((each) => !held.includes(each))) {
+      await keyboard.up(KEYS[each]);
+      down.delete(each);
     }
-    for (const key of keys.filter((each) => !down.has(each))) {
-      await keyboard.down(key);
-      down.add(key);
+    for (const each of held.filter((each) => !down.has(each))) {
+      await keyboard.down(KEYS[each]);
+      down.add(each);
     }
   };
+}
+
+/** The right controller of an emulated headset (iwer): its squeeze button and thumbstick. */
+export function handOnController(page: DrivenPage): Hand {
+  return (...held) =>
+    page.evaluate((held) => {
+      const turn = Number(held.includes('right')) - Number(held.includes('left'));
+      const controller = window.emulatedHeadset.controllers.right;
+      controller?.updateButtonValue('squeeze', Number(held.includes('grip')));
+      controller?.updateAxes('thumbstick', turn, held.includes('ahead') ? -1 : 0);
+    }, held);
+}
+
+declare global {
+  interface Window {
+    IWER: { XRDevice: new (config: unknown) => EmulatedHeadset; metaQuest3: unknown };
+    emulatedHeadset: EmulatedHeadset;
+  }
+}
+
+/** The parts of iwer's XRDevice that a first drive needs. */
+interface EmulatedHeadset {
+  stereoEnabled: boolean;
+  controllers: Record<
+    'left' | 'right',
+    | {
+        updateAxes(id: string, x: number, y: number): void;
+        updateButtonValue(id: string, value: number): void;
+      }
+    | undefined
+  >;
+  installRuntime(options: { forceInstall: boolean }): void;
+}
+
+/** Drives about for a while, and lets go. */
+export async function driveAbout(page: DrivenPage, hold: Hand, ms: number): Promise<void> {
   const ofGuards = [...OF_GUARDS];
   const beganMs = performance.now();
   let steersMs = beganMs + STEERS_EVERY_MS;
-  let turn = LEFT;
-  await hold(GRIP, AHEAD);
+  let turn: Held = 'left';
+  await hold('grip', 'ahead');
   for (;;) {
-    await page.waitForTimeout(LOOKS_MS);
+    await pause(LOOKS_MS);
     const nowMs = performance.now();
     if (nowMs - beganMs >= ms) break;
     const { blocked, mustOpen } = await page.evaluate((ofGuards) => {
@@ -49,21 +99,25 @@ export async function driveAbout(page: Page, ms: number): Promise<void> {
     }, ofGuards);
     if (mustOpen) {
       await hold();
-      await page.waitForTimeout(OPENS_MS);
-      await hold(GRIP, AHEAD);
+      await pause(OPENS_MS);
+      await hold('grip', 'ahead');
     } else if (blocked) {
-      await hold(GRIP, turn);
-      await page.waitForTimeout(TURNS_MS);
-      await hold(GRIP, AHEAD);
-      turn = turn === LEFT ? RIGHT : LEFT;
+      await hold('grip', turn);
+      await pause(TURNS_MS);
+      await hold('grip', 'ahead');
+      turn = turn === 'left' ? 'right' : 'left';
       // Away from the wall for good, rather than back to it.
-      if (Math.floor((nowMs - beganMs) / 10_000) % 2 === 0) turn = LEFT;
+      if (Math.floor((nowMs - beganMs) / 10_000) % 2 === 0) turn = 'left';
     } else if (nowMs >= steersMs) {
-      await hold(GRIP, AHEAD, turn);
-      await page.waitForTimeout(STEERS_MS);
-      await hold(GRIP, AHEAD);
+      await hold('grip', 'ahead', turn);
+      await pause(STEERS_MS);
+      await hold('grip', 'ahead');
       steersMs = performance.now() + STEERS_EVERY_MS;
     }
   }
   await hold();
+}
+
+export function pause(ms: number): Promise<void> {
+  return new Promise((resolve) => setTimeout(resolve, ms));
 }

@@ -4,21 +4,23 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { availableParallelism, tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
-import { chromiumLaunchOptions, freePorts, ManagedProcess, repositoryRoot } from '@farpoint/local-stack';
-import type {} from '@farpoint/webxr/test-api';
-import { type Browser, chromium } from '@playwright/test';
+import { freePorts, ManagedProcess, repositoryRoot } from '@farpoint/local-stack';
+import { FIRST_DRIVE_BROWSERS, type FirstDriveBrowser, openFirstDrive } from './first-drive-browser.ts';
 import { type DriveFigures, driveFigures } from './first-drive-figures.ts';
-import { driveAbout } from './first-drive-hand.ts';
+import { driveAbout, pause } from './first-drive-hand.ts';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
 
-const USAGE = `pnpm bench first-drive [--seconds 60] [--sizes 1280x720,1920x1080] [--busy 0] [--here] [--throttle 1] [--json]
+const USAGE = `pnpm bench first-drive [--seconds 60] [--sizes 1280x720,1920x1080] [--busy 0] [--here] [--throttle 1]
+  [--browser chromium] [--headset] [--json]
 
-Clones the last commit, starts it by the README's first command, and drives the simulated robot about in a real Chromium
+Clones the last commit, starts it by the README's first command, and drives the simulated robot about in a real browser
 with real key presses, with nothing set: everything that a newcomer gets. Software renders where there is no GPU.
 
   --busy N      runs N busy loops beside it
   --here        uses this checkout as it is, and not a clone
   --throttle N  the page's main thread is N times slower (Chromium's own emulation)
+  --browser B   chromium or firefox
+  --headset     enters VR in an emulated headset, and drives with its right controller (Chromium)
 
 obeyed is the share of the time with a grip held in which the robot did what it was told, without the time in which its
 obstacle guard bounded it. view age is that of what is on the screen.`;
@@ -47,6 +49,8 @@ export const bench: Bench = {
         busy: { type: 'string', default: '0' },
         throttle: { type: 'string', default: '1' },
         here: { type: 'boolean', default: false },
+        browser: { type: 'string', default: 'chromium' },
+        headset: { type: 'boolean', default: false },
         json: { type: 'boolean' },
         help: { type: 'boolean' },
       },
@@ -55,6 +59,11 @@ export const bench: Bench = {
     const seconds = numberOption('seconds', values.seconds, 1);
     const busy = numberOption('busy', values.busy, 0);
     const throttle = numberOption('throttle', values.throttle, 1);
+    const kind = values.browser as FirstDriveBrowser;
+    if (!FIRST_DRIVE_BROWSERS.includes(kind))
+      throw new Error(`--browser is \`${kind}\`, not one of ${FIRST_DRIVE_BROWSERS.join(', ')}`);
+    if (kind !== 'chromium' && (values.headset || throttle > 1))
+      throw new Error('--headset and --throttle need Chromium');
     const sizes = values.sizes.split(',').map((size) => {
       const [width, height] = size.split('x').map(Number);
       if (!(width && height)) throw new Error(`--sizes: \`${size}\` is not WIDTHxHEIGHT`);
@@ -64,7 +73,6 @@ export const bench: Bench = {
     const folder = values.here ? repositoryRoot : clone();
     const loops: ChildProcess[] = [];
     let stack: ManagedProcess | null = null;
-    let browser: Browser | null = null;
     const rows: Row[] = [];
     try {
       const [port] = (await freePorts(1)) as [number];
@@ -79,14 +87,14 @@ export const bench: Bench = {
       const address = await addressOf(stack);
       for (let i = 0; i < busy; i++)
         loops.push(spawn(process.execPath, ['-e', 'for (;;);'], { stdio: 'ignore' }));
-      browser = await chromium.launch(chromiumLaunchOptions());
       for (const viewport of sizes) {
-        console.error(`${viewport.width}x${viewport.height}, ${seconds} s`);
-        rows.push(await firstDrive(browser, address, viewport, { seconds, throttle }));
+        const size = `${viewport.width}x${viewport.height}`;
+        console.error(`${size}, ${seconds} s`);
+        const how = { kind, viewport, throttle, headset: values.headset };
+        rows.push({ size, ...(await firstDrive(address, how, seconds)) });
       }
     } finally {
       for (const loop of loops) loop.kill();
-      await browser?.close();
       if (stack !== null) await endGroup(stack);
       if (!values.here) rmSync(folder, { recursive: true, force: true });
     }
@@ -118,7 +126,12 @@ export const bench: Bench = {
     );
     for (const { size, whyNotS } of rows) console.log(`${size}: not obeyed, s: ${JSON.stringify(whyNotS)}`);
     if (values.json)
-      printJson({ bench: 'first-drive', seconds, busy, throttle, cores: availableParallelism(), rows });
+      printJson({
+        bench: 'first-drive',
+        ...{ seconds, busy, throttle, browser: kind, headset: values.headset },
+        cores: availableParallelism(),
+        rows,
+      });
   },
 };
 
@@ -160,43 +173,32 @@ async function addressOf(dev: ManagedProcess): Promise<string> {
 }
 
 async function firstDrive(
-  browser: Browser,
   address: string,
-  viewport: { width: number; height: number },
-  { seconds, throttle }: { seconds: number; throttle: number },
-): Promise<Row> {
-  const page = await browser.newPage({ viewport });
+  how: Parameters<typeof openFirstDrive>[1],
+  seconds: number,
+): Promise<Omit<Row, 'size'>> {
+  const { page, hold, close } = await openFirstDrive(address, how);
   try {
-    if (throttle > 1) {
-      const devTools = await page.context().newCDPSession(page);
-      await devTools.send('Emulation.setCPUThrottlingRate', { rate: throttle });
-    }
-    await page.goto(address);
-    await page.getByRole('button', { name: /Simulated robot 1/ }).click({ timeout: 60_000 });
-    await page.waitForFunction(
-      () => window.farpoint !== undefined && window.farpoint.stats().framesDrawn > 5,
-    );
-    await page.waitForTimeout(LOOK_MS);
+    await pause(LOOK_MS);
     const before = await page.evaluate(() => {
       window.farpoint.recordDrive(true);
       return { frames: window.farpoint.stats().framesDrawn, atMs: performance.now() };
-    });
-    await driveAbout(page, seconds * 1000);
+    }, null);
+    await driveAbout(page, hold, seconds * 1000);
     const after = await page.evaluate(() => {
       const { framesDrawn, displayFramesPerSecond } = window.farpoint.stats();
       window.farpoint.recordDrive(false);
       const recording = window.farpoint.recordedDrive();
       return { frames: framesDrawn, displayFramesPerSecond, recording, atMs: performance.now() };
-    });
+    }, null);
     if (after.recording === null) throw new Error('the page has recorded nothing');
     const elapsedS = (after.atMs - before.atMs) / 1000;
     return {
-      size: `${viewport.width}x${viewport.height}`,
       ...driveFigures(after.recording),
       drawnFramesPerSecond: Number(((after.frames - before.frames) / elapsedS).toFixed(1)),
       displayFramesPerSecond: Number(after.displayFramesPerSecond.toFixed(1)),
     };
   } finally {
-    await page.close();
+    await close();
   }
 }

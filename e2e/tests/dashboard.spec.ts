@@ -190,7 +190,10 @@ test('a map with tiles, where they are configured and the robot knows its place 
   await page.getByRole('button', { name: 'Settings' }).click();
   await page.getByLabel(/Map tiles/).fill('/tiles/{z}/{x}/{y}.svg');
   await page.getByLabel('Attribution of the map').fill('© Mapmakers');
+  // Until then, keys would go to the page as it was.
+  const loaded = page.waitForEvent('load');
   await page.getByRole('button', { name: 'Save and reconnect' }).click();
+  await loaded;
   await page.waitForFunction(() => window.farpoint !== undefined);
   await operator.expectState('session', 'live');
   await openDashboard(page);

@@ -5,13 +5,16 @@ import { OperatorPage } from '../src/operator-page.ts';
 import { screenSizes } from '../src/screens.ts';
 import { expect, lightRobot, test } from '../src/stack-test.ts';
 
-/** A low box, which the camera sees from afar only. Its nearest side is 0.75 m before base_link at the start. */
+/** A low box, which the only camera sees from afar only. Its nearest side is 0.75 m before base_link at the start. */
 const BOX = { ahead: 0.9, height: 0.09 };
 const BOX_SIDE_M = BOX.ahead - 0.15;
 const FOOTPRINT_M = 0.25;
 const robot = {
   ...lightRobot,
-  args: [...lightRobot.args, '--sim-size', '160', '--sim-things', `${BOX.ahead},0,${BOX.height}`],
+  args: [
+    ...[...lightRobot.args, '--sim-size', '160', '--sim-floor', 'unseen'],
+    ...['--sim-things', `${BOX.ahead},0,${BOX.height}`],
+  ],
 };
 
 /** Drives the robot so far that the box is about 0.3 m before it. */
