@@ -146,6 +146,7 @@ export class FrameCapture {
     if (!budget.unsent) for (const formatted of encoded.frames) this.#sendFrame(formatted, facts);
     if (frame.form === 'images') this.#pictures.offer(frame);
     this.#record(frame, budget.unsent ? [] : encoded.frames);
+    this.#guard?.lookDown(now());
     if (latencyTest) this.#latencyTest = false;
     const work = workOf(now() - beganMs, threadCpu() - cpuBefore, this.#anyRate);
     this.#workMs += (work - workMs) * (workMs === 0 ? 1 : SMOOTHING);
@@ -169,6 +170,7 @@ export class FrameCapture {
     const wishes = { ...this.wishes(budget), latencyTest: false };
     const frame = this.#source.capture(this.#clocks.now(), wishes, this.#formats.room(false));
     if (frame !== null) this.#guard?.take(frame);
+    this.#guard?.lookDown(this.#clocks.now());
   }
 
   #judge(frame: SourceFrame, nowMs: number): void {

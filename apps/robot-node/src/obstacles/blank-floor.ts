@@ -41,6 +41,8 @@ export class BlankFloor {
   readonly #missing: Int32Array;
   readonly #sensor: { x: number; y: number };
   readonly #blank: Uint8Array;
+  /** The cells of those. */
+  readonly #blankCells: Int32Array;
   readonly #found: number[] = [];
 
   /** @param mount the pose of the camera's optical frame in base_link */
@@ -48,6 +50,7 @@ export class BlankFloor {
     this.#shape = shape;
     this.#camera = camera;
     this.#blank = new Uint8Array(shape.side ** 2);
+    this.#blankCells = new Int32Array(shape.side ** 2);
     this.#sensor = mount.position;
     const { width, height, fx, fy, cx, cy } = camera;
     const [r0, r1, r2, r3, r4, r5, r6, r7, r8] = rotationMatrix(mount.orientation);
@@ -84,21 +87,22 @@ export class BlankFloor {
     const [left, low] = [base.x / cellM + half, base.y / cellM + half];
     const count = this.#collectBlank(depth);
     if (count === 0) return;
-    const [missing, floor, blank] = [this.#missing, this.#floor, this.#blank];
+    const [missing, floor, blank, cells] = [this.#missing, this.#floor, this.#blank, this.#blankCells];
     blank.fill(0);
-    let any = 0;
+    let blanks = 0;
     for (let n = 0; n < count; n++) {
       const k = missing[n] as number;
       const [x, y] = [floor[2 * k] as number, floor[2 * k + 1] as number];
       const i = Math.floor(left + x * cos - y * sin);
       const j = Math.floor(low + x * sin + y * cos);
-      if (i < 0 || i >= side || j < 0 || j >= side || classes[j * side + i] !== unknown) continue;
-      blank[j * side + i] = 1;
-      any = 1;
+      const cell = j * side + i;
+      if (i < 0 || i >= side || j < 0 || j >= side || classes[cell] !== unknown || blank[cell] === 1)
+        continue;
+      blank[cell] = 1;
+      cells[blanks++] = cell;
     }
-    if (any === 0) return;
     const { x, y } = this.#sensor;
-    this.#find(left + x * cos - y * sin, low + x * sin + y * cos, classes);
+    this.#find(blanks, left + x * cos - y * sin, low + x * sin + y * cos, classes);
     // Not before all are found: what was marked is not looked at again.
     for (const cell of this.#found) this.#fill(cell, classes);
   }
@@ -139,16 +143,17 @@ export class BlankFloor {
     return valid * COLUMN_STEP > LEAST_VALID * height;
   }
 
-  /** Collects the middles of patches. @param eyeX,eyeY the camera's foot, cells */
-  #find(eyeX: number, eyeY: number, classes: Uint8Array): void {
+  /** Collects the middles of patches. @param blanks cells without depth @param eyeX,eyeY the camera's foot, cells */
+  #find(blanks: number, eyeX: number, eyeY: number, classes: Uint8Array): void {
     const { side } = this.#shape;
     const found = this.#found;
     found.length = 0;
-    for (let j = 1; j < side - 1; j++) {
-      for (let i = 1; i < side - 1; i++) {
-        if (this.#blank[j * side + i] === 0 || !this.#isPatch(j * side + i, classes)) continue;
-        if (this.#followsFloor(i, j, eyeX, eyeY, classes)) found.push(j * side + i);
-      }
+    for (let k = 0; k < blanks; k++) {
+      const cell = this.#blankCells[k] as number;
+      const i = cell % side;
+      const j = (cell - i) / side;
+      if (i < 1 || j < 1 || i >= side - 1 || j >= side - 1 || !this.#isPatch(cell, classes)) continue;
+      if (this.#followsFloor(i, j, eyeX, eyeY, classes)) found.push(cell);
     }
   }
 

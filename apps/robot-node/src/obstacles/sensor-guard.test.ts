@@ -47,6 +47,7 @@ async function atTheStart(floorCameras: boolean, things: readonly Thing[] = []) 
   const camera = await SimSource.create(source);
   using judge = await SensorGuard.open(codec, source, camera.description, sensors[0]!.capture.guard!);
   judge.take(camera.capture(NOW_MS));
+  judge.lookDown(NOW_MS);
   camera.close();
   const guard = new ObstacleGuard(Footprint.disc(DEFAULT_LIMITS.radius), grids.length);
   const { pose, yaw, twist } = base.state;

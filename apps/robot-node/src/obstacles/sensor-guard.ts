@@ -46,12 +46,16 @@ export class SensorGuard implements Disposable {
     return new SensorGuard(new CloudGuard(codec, description, clouds), opened);
   }
 
-  /** Judges a cloud, and what the floor cameras see at its time. */
+  /** Judges a cloud. */
   take(frame: SourceFrame): void {
     this.#clouds.take(frame);
-    if (this.#floor.length === 0 || !this.#pace.takes(frame.capturedAtMs, FLOOR_EVERY_MS)) return;
-    this.#pace.taken(frame.capturedAtMs, FLOOR_EVERY_MS);
-    for (const { camera, guard } of this.#floor) guard.take(camera.capture(frame.capturedAtMs));
+  }
+
+  /** Looks through the floor cameras, if it is time. Call it as often as clouds are judged, when no cloud waits. */
+  lookDown(nowMs: number): void {
+    if (this.#floor.length === 0 || !this.#pace.takes(nowMs, FLOOR_EVERY_MS)) return;
+    this.#pace.taken(nowMs, FLOOR_EVERY_MS);
+    for (const { camera, guard } of this.#floor) guard.take(camera.capture(nowMs));
   }
 
   [Symbol.dispose](): void {

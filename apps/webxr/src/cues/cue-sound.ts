@@ -20,6 +20,8 @@ export const cueTones: Readonly<Record<Cue, readonly Tone[]>> = {
 };
 
 const GAP_MS = 50;
+/** A cue that cannot be heard within so long is left out. */
+const LATE_MS = 300;
 const LOUDNESS = 0.2;
 /** Of a tone's beginning and end: without it they click. */
 const FADE_S = 0.01;
@@ -27,15 +29,24 @@ const FADE_S = 0.01;
 /** Sounds the cues. A browser lets a page be heard only after somebody has pressed a key or a button in it. */
 export class CueSound {
   #context: AudioContext | null = null;
+  /** Tones that have not ended. */
+  #sounding = 0;
 
   play(cue: Cue): void {
     this.#context ??= new AudioContext({ latencyHint: 'interactive' });
     const context = this.#context;
-    // Suspended until the first press. What was not heard at once is not heard late.
-    if (context.state !== 'running') {
-      context.resume().catch(() => undefined);
-      if (!(navigator.userActivation?.hasBeenActive ?? true)) return;
-    }
+    const askedMs = performance.now();
+    // It rests between two cues, and until the first press.
+    context.resume().then(
+      () => {
+        // What was not heard at once is not heard late.
+        if (performance.now() - askedMs < LATE_MS) this.#sound(context, cue);
+      },
+      () => undefined,
+    );
+  }
+
+  #sound(context: AudioContext, cue: Cue): void {
     let at = context.currentTime;
     for (const { hz, ms } of cueTones[cue]) {
       const oscillator = new OscillatorNode(context, { frequency: hz, type: 'triangle' });
@@ -48,6 +59,12 @@ export class CueSound {
       oscillator.connect(gain).connect(context.destination);
       oscillator.start(at);
       oscillator.stop(end);
+      this.#sounding++;
+      oscillator.onended = () => {
+        this.#sounding--;
+        // A context that runs takes the processor's time for silence.
+        if (this.#sounding === 0) context.suspend().catch(() => undefined);
+      };
       at = end + GAP_MS / 1000;
     }
   }

@@ -1,8 +1,16 @@
 /** A grid on the floor that gives the eye a reference. */
 import { BufferGeometry, Color, Float32BufferAttribute, LineBasicMaterial, LineSegments } from 'three';
 
-/** Lines every metre, up to this distance on each side. */
+/** Up to this distance on each side, a multiple of {@link STEP_M}. */
 const HALF_M = 20;
+/** Of the lines that reach so far: it moves by such steps, and appears to stand still. */
+const STEP_M = 4;
+/** How far lines reach that are a multiple of so many metres from the centre, m; the first that applies. */
+const REACHES: readonly [everyM: number, reachM: number][] = [
+  [STEP_M, HALF_M],
+  [2, 12],
+  [1, 8],
+];
 const MIDDLE = 0x2a3a48;
 const OTHERS = 0x1a242e;
 /** Slightly below the floor's own points. */
@@ -21,14 +29,14 @@ const LENGTHS: readonly [withinM: number, lengthM: number][] = [
 /**
  * Ends of the grid's lines: x and z in turn, both ends of one segment after the other. A software renderer drops a
  * whole segment if one of its ends is behind the camera. A segment no longer than its distance is out of sight in
- * that case. Fewer segments are faster to draw.
- *
- * @param half a multiple of 4
+ * that case. Fewer segments are faster to draw: far away, where lines run together, there are fewer.
  */
-export function gridSegments(half: number): number[] {
+export function gridSegments(): number[] {
   const ends: number[] = [];
-  for (let across = -half; across <= half; across++) {
-    for (let along = -half; along < half; ) {
+  for (let across = -HALF_M; across <= HALF_M; across++) {
+    const reach = REACHES.find(([every]) => across % every === 0)?.[1] ?? 0;
+    if (Math.abs(across) > reach) continue;
+    for (let along = -reach; along < reach; ) {
       // The end nearer to the centre decides.
       const inner = along < 0 ? along + 1 : along;
       const far = Math.max(Math.abs(across), Math.abs(inner));
@@ -42,14 +50,13 @@ export function gridSegments(half: number): number[] {
 }
 
 /**
- * In three.js axes. Follows the robot in steps of whole metres, so that the grid appears to stand still and to have
- * no end.
+ * In three.js axes. Follows the robot in steps, so that the grid appears to stand still and to have no end.
  */
 export class GroundGrid {
   readonly object: LineSegments;
 
   constructor() {
-    const ends = gridSegments(HALF_M);
+    const ends = gridSegments();
     const positions = new Float32Array((ends.length / 2) * 3);
     const colours = new Float32Array(positions.length);
     const [middle, others] = [new Color(MIDDLE), new Color(OTHERS)];
@@ -77,7 +84,7 @@ export class GroundGrid {
   }
 
   centreOn(x: number, z: number): void {
-    this.object.position.x = Math.round(x);
-    this.object.position.z = Math.round(z);
+    this.object.position.x = Math.round(x / STEP_M) * STEP_M;
+    this.object.position.z = Math.round(z / STEP_M) * STEP_M;
   }
 }

@@ -3,16 +3,7 @@
  * although the floor there is out of view; and hatching where no sensor sees.
  */
 import { NEAR_SECTORS, type NearSector, type RobotBody } from '@farpoint/protocol';
-import {
-  BufferAttribute,
-  BufferGeometry,
-  Color,
-  DoubleSide,
-  Group,
-  Mesh,
-  MeshBasicMaterial,
-  ShaderMaterial,
-} from 'three';
+import { BufferAttribute, BufferGeometry, Color, DoubleSide, Group, Mesh, ShaderMaterial } from 'three';
 import { radiusAt } from '../near-field/around-footprint.ts';
 import type { NearView } from '../near-field/near-view.ts';
 import { NEAR_M, VERY_NEAR_M } from '../status/near-words.ts';
@@ -43,20 +34,24 @@ export function hitColour({ kind, metres }: NonNullable<NearSector['hit']>, stal
   return metres < NEAR_M ? NEAR_COLOURS.near : NEAR_COLOURS.far;
 }
 
-/** A quadrangle for each sector; unused ones have no area. */
+/** Hatching, a bar and a curtain in each sector at most. */
+const MOST_QUADS = 3 * NEAR_SECTORS;
+const INDICES = 6;
+
+/** Quadrangles in the order in which they are drawn, in one geometry: each object more is time that a software renderer takes. */
 class Quads {
   readonly geometry = new BufferGeometry();
-  readonly #positions = new Float32Array(NEAR_SECTORS * CORNERS * 3);
-  readonly #colours: Float32Array;
-  readonly #channels: 3 | 4;
+  readonly #positions = attributeOf(3);
+  readonly #colours = attributeOf(4);
+  readonly #striped = attributeOf(1);
+  #count = 0;
 
-  constructor(channels: 3 | 4) {
-    this.#channels = channels;
-    this.#colours = new Float32Array(NEAR_SECTORS * CORNERS * channels);
-    this.geometry.setAttribute('position', new BufferAttribute(this.#positions, 3));
-    this.geometry.setAttribute('color', new BufferAttribute(this.#colours, channels));
+  constructor() {
+    this.geometry.setAttribute('position', this.#positions);
+    this.geometry.setAttribute('color', this.#colours);
+    this.geometry.setAttribute('striped', this.#striped);
     this.geometry.setIndex(
-      Array.from({ length: NEAR_SECTORS }, (_, i) => CORNERS * i).flatMap((at) => [
+      Array.from({ length: MOST_QUADS }, (_, i) => CORNERS * i).flatMap((at) => [
         ...[at, at + 1, at + 2],
         ...[at + 1, at + 3, at + 2],
       ]),
@@ -64,64 +59,59 @@ class Quads {
   }
 
   clear(): void {
-    this.#positions.fill(0);
+    this.#count = 0;
   }
 
-  /** Sets a corner of a sector's quadrangle: 0 and 1 at its nearer or lower edge, 2 and 3 at the other. */
-  corner(sector: number, corner: number, x: number, y: number, z: number, colour: Color, alpha = 1): void {
-    const at = sector * CORNERS + corner;
-    this.#positions[3 * at] = x;
-    this.#positions[3 * at + 1] = y;
-    this.#positions[3 * at + 2] = z;
-    const c = this.#channels * at;
-    this.#colours[c] = colour.r;
-    this.#colours[c + 1] = colour.g;
-    this.#colours[c + 2] = colour.b;
-    if (this.#channels === 4) this.#colours[c + 3] = alpha;
+  /** Begins the next quadrangle. @param striped whether it is hatched */
+  next(striped: boolean): void {
+    this.#striped.array.fill(Number(striped), this.#count * CORNERS, (this.#count + 1) * CORNERS);
+    this.#count++;
+  }
+
+  /** Sets a corner of the newest quadrangle: 0 and 1 at its nearer or lower edge, 2 and 3 at the other. */
+  corner(corner: number, x: number, y: number, z: number, { r, g, b }: Color, alpha: number): void {
+    const at = (this.#count - 1) * CORNERS + corner;
+    this.#positions.setXYZ(at, x, y, z);
+    this.#colours.setXYZW(at, r, g, b, alpha);
+  }
+
+  get count(): number {
+    return this.#count;
   }
 
   upload(): void {
-    for (const attribute of Object.values(this.geometry.attributes))
-      (attribute as BufferAttribute).needsUpdate = true;
+    this.geometry.setDrawRange(0, this.#count * INDICES);
+    for (const attribute of [this.#positions, this.#colours, this.#striped]) {
+      attribute.clearUpdateRanges();
+      attribute.addUpdateRange(0, this.#count * CORNERS * attribute.itemSize);
+      attribute.needsUpdate = this.#count > 0;
+    }
   }
+}
+
+function attributeOf(itemSize: number): BufferAttribute {
+  return new BufferAttribute(new Float32Array(MOST_QUADS * CORNERS * itemSize), itemSize);
 }
 
 export class NearRing {
   /** In base_link's axes. */
   readonly object = new Group();
-  readonly #bars = new Quads(3);
-  readonly #curtain = new Quads(4);
-  readonly #hatch = new Quads(3);
-  readonly #materials: readonly (MeshBasicMaterial | ShaderMaterial)[];
-  readonly #hatching: ShaderMaterial;
-  readonly #barMaterial: MeshBasicMaterial;
+  readonly #quads = new Quads();
+  readonly #material = ringMaterial();
+  readonly #mesh = new Mesh(this.#quads.geometry, this.#material);
   readonly #colour = new Color();
   #outline: RobotBody['footprint'] | null = null;
   #view: NearView | null = null;
 
   constructor() {
-    const flat = {
-      ...{ vertexColors: true, transparent: true, depthWrite: false },
-      // Otherwise three draws the two sides one after the other, and looks their program up anew each time.
-      ...{ side: DoubleSide, forceSinglePass: true },
-    } as const;
-    this.#barMaterial = new MeshBasicMaterial({ ...flat, opacity: 0.9 });
-    const curtain = new MeshBasicMaterial(flat);
-    this.#hatching = hatching();
-    this.#materials = [this.#barMaterial, curtain, this.#hatching];
-    const parts = [
-      new Mesh(this.#hatch.geometry, this.#hatching),
-      new Mesh(this.#bars.geometry, this.#barMaterial),
-      new Mesh(this.#curtain.geometry, curtain),
-    ];
-    for (const part of parts) part.frustumCulled = false;
-    this.object.add(...parts);
+    this.#mesh.frustumCulled = false;
+    this.object.add(this.#mesh);
     this.object.visible = false;
   }
 
   /** Whether nearer points do not hide it. */
   set onTop(onTop: boolean) {
-    for (const material of this.#materials) material.depthTest = !onTop;
+    this.#material.depthTest = !onTop;
   }
 
   /** The robot's outline; `null` while it is not known: then nothing is shown. */
@@ -157,53 +147,59 @@ export class NearRing {
     const [view, outline] = [this.#view, this.#outline];
     this.object.visible = view !== null && outline !== null;
     if (view === null || outline === null) return;
-    for (const quads of [this.#bars, this.#curtain, this.#hatch]) quads.clear();
+    const quads = this.#quads;
+    quads.clear();
+    // Hatching lies below bars, and curtains are before both.
+    this.#colour.set(NEAR_COLOURS.unseen);
     for (const [i, sector] of view.sectors.entries()) {
-      const { hit } = sector;
-      if (hit !== null) this.#drawHit(i, hit, outline, view.stale);
       const stretch = hatchedStretch(sector);
       if (stretch === null) continue;
-      this.#colour.set(NEAR_COLOURS.unseen);
-      const [from, to] = [stretch.fromM, stretch.toM].map((metres) => this.#radius(outline, i, metres));
-      this.#strip(this.#hatch, i, from as number, to as number);
+      quads.next(true);
+      const [from, to] = [stretch.fromM, stretch.toM].map((metres) => radiusOf(outline, i, metres));
+      this.#strip(i, from as number, to as number, view.stale ? 0.2 : 0.45);
     }
-    for (const quads of [this.#bars, this.#curtain, this.#hatch]) quads.upload();
-    this.#barMaterial.opacity = view.stale ? 0.4 : 0.9;
-    this.#hatching.uniforms.opacity!.value = view.stale ? 0.2 : 0.45;
+    for (const [i, { hit }] of view.sectors.entries()) {
+      if (hit === null) continue;
+      this.#colour.set(hitColour(hit, view.stale));
+      const radius = radiusOf(outline, i, hit.metres);
+      quads.next(false);
+      this.#strip(i, radius, radius + BAR_M, view.stale ? 0.4 : 0.9);
+    }
+    for (const [i, { hit }] of view.sectors.entries()) {
+      if (hit === null || hit.metres > CURTAIN_WITHIN_M) continue;
+      this.#colour.set(hitColour(hit, view.stale));
+      quads.next(false);
+      this.#curtain(i, radiusOf(outline, i, hit.metres), view.stale ? 0.25 : 0.6);
+    }
+    quads.upload();
+    this.#mesh.visible = quads.count > 0;
   }
 
-  #drawHit(
-    i: number,
-    hit: NonNullable<NearSector['hit']>,
-    outline: RobotBody['footprint'],
-    stale: boolean,
-  ): void {
-    this.#colour.set(hitColour(hit, stale));
-    const radius = this.#radius(outline, i, hit.metres);
-    this.#strip(this.#bars, i, radius, radius + BAR_M);
-    if (hit.metres > CURTAIN_WITHIN_M) return;
-    const strength = stale ? 0.25 : 0.6;
-    for (const [corner, side] of [-0.5, 0.5, -0.5, 0.5].entries()) {
+  #curtain(i: number, radius: number, strength: number): void {
+    for (const [corner, side] of SIDES.entries()) {
       const bearing = bearingOf(i + side);
       const isTop = corner > 1;
       const [x, y] = [radius * Math.cos(bearing), radius * Math.sin(bearing)];
       const z = isTop ? CURTAIN_M : HEIGHT_M;
-      this.#curtain.corner(i, corner, x, y, z, this.#colour, isTop ? 0.1 * strength : strength);
+      this.#quads.corner(corner, x, y, z, this.#colour, isTop ? 0.1 * strength : strength);
     }
   }
 
-  #radius(outline: RobotBody['footprint'], sector: number, metres: number): number {
-    return radiusAt(outline, bearingOf(sector), metres);
-  }
-
-  #strip(quads: Quads, sector: number, from: number, to: number): void {
-    for (const [corner, side] of [-0.5, 0.5, -0.5, 0.5].entries()) {
+  #strip(sector: number, from: number, to: number, alpha: number): void {
+    for (const [corner, side] of SIDES.entries()) {
       const bearing = bearingOf(sector + side);
       const radius = corner > 1 ? to : from;
       const [x, y] = [radius * Math.cos(bearing), radius * Math.sin(bearing)];
-      quads.corner(sector, corner, x, y, HEIGHT_M, this.#colour);
+      this.#quads.corner(corner, x, y, HEIGHT_M, this.#colour, alpha);
     }
   }
+}
+
+/** Of a quadrangle's corners: to which side of its sector's middle they are, in sectors. */
+const SIDES = [-0.5, 0.5, -0.5, 0.5] as const;
+
+function radiusOf(outline: RobotBody['footprint'], sector: number, metres: number): number {
+  return radiusAt(outline, bearingOf(sector), metres);
 }
 
 /** Where a sector is hatched, metres from the robot's edge; `null` if nowhere: what a thing hides is behind it. */
@@ -216,29 +212,30 @@ function bearingOf(sector: number): number {
   return (sector * 2 * Math.PI) / NEAR_SECTORS;
 }
 
-/** Diagonal stripes in the robot's axes. */
-function hatching(): ShaderMaterial {
+/** Colours as they are, with diagonal stripes in the robot's axes where it is striped. */
+function ringMaterial(): ShaderMaterial {
   return new ShaderMaterial({
-    uniforms: { opacity: { value: 0.45 } },
-    vertexColors: true,
-    transparent: true,
-    side: DoubleSide,
-    depthWrite: false,
+    ...{ vertexColors: true, transparent: true, depthWrite: false },
+    // Otherwise three draws the two sides one after the other, and looks their program up anew each time.
+    ...{ side: DoubleSide, forceSinglePass: true },
     vertexShader: `
-      varying vec3 vColour;
+      attribute float striped;
+      varying vec4 vColour;
+      varying float vStriped;
       varying float vAlong;
       void main() {
         vColour = color;
+        vStriped = striped;
         vAlong = position.x + position.y;
         gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
       }`,
     fragmentShader: `
-      uniform float opacity;
-      varying vec3 vColour;
+      varying vec4 vColour;
+      varying float vStriped;
       varying float vAlong;
       void main() {
-        if (fract(vAlong / 0.14) > 0.36) discard;
-        gl_FragColor = vec4(vColour, opacity);
+        if (vStriped > 0.5 && fract(vAlong / 0.14) > 0.36) discard;
+        gl_FragColor = vColour;
         #include <colorspace_fragment>
       }`,
   });
