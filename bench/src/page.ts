@@ -1,6 +1,7 @@
 /** `pnpm bench page`: what the operator's page costs its own main thread and memory, for as long as one likes. */
 import { parseArgs } from 'node:util';
 import type { Page } from '@playwright/test';
+import { type CpuBudget, calibrationMs, compareWithBudget } from './cpu-budgets.ts';
 import { driveInCircles } from './drive-in-circles.ts';
 import { startLiveStack } from './live-stack.ts';
 import { type CpuProfile, mainThreadTime } from './page-profile.ts';
@@ -14,12 +15,17 @@ Real signaling, robot (simulated office, 480 × 480 points, driven in circles) a
 time on the page's main thread for each cloud frame drawn, by a CPU profile; waiting for the software renderer is counted
 apart. Memory is the proportional set size of the page's process, read every second. firstPictureMs is from choosing a robot
 to its first points drawn. --draw-every draws 1 of so many points, because the renderer is software here; all are received,
-decoded and uploaded. --surface and --memory show surfaces and the remembered world.`;
+decoded and uploaded. --surface and --memory show surfaces and the remembered world.
+
+With the defaults, budgets for this computer's speed stand beside the figures, and what is more than a quarter over is named.`;
 
 /** The page must have found its pace. */
 const WARM_UP_MS = 5000;
 const PROFILE_MS = 10_000;
 const SAMPLE_EVERY_US = 500;
+
+/** Milliseconds a frame on the main thread, on the budgets' computer. */
+const BUDGET: CpuBudget = { script: 3.1, browser: 2.6, total: 5.7 };
 
 interface Memory {
   atS: number;
@@ -51,6 +57,8 @@ export const bench: Bench = {
     const mbps = numberOption('mbps', values.mbps, 0.1);
     const every = numberOption('draw-every', values['draw-every'], 1);
 
+    const isUsual = values.canvas === '160x90' && !values.surface && !values.memory && every === 8;
+    const speedMs = calibrationMs();
     const live = await startLiveStack({
       robot: {
         id: 'sim-1',
@@ -93,6 +101,13 @@ export const bench: Bench = {
       await driving;
 
       const perFrame = (ms: number) => Number((ms / Math.max(profile.frames, 1)).toFixed(3));
+      // Waiting costs nothing: it takes what the renderer leaves.
+      const { scriptMs, browserMs } = profile.time;
+      const parts = new Map([
+        ['script', perFrame(scriptMs)],
+        ['browser', perFrame(browserMs)],
+      ]);
+      const budget = compareWithBudget(parts, isUsual ? BUDGET : {}, speedMs);
       const half = memory.slice(memory.length >> 1);
       const result = {
         bench: 'page',
@@ -102,6 +117,8 @@ export const bench: Bench = {
           memory: values.memory,
           drawnShare: Number((1 / every).toFixed(4)),
         },
+        calibrationMs: speedMs,
+        budget,
         framesPerSecond: Number(((profile.frames * 1000) / PROFILE_MS).toFixed(1)),
         pointsPerFrame: Math.round(profile.points / Math.max(profile.frames, 1)),
         mainThreadMs: perFrame(profile.time.scriptMs),
@@ -117,19 +134,21 @@ export const bench: Bench = {
         heapMbMax: memory.length === 0 ? null : Math.max(...memory.map(({ heapMb }) => heapMb)),
       };
       printTable(
-        [
-          'script, ms a frame',
-          'browser',
-          'waiting',
-          'idle',
-          'frames/s',
-          'points a frame',
-          'first picture, ms',
-        ],
+        ['main thread', 'ms a frame', 'budget'],
+        budget.map(({ name, ms, budgetMs }) => [name, ms, budgetMs]),
+      );
+      const over = budget.filter((row) => row.over);
+      if (over.length > 0) console.log(`over budget: ${over.map(({ name }) => name).join(', ')}`);
+      console.log('');
+      printTable(
+        ['waiting, ms a frame', 'idle', 'frames/s', 'points a frame', 'first picture, ms'],
         [
           [
-            ...[result.mainThreadMs, result.browserMs, result.waitingMs, result.idleShare],
-            ...[result.framesPerSecond, result.pointsPerFrame, result.firstPictureMs],
+            result.waitingMs,
+            result.idleShare,
+            result.framesPerSecond,
+            result.pointsPerFrame,
+            result.firstPictureMs,
           ],
         ],
       );

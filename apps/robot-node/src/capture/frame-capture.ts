@@ -237,7 +237,7 @@ interface FrameFacts {
 }
 
 /** How much of the time that a frame waits for busy processors counts as its own, for a source that is asked. */
-const WAITING_SHARE = 0.6;
+const WAITING_SHARE = 0.75;
 
 /**
  * The time that counts as a frame's work. A source with its own timing must be ready before its next cloud, by the clock. One
