@@ -1,6 +1,5 @@
 /** The browsers of `pnpm bench first-drive`, each with a newcomer's hand in it. */
-import { createRequire } from 'node:module';
-import { chromiumLaunchOptions, FirefoxBrowser } from '@farpoint/local-stack';
+import { chromiumLaunchOptions, FirefoxBrowser, wearEmulatedHeadset } from '@farpoint/local-stack';
 import { chromium } from '@playwright/test';
 import {
   type DriveKey,
@@ -34,7 +33,6 @@ export interface FirstDrive {
 /** The robot must be there, and its picture, within so long. */
 const WAIT_MS = 60_000;
 const LOOKS_MS = 100;
-const HEADSET = createRequire(import.meta.url).resolve('iwer/build/iwer.min.js');
 
 /**
  * Opens the address, chooses the robot, and waits for its picture.
@@ -67,14 +65,7 @@ async function inChromium(address: string, options: FirstDriveOptions): Promise<
     const devTools = await page.context().newCDPSession(page);
     await devTools.send('Emulation.setCPUThrottlingRate', { rate: throttle });
   }
-  if (headset) {
-    await page.addInitScript({ path: HEADSET });
-    await page.addInitScript(() => {
-      window.emulatedHeadset = new window.IWER.XRDevice(window.IWER.metaQuest3);
-      window.emulatedHeadset.stereoEnabled = true;
-      window.emulatedHeadset.installRuntime({ forceInstall: true });
-    });
-  }
+  if (headset) await wearEmulatedHeadset(page);
   await page.goto(address);
   const driven = page as unknown as DrivenPage;
   const hold = headset ? handOnController(driven) : handOnKeys(page.keyboard);

@@ -1,4 +1,5 @@
 /** A newcomer's hand: drives about, turns away from what is in the way, and lets go where told. */
+import type {} from '@farpoint/local-stack';
 import type {} from '@farpoint/webxr/test-api';
 import { OF_GUARDS } from './first-drive-figures.ts';
 
@@ -54,27 +55,6 @@ export function handOnController(page: DrivenPage): Hand {
       controller?.updateButtonValue('squeeze', Number(held.includes('grip')));
       controller?.updateAxes('thumbstick', turn, held.includes('ahead') ? -1 : 0);
     }, held);
-}
-
-declare global {
-  interface Window {
-    IWER: { XRDevice: new (config: unknown) => EmulatedHeadset; metaQuest3: unknown };
-    emulatedHeadset: EmulatedHeadset;
-  }
-}
-
-/** The parts of iwer's XRDevice that a first drive needs. */
-interface EmulatedHeadset {
-  stereoEnabled: boolean;
-  controllers: Record<
-    'left' | 'right',
-    | {
-        updateAxes(id: string, x: number, y: number): void;
-        updateButtonValue(id: string, value: number): void;
-      }
-    | undefined
-  >;
-  installRuntime(options: { forceInstall: boolean }): void;
 }
 
 /** Drives about for a while, and lets go. */

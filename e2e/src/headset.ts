@@ -1,46 +1,7 @@
-import { createRequire } from 'node:module';
+import { wearEmulatedHeadset } from '@farpoint/local-stack';
 import type { Page } from '@playwright/test';
 import { freezeFrames, thawFrames } from './frames.ts';
 import type { Grip } from './operator-page.ts';
-
-const require = createRequire(import.meta.url);
-
-/** The parts of the emulated headset (iwer's XRDevice) that the tests use. */
-interface EmulatedDevice {
-  stereoEnabled: boolean;
-  updateVisibilityState(state: 'visible' | 'visible-blurred' | 'hidden'): void;
-  position: { set(x: number, y: number, z: number): void };
-  quaternion: { set(x: number, y: number, z: number, w: number): void };
-  controllers: Record<
-    'left' | 'right',
-    | {
-        updateAxes(id: string, x: number, y: number): void;
-        updateButtonValue(id: string, value: number): void;
-        inputSource: {
-          gamepad?: { hapticActuators: { pulse(strength: number, ms: number): Promise<boolean> }[] };
-        };
-        position: { set(x: number, y: number, z: number): void };
-      }
-    | undefined
-  >;
-  hands: Record<
-    Hand,
-    | {
-        updatePinchValue(value: number): void;
-        position: { set(x: number, y: number, z: number): void };
-      }
-    | undefined
-  >;
-  primaryInputMode: 'controller' | 'hand';
-  installRuntime(options: { forceInstall: boolean }): void;
-}
-
-declare global {
-  interface Window {
-    IWER: { XRDevice: new (config: unknown) => EmulatedDevice; metaQuest3: unknown };
-    emulatedHeadset: EmulatedDevice;
-  }
-}
 
 /** Without a GPU, two large eyes take longer to draw than a grip may go unread. */
 export const headsetViewport = { width: 480, height: 270 };
@@ -56,12 +17,7 @@ export class Headset {
   }
 
   static async wear(page: Page): Promise<Headset> {
-    await page.addInitScript({ path: require.resolve('iwer/build/iwer.min.js') });
-    await page.addInitScript(() => {
-      window.emulatedHeadset = new window.IWER.XRDevice(window.IWER.metaQuest3);
-      window.emulatedHeadset.stereoEnabled = true;
-      window.emulatedHeadset.installRuntime({ forceInstall: true });
-    });
+    await wearEmulatedHeadset(page);
     return new Headset(page);
   }
 

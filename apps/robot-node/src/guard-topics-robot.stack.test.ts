@@ -104,7 +104,12 @@ describe('a robot with a laser scanner and a collision topic', {
           ok: false,
           detail: {
             collision: 'silent',
-            sensors: expect.arrayContaining([expect.objectContaining({ name: '/scan' })]),
+            sensors: [
+              { name: 'Camera' },
+              { name: 'Camera, floor ahead' },
+              { name: 'Camera, floor behind' },
+              { name: '/scan' },
+            ],
           },
         },
       },

@@ -2,6 +2,7 @@ export * from './bridge-process.ts';
 export * from './choose-ports.ts';
 export * from './chromium.ts';
 export * from './dev-sim.ts';
+export * from './emulated-headset.ts';
 export * from './emulated-link.ts';
 export * from './find-program.ts';
 export * from './firefox.ts';

@@ -9,6 +9,7 @@ import {
   SimulatedBase,
   withThings,
 } from '@farpoint/sim';
+import { EvenPace } from '@farpoint/timing';
 import { ReadingTopic } from '../capture/reading-topic.ts';
 import { monotonicMs } from '../clock.ts';
 import type { BaseReport, BaseRequest, BaseWorkerData } from './base-messages.ts';
@@ -19,8 +20,9 @@ import { SIM_DIAGNOSTICS, SIM_FIX, SIM_JOINTS, SIM_MOTORS } from './sim-topics.t
 import { Wheels } from './wheels.ts';
 
 /** Maximum age of the world that the sensors see. */
-const TICK_MS = 4;
-const REPORT_MS = 20;
+const TICK_MS = 10;
+/** The robot is told about every second of them. */
+const REPORT_MS = 2 * TICK_MS;
 const COMPONENTS_MS = 1000;
 const JOINTS_MS = 50;
 /** A receiver with corrections from the ground: centimetres. */
@@ -42,7 +44,7 @@ const writer = new SnapshotWriter(snapshot);
 const diagnostics = new ReadingTopic(SIM_DIAGNOSTICS);
 const fix = origin === null ? null : new ReadingTopic(SIM_FIX);
 const joints = new ModelTopic(SIM_JOINTS);
-let reportedMs = Number.NEGATIVE_INFINITY;
+const reports = new EvenPace();
 let toldComponentsMs = Number.NEGATIVE_INFINITY;
 let toldJointsMs = Number.NEGATIVE_INFINITY;
 
@@ -50,8 +52,8 @@ function tick(): void {
   const now = monotonicMs();
   wheels.advance(now);
   writer.write(base.simulated.snapshot);
-  if (now - reportedMs < REPORT_MS) return;
-  reportedMs = now;
+  if (!reports.takes(now, REPORT_MS)) return;
+  reports.taken(now, REPORT_MS);
   const report: BaseReport = { state: { ...base.state, timeMs: now }, watchdogStops: wheels.stops };
   const told: (TopicReading | null)[] = [];
   if (now - toldJointsMs >= JOINTS_MS) {

@@ -18,7 +18,7 @@ const BUFFERS = 4;
 /** Weight of the latest frame in the moving average of the time per frame. */
 const SMOOTHING = 0.1;
 /** While nobody drives, clouds that are sent are judged at most this often, ms: operators see what is near the robot. */
-const JUDGED_EVERY_MS = 100;
+const JUDGED_EVERY_MS = 200;
 /** While the robot moves, and its clouds come faster than a camera's 30/s, not each is judged, ms. */
 const GUARDED_EVERY_MS = 25;
 
@@ -146,7 +146,7 @@ export class FrameCapture {
     if (!budget.unsent) for (const formatted of encoded.frames) this.#sendFrame(formatted, facts);
     if (frame.form === 'images') this.#pictures.offer(frame);
     this.#record(frame, budget.unsent ? [] : encoded.frames);
-    this.#guard?.lookDown(now());
+    this.#guard?.lookDown(now(), this.#guarding);
     if (latencyTest) this.#latencyTest = false;
     const work = workOf(now() - beganMs, threadCpu() - cpuBefore, this.#anyRate);
     this.#workMs += (work - workMs) * (workMs === 0 ? 1 : SMOOTHING);
@@ -170,7 +170,7 @@ export class FrameCapture {
     const wishes = { ...this.wishes(budget), latencyTest: false };
     const frame = this.#source.capture(this.#clocks.now(), wishes, this.#formats.room(false));
     if (frame !== null) this.#guard?.take(frame);
-    this.#guard?.lookDown(this.#clocks.now());
+    this.#guard?.lookDown(this.#clocks.now(), this.#guarding);
   }
 
   #judge(frame: SourceFrame, nowMs: number): void {

@@ -1,5 +1,4 @@
 /** Checks that a recording plays with all of its clouds, by counting, and with its own clock. */
-
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';

@@ -1,6 +1,6 @@
-import { officeWorld, SimulatedCamera, type Thing, withThings } from '@farpoint/sim';
+import { type CameraOptions, officeWorld, SimulatedCamera, type Thing, withThings } from '@farpoint/sim';
 import { SharedWorld } from '../base/shared-snapshot.ts';
-import type { FrameSource, SourceDescription, SourceFrame } from './frame-source.ts';
+import type { FrameSource, ImageFrame, SourceDescription } from './frame-source.ts';
 import { STANDING } from './playback-source.ts';
 
 export interface SimSourceOptions {
@@ -17,7 +17,7 @@ export interface SimSourceOptions {
   triggerPerS?: number | undefined;
 }
 
-/** The simulated robot's depth camera. Renders the world from the base's state. */
+/** A depth camera of the simulated robot. Renders the world from the base's state. */
 export class SimSource implements FrameSource {
   readonly description: SourceDescription;
   readonly state = STANDING;
@@ -38,13 +38,18 @@ export class SimSource implements FrameSource {
     };
   }
 
-  static async create({ seed, size, snapshot, things = [] }: SimSourceOptions): Promise<SimSource> {
+  /** @param place where the camera sits and what it sees; by default, the robot's main camera */
+  static async create(
+    { seed, size, snapshot, things = [] }: SimSourceOptions,
+    place: CameraOptions = { width: size, height: size },
+  ): Promise<SimSource> {
     const world = withThings(officeWorld(), things);
-    const camera = await SimulatedCamera.create({ world, seed, camera: { width: size, height: size } });
+    const camera = await SimulatedCamera.create({ world, seed, camera: place });
     return new SimSource(camera, new SharedWorld(world, snapshot));
   }
 
-  capture(nowMs: number): SourceFrame {
+  /** The images are views that the next capture overwrites. */
+  capture(nowMs: number): ImageFrame {
     const { depth, colour, cameraPose } = this.#camera.render(this.#world.newest, { points: false });
     const words = new Uint32Array(colour.buffer, colour.byteOffset, depth.length);
     return { form: 'images', depth, colour: words, cameraPose, capturedAtMs: nowMs };

@@ -34,8 +34,9 @@ const { unknown, free, dropOff } = floorClasses;
 export class BlankFloor {
   readonly #shape: GridShape;
   readonly #camera: BlankFloorCamera;
-  /** Of each pixel that looks at floor: its place in the image, and the floor's in base_link. */
+  /** Of each pixel that looks at floor: its place in the image, its column, and the floor's place in base_link. */
   readonly #pixels: Int32Array;
+  readonly #columnOf: Int32Array;
   readonly #floor: Float64Array;
   /** Of those, the ones without depth in the present image. */
   readonly #missing: Int32Array;
@@ -70,6 +71,7 @@ export class BlankFloor {
       }
     }
     this.#pixels = Int32Array.from(pixels);
+    this.#columnOf = this.#pixels.map((pixel) => pixel % width);
     this.#missing = new Int32Array(pixels.length + 1);
     this.#floor = Float64Array.from(floor);
   }
@@ -114,15 +116,13 @@ export class BlankFloor {
    * @returns their number
    */
   #collectBlank(depth: Float32Array): number {
-    const [pixels, missing] = [this.#pixels, this.#missing];
-    const { width } = this.#camera;
+    const [pixels, columnOf, missing] = [this.#pixels, this.#columnOf, this.#missing];
     const [first, last] = this.#columns(depth);
     let count = 0;
     for (let k = 0; k < pixels.length; k++) {
-      const pixel = pixels[k] as number;
-      const column = pixel % width;
+      const column = columnOf[k] as number;
       missing[count] = k;
-      count += (depth[pixel] as number) > 0 || column < first || column > last ? 0 : 1;
+      count += (depth[pixels[k] as number] as number) > 0 || column < first || column > last ? 0 : 1;
     }
     return count;
   }

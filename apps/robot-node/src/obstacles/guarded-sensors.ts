@@ -1,8 +1,7 @@
 import type { Pose } from '@farpoint/protocol';
 import type { Corner } from '@farpoint/safety';
-import { type CameraOptions, DEFAULT_CAMERA } from '@farpoint/sim';
+import { type CameraOptions, DEFAULT_CAMERA, FLOOR_CAMERAS } from '@farpoint/sim';
 import type { SourceOptions } from '../capture/open-source.ts';
-import { SIM_FLOOR_CAMERAS } from '../capture/sim-floor-camera.ts';
 import { lidarHeight } from '../capture/sim-lidar-source.ts';
 import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
 import type { GuardTopicsOptions } from './guard-topics-messages.ts';
@@ -30,6 +29,12 @@ export interface ObstacleGuardConfiguration {
   /** Whether floor over which a laser scan passes counts as seen. */
   scansShowFloor?: boolean | undefined;
 }
+
+/** The simulated robot's floor cameras, with what they are called where the guard's sensors are listed. */
+const SIM_FLOOR: readonly { looks: string; place: CameraOptions }[] = [
+  { looks: 'floor ahead', place: FLOOR_CAMERAS.ahead },
+  { looks: 'floor behind', place: FLOOR_CAMERAS.behind },
+];
 
 /** Around base_link: 4 m in each direction. */
 export const GRID_SHAPE: GridShape = { side: 160, cellM: 0.05 };
@@ -70,11 +75,11 @@ export function guardedSensors(
       return memory;
     };
     const clouds = { ...common, memory: gridOf(), mount, blankIsMissing };
-    const floor = (source.kind === 'sim' && source.floorCameras === true ? SIM_FLOOR_CAMERAS : []).map(
-      ({ looks, place }) => {
-        return { ...common, memory: gridOf(looks), mount: simMount(place), blankIsMissing };
-      },
-    );
+    const floorCameras = source.kind === 'sim' && source.floorCameras === true ? SIM_FLOOR : [];
+    const floor = floorCameras.map(({ looks, place }) => ({
+      place,
+      guard: { ...common, memory: gridOf(looks), mount: simMount(place), blankIsMissing },
+    }));
     const guard = { clouds, floor };
     return { ...sensor, capture: { ...sensor.capture, guard } };
   });

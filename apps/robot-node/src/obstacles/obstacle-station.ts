@@ -73,6 +73,11 @@ export class ObstacleStation implements MotionGuard, Lookout {
     return this.#guard.blind(nowMs) ? 'blind' : 'on';
   }
 
+  /** Whether somebody drives. */
+  get driven(): boolean {
+    return this.#driven;
+  }
+
   /** What is around the robot, for operators; `null` while nobody can tell. */
   nearField(nowMs: number): NearField | null {
     if (this.#guard === null) return null;

@@ -47,7 +47,8 @@ async function atTheStart(floorCameras: boolean, things: readonly Thing[] = []) 
   const camera = await SimSource.create(source);
   using judge = await SensorGuard.open(codec, source, camera.description, sensors[0]!.capture.guard!);
   judge.take(camera.capture(NOW_MS));
-  judge.lookDown(NOW_MS);
+  // Each in turn.
+  for (let nowMs = NOW_MS - 100; nowMs <= NOW_MS; nowMs += 50) judge.lookDown(nowMs, true);
   camera.close();
   const guard = new ObstacleGuard(Footprint.disc(DEFAULT_LIMITS.radius), grids.length);
   const { pose, yaw, twist } = base.state;

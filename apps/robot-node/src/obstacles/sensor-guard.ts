@@ -1,22 +1,31 @@
 /** All of a sensor's thread that judges for the obstacle guard: its clouds, and cameras that are there for nothing else. */
+import type { CameraOptions } from '@farpoint/sim';
 import { EvenPace } from '@farpoint/timing';
 import type { Codec } from '@farpoint/wasm-codec';
 import type { SourceDescription, SourceFrame } from '../capture/frame-source.ts';
 import type { SourceOptions } from '../capture/open-source.ts';
-import { SIM_FLOOR_CAMERAS, SimFloorCamera } from '../capture/sim-floor-camera.ts';
+import { SimSource } from '../capture/sim-source.ts';
 import { CloudGuard, type CloudGuardOptions } from './cloud-guard.ts';
 
-/** How often floor cameras look, ms: what they see is remembered for seconds, and they count as silent after 400 ms. */
+/** How often each floor camera looks, ms: what they see is remembered for seconds, and they count as silent after 400 ms. */
 const FLOOR_EVERY_MS = 100;
+/** The same while nobody drives. */
+const IDLE_FLOOR_EVERY_MS = 200;
 
 export interface SensorGuardOptions {
   clouds: CloudGuardOptions;
-  /** Of each floor camera, in the order of {@link SIM_FLOOR_CAMERAS}; empty if there are none. */
-  floor: readonly CloudGuardOptions[];
+  /** The simulated robot's cameras for the floor at its wheels; empty if there are none. */
+  floor: readonly FloorCameraOptions[];
+}
+
+/** A camera through which only the guard looks. */
+export interface FloorCameraOptions {
+  place: CameraOptions;
+  guard: CloudGuardOptions;
 }
 
 interface FloorGuard {
-  camera: SimFloorCamera;
+  camera: SimSource;
   guard: CloudGuard;
 }
 
@@ -24,6 +33,8 @@ export class SensorGuard implements Disposable {
   readonly #clouds: CloudGuard;
   readonly #floor: readonly FloorGuard[];
   readonly #pace = new EvenPace();
+  /** The floor camera whose turn it is. */
+  #next = 0;
 
   private constructor(clouds: CloudGuard, floor: readonly FloorGuard[]) {
     this.#clouds = clouds;
@@ -38,9 +49,9 @@ export class SensorGuard implements Disposable {
   ): Promise<SensorGuard> {
     const opened: FloorGuard[] = [];
     if (source.kind === 'sim') {
-      for (const [i, options] of floor.entries()) {
-        const camera = await SimFloorCamera.create(source, SIM_FLOOR_CAMERAS[i]?.place ?? {});
-        opened.push({ camera, guard: new CloudGuard(codec, camera.description, options) });
+      for (const { place, guard } of floor) {
+        const camera = await SimSource.create(source, place);
+        opened.push({ camera, guard: new CloudGuard(codec, camera.description, guard) });
       }
     }
     return new SensorGuard(new CloudGuard(codec, description, clouds), opened);
@@ -51,11 +62,20 @@ export class SensorGuard implements Disposable {
     this.#clouds.take(frame);
   }
 
-  /** Looks through the floor cameras, if it is time. Call it as often as clouds are judged, when no cloud waits. */
-  lookDown(nowMs: number): void {
-    if (this.#floor.length === 0 || !this.#pace.takes(nowMs, FLOOR_EVERY_MS)) return;
-    this.#pace.taken(nowMs, FLOOR_EVERY_MS);
-    for (const { camera, guard } of this.#floor) guard.take(camera.capture(nowMs));
+  /**
+   * Looks through one of the floor cameras, in turn, if it is time. Call it as often as clouds are judged, when no cloud
+   * waits: all at once would keep the next one waiting longer.
+   *
+   * @param guarding whether somebody drives
+   */
+  lookDown(nowMs: number, guarding: boolean): void {
+    const next = this.#floor[this.#next];
+    if (next === undefined) return;
+    const everyMs = (guarding ? FLOOR_EVERY_MS : IDLE_FLOOR_EVERY_MS) / this.#floor.length;
+    if (!this.#pace.takes(nowMs, everyMs)) return;
+    this.#pace.taken(nowMs, everyMs);
+    this.#next = (this.#next + 1) % this.#floor.length;
+    next.guard.take(next.camera.capture(nowMs));
   }
 
   [Symbol.dispose](): void {

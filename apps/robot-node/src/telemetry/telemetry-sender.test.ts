@@ -21,6 +21,7 @@ const STREAM = {
 function secondAt(
   targetBitsPerSecond: number,
   metres: (nowMs: number) => number | null = () => null,
+  driven = true,
 ): {
   states: number;
   topics: string[];
@@ -57,7 +58,7 @@ function secondAt(
     new MotionStatus(new MotionSupervisor(guard), null),
     new StageTimer(),
     board,
-    { nearField: (nowMs) => nearAt(metres(nowMs), nowMs) },
+    { driven, nearField: (nowMs) => nearAt(metres(nowMs), nowMs) },
   );
   const orientation = { x: 0, y: 0, z: 0, w: 1 };
   const state = { timeMs: 0, pose: { position: zeroTwist().linear, orientation }, twist: zeroTwist() };
@@ -114,9 +115,10 @@ describe('TelemetrySender', () => {
     expect(secondAt(0.3e6)).toMatchObject({ samples: 5, components: 0 });
   });
 
-  it('sends what is near ten times a second while it changes, otherwise twice; to a narrow path half as often', () => {
+  it('sends what is near ten times a second while it changes, otherwise twice; to a narrow path, and while nobody drives, half as often', () => {
     const coming = (nowMs: number) => 2 - nowMs / 1000;
     expect([secondAt(10e6, coming).near, secondAt(0.3e6, coming).near]).toEqual([10, 5]);
+    expect([secondAt(10e6, coming, false).near, secondAt(0.3e6, coming, false).near]).toEqual([5, 5]);
     const standing = () => 0.3;
     expect([secondAt(10e6, standing).near, secondAt(0.3e6, standing).near]).toEqual([2, 2]);
     expect(secondAt(10e6).near).toBe(0);

@@ -19,11 +19,13 @@ const NARROW_BITS_PER_SECOND = BitRate.fromMbps(1);
 const NARROW_EVERY = 4;
 /** Components report once a second, and every 4 s to a narrow path: a multiple of what that gets. */
 const COMPONENTS_EVERY = 20;
-/** What is near is told ten times a second, and five times to a narrow path. */
+/** What is near is told ten times a second, and five times to a narrow path, or while nobody drives. */
 const NEAR_EVERY = 2;
 
 /** What knows what is around the robot. */
 export interface Surroundings {
+  /** Whether somebody drives. */
+  readonly driven: boolean;
   /** `null` while nobody can tell. */
   nearField(nowMs: number): NearField | null;
 }
@@ -70,7 +72,8 @@ export class TelemetrySender {
     const reading = forNarrow ? readings.next(nowMs) : null;
     const all = samples.all();
     const newest = forNarrow ? samples.newest() : null;
-    const near = this.#sequence % NEAR_EVERY === 0 ? this.#surroundings.nearField(nowMs) : null;
+    const nearEvery = this.#surroundings.driven ? NEAR_EVERY : NARROW_EVERY;
+    const near = this.#sequence % nearEvery === 0 ? this.#surroundings.nearField(nowMs) : null;
     const nearWide = this.#near.wide.next(near, nowMs);
     const nearNarrow = forNarrow ? this.#near.narrow.next(near, nowMs) : null;
     const reports = this.#sequence % COMPONENTS_EVERY === 0 ? components.next(nowMs) : null;

@@ -41,6 +41,7 @@ export class CueSound {
       () => {
         // What was not heard at once is not heard late.
         if (performance.now() - askedMs < LATE_MS) this.#sound(context, cue);
+        else this.#rest(context);
       },
       () => undefined,
     );
@@ -62,10 +63,14 @@ export class CueSound {
       this.#sounding++;
       oscillator.onended = () => {
         this.#sounding--;
-        // A context that runs takes the processor's time for silence.
-        if (this.#sounding === 0) context.suspend().catch(() => undefined);
+        this.#rest(context);
       };
       at = end + GAP_MS / 1000;
     }
+  }
+
+  /** A context that runs takes the processor's time for silence. */
+  #rest(context: AudioContext): void {
+    if (this.#sounding === 0) context.suspend().catch(() => undefined);
   }
 }

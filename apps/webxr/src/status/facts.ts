@@ -8,6 +8,9 @@ import { videoColourWords } from './video-colour-words.ts';
 import { viewWords } from './view-words.ts';
 import { driveStateWords, type Tone } from './words.ts';
 
+/** Whole numbers, as in 12,000. Making a format for each number takes longer than everything else here. */
+const inThousands = new Intl.NumberFormat('en', { maximumFractionDigits: 0 });
+
 export interface Fact {
   name: string;
   value: string;
@@ -79,7 +82,7 @@ function streamFacts(figures: PageStats): Fact[] {
   const facts: Fact[] = [
     {
       name: 'Points',
-      value: `${Math.round(figures.pointsPerFrame).toLocaleString('en')} × ${figures.framesPerSecond.toFixed(0)}/s`,
+      value: `${inThousands.format(figures.pointsPerFrame)} × ${figures.framesPerSecond.toFixed(0)}/s`,
     },
     ...thinningFacts(figures),
     ...memoryFacts(figures),
@@ -125,7 +128,7 @@ export function rememberedAge(oldestS: number): string {
 /** To hundreds; fewer than a thousand to tens, so that a few never read as none. */
 function roughly(points: number): string {
   const unit = points < 1000 ? 10 : 100;
-  return (Math.round(points / unit) * unit).toLocaleString('en');
+  return inThousands.format(Math.round(points / unit) * unit);
 }
 
 export function lossTone({ lossRate }: PageStats): Tone {

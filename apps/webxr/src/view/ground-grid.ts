@@ -19,34 +19,38 @@ const HEIGHT_M = -0.01;
 const APPROACH = 0.5;
 const SETTLED_M = 0.02;
 
-/** Lengths of segments, m, up to these distances from the centre, m. */
-const LENGTHS: readonly [withinM: number, lengthM: number][] = [
-  [4, 1],
-  [8, 2],
-  [Number.POSITIVE_INFINITY, 4],
-];
+/** Lengths of segments, m; the first that is short enough for its distance, or the last. */
+const LENGTHS = [16, 8, 4, 2, 1];
+/** How far the eye may be from the grid's centre, m. */
+const OFF_CENTRE_M = STEP_M / 2;
 
 /**
  * Ends of the grid's lines: x and z in turn, both ends of one segment after the other. A software renderer drops a
  * whole segment if one of its ends is behind the camera. A segment no longer than its distance is out of sight in
- * that case. Fewer segments are faster to draw: far away, where lines run together, there are fewer.
+ * that case. Fewer segments are faster to draw: they are as long as they may be, and far away, where lines run
+ * together, there are fewer.
  */
 export function gridSegments(): number[] {
   const ends: number[] = [];
   for (let across = -HALF_M; across <= HALF_M; across++) {
     const reach = REACHES.find(([every]) => across % every === 0)?.[1] ?? 0;
     if (Math.abs(across) > reach) continue;
-    for (let along = -reach; along < reach; ) {
-      // The end nearer to the centre decides.
-      const inner = along < 0 ? along + 1 : along;
-      const far = Math.max(Math.abs(across), Math.abs(inner));
-      const length = LENGTHS.find(([within]) => far < within)?.[1] ?? 1;
-      ends.push(across, along, across, along + length);
-      ends.push(along, across, along + length, across);
-      along += length;
+    for (let from = -reach; from < reach; ) {
+      const to = from + lengthAt(Math.abs(across), from, reach);
+      ends.push(across, from, across, to, from, across, to, across);
+      from = to;
     }
   }
   return ends;
+}
+
+function lengthAt(across: number, from: number, reach: number): number {
+  const fits = (length: number) => {
+    const to = from + length;
+    const nearest = from < 0 && to > 0 ? 0 : Math.min(Math.abs(from), Math.abs(to));
+    return to <= reach && length <= Math.max(across, nearest) - OFF_CENTRE_M;
+  };
+  return LENGTHS.find(fits) ?? 1;
 }
 
 /**

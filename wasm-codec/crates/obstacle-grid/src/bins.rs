@@ -34,6 +34,8 @@ pub(crate) struct Rule {
     height: f32x4,
     drop: f32x4,
     slope: f32x4,
+    /// What is higher than this is in no cell.
+    top: f32x4,
     sensor: [f32; 3],
 }
 
@@ -50,8 +52,19 @@ impl Rule {
             height: f32x4::splat(settings.height),
             drop: f32x4::splat(-settings.drop),
             slope: f32x4::splat(settings.slope),
+            top: f32x4::splat(
+                settings.height.max(settings.clearance + settings.slope * side / 2.0 * settings.cell),
+            ),
             sensor: pose.position,
         }
+    }
+}
+
+impl Rule {
+    /// Which of the valid lanes may be in a cell, by their heights: most of what is left out is walls and ceilings.
+    #[inline(always)]
+    pub(crate) fn low_enough(&self, z: f32x4, valid: i32x4) -> i32x4 {
+        must_cast::<f32x4, i32x4>(z.simd_le(self.top)) & valid
     }
 }
 
@@ -66,6 +79,11 @@ impl Bins {
             self.holes.fill(0);
         }
         self.any_hole = false;
+    }
+
+    /// Whether nothing was counted in a cell.
+    pub(crate) fn is_empty(&self, cell: usize) -> bool {
+        self.counts[cell] == 0 && (!self.any_hole || self.holes[cell] == 0)
     }
 
     /// Points of obstacles, points of the floor, and rays through the floor in a cell.
@@ -92,6 +110,13 @@ impl Bins {
         let floor = mask(z.simd_le(high) & z.simd_ge(low));
         let obstacle = mask(z.simd_gt(high) & z.simd_le(rule.height));
         let counted = inside & valid & (floor | obstacle);
+        if below.to_bitmask() != 0 {
+            self.add_holes(rule, [x.to_array(), y.to_array(), z.to_array()], below.to_array());
+        }
+        // Most of what is far away is in no cell.
+        if counted.to_bitmask() == 0 {
+            return;
+        }
         let cell = column.fast_trunc_int() + row.fast_trunc_int() * rule.stride;
         let cells = ((cell & counted) | (rule.nowhere & !counted)).to_array();
         let kinds = ((obstacle & i32x4::splat(1)) | (floor & i32x4::splat(2))).to_array();
@@ -100,9 +125,6 @@ impl Bins {
             if let Some(count) = self.counts.get_mut(cell as usize) {
                 *count += ADDS[(kind & 3) as usize];
             }
-        }
-        if below.to_bitmask() != 0 {
-            self.add_holes(rule, [x.to_array(), y.to_array(), z.to_array()], below.to_array());
         }
     }
 

@@ -67,9 +67,12 @@ impl ObstacleGrid {
             let fours = fours.iter().chain((!rest.is_empty()).then_some(&last));
             for (four, column) in fours.zip(lens.columns()) {
                 let z = f32x4::from(*four);
-                let valid = valid_depths(z);
-                let point = [0, 1, 2].map(|axis| (across[axis] * *column + ahead[axis]) * z + position[axis]);
-                self.bins.add(&rule, point, valid);
+                let on = |axis: usize| (across[axis] * *column + ahead[axis]) * z + position[axis];
+                let height = on(2);
+                let low = rule.low_enough(height, valid_depths(z));
+                if low.to_bitmask() != 0 {
+                    self.bins.add(&rule, [on(0), on(1), height], low);
+                }
             }
         }
         self.judge(pose, shift)
@@ -86,11 +89,14 @@ impl ObstacleGrid {
         last[..rest.len()].copy_from_slice(rest);
         for four in fours.iter().chain((!rest.is_empty()).then_some(&last)) {
             let [x, y, z, _] = f32x4::transpose(four.map(f32x4::from));
-            let valid: i32x4 = valid_ranges(x * x + y * y + z * z);
-            let point = [0, 1, 2].map(|axis| {
+            let on = |axis: usize| {
                 turn[axis * 3] * x + turn[axis * 3 + 1] * y + turn[axis * 3 + 2] * z + position[axis]
-            });
-            self.bins.add(&rule, point, valid);
+            };
+            let height = on(2);
+            let low = rule.low_enough(height, valid_ranges(x * x + y * y + z * z));
+            if low.to_bitmask() != 0 {
+                self.bins.add(&rule, [on(0), on(1), height], low);
+            }
         }
         self.judge(pose, shift)
     }
@@ -100,13 +106,18 @@ impl ObstacleGrid {
         let [sx, sy, _] = pose.position;
         let centre = |i: usize| (i as f32 + 0.5 - side as f32 / 2.0) * cell;
         std::mem::swap(&mut self.candidates, &mut self.before);
+        self.candidates.fill(0);
+        self.classes.fill(Class::Unknown as u8);
         let mut seen = Seen::default();
         for row in 0..side {
             let y = centre(row) - sy;
             for column in 0..side {
                 let at = row * side + column;
+                // Of most cells nothing was seen.
+                if self.bins.is_empty(at) {
+                    continue;
+                }
                 let (obstacle, floor, holes) = self.bins.of(at);
-                self.candidates[at] = 0;
                 let mut class = if floor > 0 { Class::Free } else { Class::Unknown };
                 if obstacle > 0 || holes > 0 {
                     let x = centre(column) - sx;
@@ -162,7 +173,7 @@ impl ObstacleGrid {
                 }
                 let from = [column as f32 + 0.5, row as f32 + 0.5];
                 let way = [foot[0] - from[0], foot[1] - from[1]];
-                let length = way[0].hypot(way[1]);
+                let length = (way[0] * way[0] + way[1] * way[1]).sqrt();
                 if !(length > 1.0 && length < 1e6) {
                     continue;
                 }
