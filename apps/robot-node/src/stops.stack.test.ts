@@ -106,12 +106,15 @@ describe('STOP', { timeout: 30_000 }, () => {
     const driver = await robot.connect();
     const { operator, cut } = await connectBehindLink();
     const { latch: first } = await untilLatched(driver, false);
+    const sequenceAt = ({ client }: SignaledOperator) => client.telemetry?.sequence ?? 0;
+    await operator.client.until(() => sequenceAt(operator) > 0);
     cut.tell({ type: 'blackhole', direction: 'both', active: true });
+    await driver.client.until(() => sequenceAt(driver) > sequenceAt(operator) + 3);
     operator.client.sendSession({ type: 'estop', latch: true, press: 1 });
     operator.client.sendControl({ type: 'estop', press: 1 });
     // The driver, whose path is well, hears of no STOP while the other's is away.
-    const { sequence } = driver.client.telemetry ?? { sequence: 0 };
-    await driver.client.until(() => (driver.client.telemetry?.sequence ?? 0) > sequence + 20);
+    const sequence = sequenceAt(driver);
+    await driver.client.until(() => sequenceAt(driver) > sequence + 20);
     expect(driver.client.session.findLast(({ type }) => type === 'estop')).toMatchObject({ latch: first });
     cut.tell({ type: 'blackhole', direction: 'both', active: false });
     const repeats = setInterval(() => operator.client.sendControl({ type: 'estop', press: 1 }), 50);

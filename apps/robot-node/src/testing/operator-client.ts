@@ -23,7 +23,7 @@ import {
   type WholePicture,
 } from '@farpoint/protocol';
 import { ABS_CAPTURE_TIME_URI } from '@farpoint/rtp';
-import { helloAtOnce } from '@farpoint/webrtc/testing';
+import { helloAtOnce, mendSctp } from '@farpoint/webrtc/testing';
 import {
   type RTCDataChannel,
   RTCPeerConnection,
@@ -145,6 +145,8 @@ export class OperatorClient {
       maxRetransmits: 1,
     });
     this.#bandwidth = connection.createDataChannel(bandwidth.label, { ordered: bandwidth.ordered });
+    // A browser loses nothing of what is reliable.
+    if (connection.sctpTransport !== undefined) mendSctp(connection.sctpTransport);
     this.control.stateChanged.subscribe(() => this.#changed());
     this.control.onMessage.subscribe(() => this.#changed());
     connection.connectionStateChange.subscribe(() => this.#changed());

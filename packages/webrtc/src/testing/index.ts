@@ -1,3 +1,4 @@
+export { mendSctp } from '../werift/mend-sctp.ts';
 export * from './dtls-record.ts';
 export * from './hello-at-once.ts';
 export * from './hostile-datagrams.ts';

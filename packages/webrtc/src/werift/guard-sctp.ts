@@ -3,6 +3,7 @@ import type { Refusals } from '../refusal.ts';
 import { isSctpPacket } from '../sctp/packet-check.ts';
 import { excessOf, type Fragment } from '../sctp/receive-bound.ts';
 import { DCEP_OPEN, isUserMessage, PayloadProtocol } from '../sctp/user-message-check.ts';
+import { mendSctp } from './mend-sctp.ts';
 import { expectMethods, WeriftShapeError } from './werift-shape.ts';
 
 type Receive = (streamId: number, payloadProtocol: number, data: Buffer) => Promise<void>;
@@ -51,6 +52,7 @@ export function guardSctp(
 
   if (typeof sctp.inboundStreams !== 'object')
     throw new WeriftShapeError('no streams in the SCTP association');
+  mendSctp(transport);
   const handleData = sctp.handleData.bind(sctp);
   let exceeded = false;
   sctp.handleData = async (packet) => {

@@ -1,0 +1,80 @@
+/**
+ * Which chunks go when a message is given up (partial reliability, RFC 3758 §3.5). werift gives up the oldest chunk that
+ * it has sent, whichever it was: beside a channel that may lose messages, one that may not loses some, too.
+ */
+
+const LAST_FRAGMENT = 1;
+const FIRST_FRAGMENT = 2;
+
+/** A DATA chunk (RFC 9260 §3.3.1) at its sender. */
+export interface OutboundChunk {
+  tsn: number;
+  flags: number;
+  /** Its message is given up: it is not sent again, and the peer is told not to wait for it. */
+  abandoned: boolean;
+  /** It waits to be sent again. */
+  retransmit: boolean;
+  /** The peer has it. */
+  acked: boolean;
+  sentCount: number;
+  /** How often it may be sent again; undefined or 0: without limit. */
+  maxRetransmits?: number | undefined;
+  /** When it is no longer worth sending, s since 1970; undefined: never. */
+  expiry?: number | undefined;
+}
+
+export interface Outbound<Chunk extends OutboundChunk> {
+  /** Sent and not acknowledged in order, by their numbers. */
+  sent: Chunk[];
+  /** Not sent yet: they follow. */
+  waiting: Chunk[];
+}
+
+/** @param nowS s since 1970 */
+export function isWorthless({ maxRetransmits, expiry, sentCount }: OutboundChunk, nowS: number): boolean {
+  return (!!maxRetransmits && maxRetransmits < sentCount) || (!!expiry && expiry < nowS);
+}
+
+/**
+ * Gives up the message of a chunk, and nothing else. Fragments of it that were not sent yet count as sent: the numbers
+ * are theirs, so that the peer must be told of them.
+ *
+ * @param chunk one of those that were sent
+ * @returns the fragments that were on their way until now, besides the chunk
+ */
+export function abandonMessage<Chunk extends OutboundChunk>(
+  chunk: Chunk,
+  { sent, waiting }: Outbound<Chunk>,
+): Chunk[] {
+  const at = sent.indexOf(chunk);
+  if (at < 0) return [];
+  let first = at;
+  while (!isFirst(sent[first]) && follows(sent[first - 1], sent[first])) first--;
+  let last = at;
+  while (!isLast(sent[last]) && follows(sent[last], sent[last + 1])) last++;
+  while (last === sent.length - 1 && !isLast(sent[last]) && follows(sent[last], waiting[0])) {
+    sent.push(waiting.shift() as Chunk);
+    last++;
+  }
+  const underway: Chunk[] = [];
+  for (const one of sent.slice(first, last + 1)) {
+    const wasUnderway = one.sentCount > 0 && !one.acked && !one.retransmit && !one.abandoned;
+    if (wasUnderway && one !== chunk) underway.push(one);
+    one.abandoned = true;
+    one.retransmit = false;
+  }
+  return underway;
+}
+
+function isFirst(chunk: OutboundChunk | undefined): boolean {
+  return chunk === undefined || (chunk.flags & FIRST_FRAGMENT) !== 0;
+}
+
+function isLast(chunk: OutboundChunk | undefined): boolean {
+  return chunk === undefined || (chunk.flags & LAST_FRAGMENT) !== 0;
+}
+
+/** A message's fragments have consecutive numbers (RFC 9260 §6.9). */
+function follows(before: OutboundChunk | undefined, after: OutboundChunk | undefined): boolean {
+  return before !== undefined && after !== undefined && (before.tsn + 1) >>> 0 === after.tsn;
+}
