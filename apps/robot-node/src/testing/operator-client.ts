@@ -282,11 +282,8 @@ export class OperatorClient {
     const frames = this.#framesOf.get(placement.sensor) ?? new Map<number, ReceivedFrame>();
     this.#framesOf.set(placement.sensor, frames);
     const frame = frames.get(frameNumber) ?? {
-      frameNumber,
-      packets: 0,
-      points: 0,
-      latencyTest: placement.latencyTest,
-      complete: false,
+      ...{ frameNumber, packets: 0, points: 0 },
+      ...{ latencyTest: placement.latencyTest, complete: false },
     };
     frame.packets++;
     frame.points += pointsOfBytes(sequenceLength);

@@ -1,4 +1,4 @@
-use wide::{f32x4, i32x4};
+use wide::f32x4;
 
 use crate::bins::{Bins, Rule, valid_depths, valid_ranges};
 use crate::{Class, Lens, Point, SensorPose, Settings};
