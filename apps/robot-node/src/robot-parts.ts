@@ -52,7 +52,7 @@ export async function openParts(options: RobotOptions, log: Logger, audit: Robot
   const base = options.base === null ? null : new BaseThread(options.base);
   let captures: Capture[] = [];
   try {
-    const { sensors, grids } = guardedSensors(inWorld(options.sensors, base), options.obstacleGuard);
+    const { sensors, ...guards } = guardedSensors(inWorld(options.sensors, base), options.obstacleGuard);
     captures = await CloudSensors.open(sensors, recording?.capture ?? null);
     captures.forEach(({ description }, i) => {
       log.info({ sensor: options.sensors[i]?.name, source: description }, 'source open');
@@ -67,7 +67,7 @@ export async function openParts(options: RobotOptions, log: Logger, audit: Robot
     const sink = openSink(options.sink, base, log);
     const names = options.sensors.map(({ name }) => name);
     const obstacles = openObstacleGuard(
-      { configuration: options.obstacleGuard, grids, captures, names },
+      { configuration: options.obstacleGuard, ...guards, captures, names },
       capture !== null && hasOdometry(capture.source),
       log,
     );

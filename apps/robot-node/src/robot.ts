@@ -89,7 +89,7 @@ export class Robot {
     const count = (reason: Intervention) => this.counters.interventions.add(reason);
     const state = () => this.#state;
     const heard = () => [...this.operators.values(), this.reference?.operator];
-    this.driving = openDrive(options, { ...parts, state, heard, count, log });
+    this.driving = openDrive(options, { ...parts, heard, count, log });
     const { station, estop, status, fix } = this.driving;
     [this.drive, this.obstacles] = [station, parts.obstacles];
     this.#host = new RobotSessionHost({
@@ -160,7 +160,7 @@ export class Robot {
       {
         onState: (state) => {
           this.#captureSeenMs = state.timeMs;
-          if (base === null) this.#state = state;
+          if (base === null) this.#state = this.driving.odometry.take(state);
         },
         onFault: ({ name }, detail) => log.warn({ sensor: name, detail }, 'the source has a fault'),
         onRings: (sensor) => this.#host.tellRings(sensor),
@@ -196,7 +196,7 @@ export class Robot {
     this.#sendLoop.onWork = (ms) => this.counters.stageSeconds.add('send', ms / 1000);
     if (base !== null) {
       base.onState = (state) => {
-        this.#state = state;
+        this.#state = this.driving.odometry.take(state);
       };
       base.onReadings = (told, motors) => {
         told.forEach(addReading);

@@ -1,5 +1,5 @@
-import type { Battery, Pose, Twist } from '@farpoint/protocol';
-import { PointCloud2Decoder, pointCloud2Schema, stampNs, WorldState } from '@farpoint/ros';
+import type { Battery, Pose } from '@farpoint/protocol';
+import { type BaseMotion, PointCloud2Decoder, pointCloud2Schema, stampNs, WorldState } from '@farpoint/ros';
 import { type CloudStream, describeClouds } from './cloud-stream.ts';
 import { codeOf, detailOf, RecordingError } from './errors.ts';
 import { Lead } from './lead.ts';
@@ -103,17 +103,14 @@ export class CloudPlayer {
     return this.#recording.topics;
   }
 
-  /** Length of the recording, s. */
+  /** Its length, s. */
   get seconds(): number {
     return Number(this.#recording.endNs - this.#recording.startNs) / 1e9;
   }
 
-  get pose(): Pose {
-    return this.#state.basePose;
-  }
-
-  get twist(): Twist {
-    return this.#state.twist;
+  /** Where the robot is, and how it moves as far as the recording says it. */
+  get base(): BaseMotion {
+    return this.#state.base;
   }
 
   get battery(): Battery | null {
@@ -178,7 +175,8 @@ export class CloudPlayer {
       const { axes } = this.stream;
       const count = this.decoder.decode(cloud, axes, into);
       const { frame_id, stamp } = cloud.header;
-      return { count, cameraPose: this.#state.opticalPose(frame_id, stampNs(stamp), axes), dueMs };
+      const { cameraPose } = this.#state.placeByStamp(frame_id, stampNs(stamp), axes);
+      return { count, cameraPose, dueMs };
     } catch (error) {
       this.#fault(error, message);
       return null;
@@ -263,7 +261,8 @@ export class CloudPlayer {
 
   #takeState(message: RecordedMessage): void {
     try {
-      this.#state.take(message.topic, message.topic.decode(message.data));
+      const left = this.#state.take(message.topic, message.topic.decode(message.data));
+      if (left !== null) throw new Error(left);
     } catch (error) {
       this.#fault(error, message);
     }

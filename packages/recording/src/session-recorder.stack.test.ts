@@ -141,7 +141,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       k++;
     };
     await player.run();
-    expect(player.twist.linear.x).toBe(1);
+    expect(player.base.twist?.linear.x).toBe(1);
     expect(pictures.filter(([name]) => name === FRONT)).toHaveLength(FRAMES);
     expect(pictures.filter(([name]) => name === REAR)).toHaveLength(FRAMES / 3);
     for (const [, at, shownMs] of pictures) expect(shownMs).toBeCloseTo(at, 3);

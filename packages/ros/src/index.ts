@@ -57,7 +57,7 @@ export { type ImageRows, MOST_PICTURE_PIXELS, pictureRows } from './picture-rows
 export { axesOf, checkedCount, PointCloud2Decoder } from './point-cloud2.ts';
 export type { CloudAxes } from './point-words.ts';
 export { RateLimit } from './rate-limit.ts';
-export { readingOf, shortened, type TopicReading } from './reading.ts';
+export { fixStampNs, readingOf, shortened, type TopicReading } from './reading.ts';
 export { ros1Hostname } from './ros1-hostname.ts';
 export { numbersOf, quantitiesOf, type TopicQuantity } from './topic-quantities.ts';
 export {
@@ -79,4 +79,10 @@ export { ModelTopic, modelReading, newsOf } from './urdf/model-topic.ts';
 export { type RobotModel, readUrdf } from './urdf/read-urdf.ts';
 export { UrdfFault, type UrdfFaultCode, urdfFaultCodes } from './urdf/urdf-fault.ts';
 export { type VelocityWriter, velocityWriter } from './velocity.ts';
-export { type TypedTopic, WorldState } from './world-state.ts';
+export {
+  type BaseMotion,
+  type PlacedSensor,
+  type StampTimes,
+  type TypedTopic,
+  WorldState,
+} from './world-state.ts';

@@ -1,7 +1,7 @@
 /** Formats a topic's message as short text for people, with limited length whatever it contains. */
 import { type DiagnosticReport, READING_LIMITS, type Reading, type ReadingLevel } from '@farpoint/protocol';
 import { levelOf } from './diagnostic-board.ts';
-import { batteryDetailsSchema, diagnosticArraySchema, navSatFixSchema } from './messages.ts';
+import { batteryDetailsSchema, diagnosticArraySchema, navSatFixSchema, stampNs } from './messages.ts';
 import type { NavigationNews } from './navigation-news.ts';
 import type { TopicEntry, TopicRole } from './topic-table.ts';
 import type { JointNews, ModelNews } from './urdf/model-news.ts';
@@ -10,6 +10,8 @@ import type { JointNews, ModelNews } from './urdf/model-news.ts';
 export interface TopicReading extends Pick<Reading, 'topic' | 'label' | 'level' | 'values'> {
   /** The values of the topic's quantities, in their order. */
   numbers?: readonly (number | null)[];
+  /** When what it says was measured, robot's clock, ms; `null` if nobody can tell; if absent, when it came. */
+  measuredMs?: number | null;
   /** What components have reported, if it is a topic of diagnostics. */
   components?: readonly DiagnosticReport[];
   /** The path or the map, if it is a topic of one. */
@@ -108,6 +110,11 @@ function fix(message: unknown): Body {
     values.push(['', `± ${deviation.toFixed(2)} m`]);
   if (Number.isFinite(altitude)) values.push(['altitude', `${altitude.toFixed(1)} m`]);
   return { level: 'ok', values };
+}
+
+/** The stamp of a sensor_msgs/NavSatFix, ns since 1970; 0 without one. @throws {Error} if it is none */
+export function fixStampNs(message: unknown): bigint {
+  return stampNs(navSatFixSchema.parse(message).header.stamp);
 }
 
 /** The worst first; of those that are OK, only the number. */

@@ -1,4 +1,4 @@
-import { type Battery, compose, type Pose, type Quaternion, type Twist, zeroTwist } from '@farpoint/protocol';
+import { type Battery, compose, inverse, type Pose, type Quaternion, type Twist } from '@farpoint/protocol';
 import {
   BATTERY_TYPES,
   batteryStateSchema,
@@ -14,15 +14,20 @@ import {
 } from './messages.ts';
 import type { CloudAxes } from './point-words.ts';
 import { STATIC_SUFFIX } from './topic-table.ts';
-import { TransformTree } from './transform-tree.ts';
+import { isLocalised, TransformTree } from './transform-tree.ts';
 
 /** Optical axes (z forward, x right, y down) in a body whose axes are x forward, y left, z up. */
 const OPTICAL_IN_BODY: Quaternion = { x: -0.5, y: 0.5, z: -0.5, w: 0.5 };
 const NO_TURN: Quaternion = { x: 0, y: 0, z: 0, w: 1 };
 const ORIGIN: Pose = { position: { x: 0, y: 0, z: 0 }, orientation: NO_TURN };
-/** Assumed pose of a camera whose pose is unknown: 1 m above the ground, looking ahead. */
+/** Assumed pose of a camera of which nobody says where it sits: 1 m above the ground, looking ahead. For the picture only. */
 const UNKNOWN_MOUNT: Pose = { position: { x: 0, y: 0, z: 1 }, orientation: OPTICAL_IN_BODY };
+const OPTICAL: Pose = { position: ORIGIN.position, orientation: OPTICAL_IN_BODY };
 const BASE_FRAMES = ['base_link', 'base_footprint'];
+/** What odometry means whose frames are not named. */
+const ODOM_FRAME = 'odom';
+/** What moves is not known where its newest sample is older, or its oldest younger, ms. */
+const MOST_OFF_MS = 300;
 
 /** A topic and the type of its messages, in ROS 2 notation. */
 export interface TypedTopic {
@@ -30,15 +35,58 @@ export interface TypedTopic {
   type: string;
 }
 
+/** The times of stamps. */
+export interface StampTimes {
+  /**
+   * @param source a topic, or a transform: stamps of one source come in their order
+   * @param mayBeAhead whether stamps may lie ahead of time, as those of localisation do
+   * @returns of the clock that poses are asked for, ms; why the stamp is refused
+   */
+  of(source: string, stampNs: bigint, mayBeAhead: boolean): number | string;
+}
+
+/** Times of recordings, where all stamps are believed: ms since 1970. */
+const BY_STAMP: StampTimes = { of: (_, ns) => timeOfStamp(ns) ?? 0 };
+
+/** ms since 1970; `null` without a stamp (0). */
+function timeOfStamp(ns: bigint): number | null {
+  return ns === 0n ? null : Number(ns) / 1e6;
+}
+
+/** Where the robot is, and how it moves: all of one time. */
+export interface BaseMotion {
+  /** Of base_link in the world. */
+  pose: Pose;
+  /** In base_link; `null` if nobody has said it lately. */
+  twist: Twist | null;
+  /** Of the stamps' clock, ms; `null` if nobody says where the robot is. */
+  timeMs: number | null;
+}
+
+/** Where a sensor was when it took something. */
+export interface PlacedSensor {
+  /** Of its optical axes in the world, as well as it is known: what pictures need. */
+  cameraPose: Pose;
+  /** Of base_link in the world; `null` if it was not known then. */
+  base: Pose | null;
+  /** Of its optical axes in base_link, as tf says; `null` if tf does not. */
+  mount: Pose | null;
+}
+
 /** Collects poses and state, live or from a recording: from tf, odometry and the battery. */
 export class WorldState {
-  twist: Twist = zeroTwist();
   battery: Battery | null = null;
+  readonly #times: StampTimes;
   readonly #tree = new TransformTree();
   /** Frames that odometry positions, as long as tf does not. */
   readonly #byOdometry = new Set<string>();
   #base: string | null = null;
-  #newestNs = 0n;
+  #newestMs = Number.NEGATIVE_INFINITY;
+  #twist: { twist: Twist; timeMs: number } | null = null;
+
+  constructor(times: StampTimes = BY_STAMP) {
+    this.#times = times;
+  }
 
   /** Selects the topics that contribute to the state. */
   static topicsOf<T extends TypedTopic>(topics: readonly T[]): T[] {
@@ -51,28 +99,55 @@ export class WorldState {
     return topics.filter(({ name, type }) => TF_TYPES.includes(type) && name.endsWith(STATIC_SUFFIX));
   }
 
-  /** @throws {Error} if the message does not match its type */
-  take({ name, type }: TypedTopic, message: unknown): void {
-    if (TF_TYPES.includes(type)) this.#takeTransforms(message, name.endsWith(STATIC_SUFFIX));
-    else if (ODOMETRY_TYPES.includes(type)) this.#takeOdometry(message);
-    else if (BATTERY_TYPES.includes(type)) this.#takeBattery(message);
-    else this.#takePose(message);
+  /**
+   * Takes a message, or what of it can be taken.
+   *
+   * @returns why something of it was left out; `null` if nothing was
+   * @throws {Error} if the message does not match its type
+   */
+  take({ name, type }: TypedTopic, message: unknown): string | null {
+    if (TF_TYPES.includes(type)) return this.#takeTransforms(message, name.endsWith(STATIC_SUFFIX));
+    if (ODOMETRY_TYPES.includes(type)) return this.#takeOdometry(name, message);
+    if (!BATTERY_TYPES.includes(type)) return this.#takePose(name, message);
+    this.#takeBattery(message);
+    return null;
+  }
+
+  /** The same as {@link place} by the stamp of a recording, where all stamps are believed. */
+  placeByStamp(frameId: string, ns: bigint, axes: CloudAxes): PlacedSensor {
+    return this.place(frameId, timeOfStamp(ns), axes);
   }
 
   /**
-   * Pose in the world of the optical axes of a cloud's frame, at the time of its stamp; without a stamp (0), the latest
-   * pose.
+   * Where a cloud's sensor was.
+   *
+   * @param timeMs when the cloud was taken; `null` if nobody says: the newest poses count
+   * @param configured its mount, where tf does not say it
    */
-  opticalPose(frameId: string, stampOrNone: bigint, axes: CloudAxes): Pose {
-    const stamp = stampOrNone === 0n ? this.#newestNs : stampOrNone;
-    const placed = this.#tree.poseInRoot(frameName(frameId), stamp);
-    if (placed !== null) {
-      return axes === 'optical'
-        ? placed.pose
-        : compose(placed.pose, { position: ORIGIN.position, orientation: OPTICAL_IN_BODY });
-    }
-    const base = this.#base === null ? null : this.#tree.poseInRoot(this.#base, stamp);
-    return base === null ? UNKNOWN_MOUNT : compose(base.pose, UNKNOWN_MOUNT);
+  place(
+    frameId: string,
+    timeMs: number | null,
+    axes: CloudAxes,
+    configured: Pose | null = null,
+  ): PlacedSensor {
+    const atMs = timeMs ?? this.#newestMs;
+    const frame = this.#baseFrame;
+    const base = frame === null ? null : this.#tree.poseInRoot(frame, atMs);
+    const sensor = this.#tree.poseInRoot(frameName(frameId), atMs);
+    const optical = sensor === null ? null : axes === 'optical' ? sensor.pose : compose(sensor.pose, OPTICAL);
+    const known = base !== null && base.offMs <= MOST_OFF_MS ? base.pose : null;
+    if (base !== null && optical !== null && sensor?.root === base.root)
+      return { cameraPose: optical, base: known, mount: compose(inverse(base.pose), optical) };
+    const onBase =
+      sensor !== null && (frame === null ? BASE_FRAMES.includes(sensor.root) : sensor.root === frame);
+    const mount = onBase ? optical : null;
+    // Of a robot that nobody places, a sensor that somebody does is where it is.
+    if (base === null && optical !== null) return { cameraPose: optical, base: null, mount };
+    return {
+      cameraPose: compose(base?.pose ?? ORIGIN, mount ?? configured ?? UNKNOWN_MOUNT),
+      base: known,
+      mount,
+    };
   }
 
   /**
@@ -83,85 +158,98 @@ export class WorldState {
    */
   framePose(frameId: string, stampOrNone: bigint): Pose | null {
     const frame = frameName(frameId);
-    const stamp = stampOrNone === 0n ? this.#newestNs : stampOrNone;
+    const judged = stampOrNone === 0n ? this.#newestMs : this.#times.of('', stampOrNone, true);
+    const timeMs = typeof judged === 'number' ? judged : this.#newestMs;
     const base = this.#baseFrame;
-    const world = base === null ? null : (this.#tree.poseInRoot(base, stamp)?.root ?? null);
+    const world = base === null ? null : (this.#tree.poseInRoot(base, timeMs)?.root ?? null);
     if (world === null) return null;
     if (frame === world) return ORIGIN;
-    const placed = this.#tree.poseInRoot(frame, stamp);
+    const placed = this.#tree.poseInRoot(frame, timeMs);
     return placed?.root === world ? placed.pose : null;
   }
 
-  /** Latest pose of base_link in the world. */
-  get basePose(): Pose {
+  /** The robot's newest: pose, velocity and time belong together. */
+  get base(): BaseMotion {
     const frame = this.#baseFrame;
-    return (frame === null ? null : this.#tree.poseInRoot(frame, this.#newestNs)?.pose) ?? ORIGIN;
+    const timeMs = frame === null ? null : this.#tree.newestMs(frame);
+    const placed = frame === null ? null : this.#tree.poseInRoot(frame, timeMs ?? this.#newestMs);
+    const told = this.#twist;
+    const isOfThen = told !== null && timeMs !== null && Math.abs(told.timeMs - timeMs) <= MOST_OFF_MS;
+    return { pose: placed?.pose ?? ORIGIN, twist: isOfThen ? told.twist : null, timeMs };
+  }
+
+  /** Call after a jump in time. */
+  forgetMoving(): void {
+    this.#tree.forgetMoving();
+    this.#newestMs = Number.NEGATIVE_INFINITY;
+    this.#twist = null;
   }
 
   get #baseFrame(): string | null {
     return BASE_FRAMES.find((name) => this.#tree.has(name)) ?? this.#base;
   }
 
-  /** Call after a jump in time. */
-  forgetMoving(): void {
-    this.#tree.forgetMoving();
-    this.#newestNs = 0n;
-    this.twist = zeroTwist();
-  }
-
-  #takeTransforms(message: unknown, fixed: boolean): void {
+  #takeTransforms(message: unknown, fixed: boolean): string | null {
+    let fault: string | null = null;
     for (const { header, child_frame_id, transform } of tfMessageSchema.parse(message).transforms) {
       const child = frameName(child_frame_id);
-      this.#byOdometry.delete(child);
-      this.#place(
-        header.frame_id,
-        child,
-        stampNs(header.stamp),
-        transform.translation,
-        transform.rotation,
-        fixed,
-      );
+      const { translation: position, rotation } = transform;
+      const timeMs = fixed ? 0 : this.#times.of(`tf ${child}`, stampNs(header.stamp), isLocalised(child));
+      const why =
+        typeof timeMs === 'string'
+          ? `the transform of ${child}: ${timeMs}`
+          : this.#place(header.frame_id, child, timeMs, position, rotation, fixed);
+      if (why === null) this.#byOdometry.delete(child);
+      fault ??= why;
     }
+    return fault;
   }
 
-  #takeOdometry(message: unknown): void {
+  #takeOdometry(topic: string, message: unknown): string | null {
     const { header, child_frame_id, pose, twist } = odometrySchema.parse(message);
-    const child = frameName(child_frame_id);
+    const child = frameName(child_frame_id) || (BASE_FRAMES[0] as string);
+    const parent = frameName(header.frame_id) || ODOM_FRAME;
+    if (child === parent)
+      return `its child_frame_id is its frame_id, ${child}: it says nothing about the robot`;
+    const timeMs = this.#times.of(topic, stampNs(header.stamp), false);
+    if (typeof timeMs === 'string') return timeMs;
     this.#base = child;
-    this.twist = twist.twist;
-    if (this.#tree.has(child) && !this.#byOdometry.has(child)) return;
+    this.#twist = { twist: twist.twist, timeMs };
+    if (this.#tree.has(child) && !this.#byOdometry.has(child)) return null;
     this.#byOdometry.add(child);
-    const { position, orientation } = pose.pose;
-    this.#place(header.frame_id, child, stampNs(header.stamp), position, orientation, false);
+    return this.#place(parent, child, timeMs, pose.pose.position, pose.pose.orientation, false);
   }
 
   /** Pose of `base_link`: the message names only the reference frame. */
-  #takePose(message: unknown): void {
+  #takePose(topic: string, message: unknown): string | null {
     const { header, pose } = poseStampedSchema.parse(message);
     const { position, orientation } = 'pose' in pose ? pose.pose : pose;
     const base = BASE_FRAMES[0] as string;
+    const parent = frameName(header.frame_id) || ODOM_FRAME;
+    if (parent === base) return `its frame_id is ${base}: it says nothing about the robot`;
+    const timeMs = this.#times.of(topic, stampNs(header.stamp), false);
+    if (typeof timeMs === 'string') return timeMs;
     this.#base = base;
-    if (this.#tree.has(base) && !this.#byOdometry.has(base)) return;
+    if (this.#tree.has(base) && !this.#byOdometry.has(base)) return null;
     this.#byOdometry.add(base);
-    this.#place(header.frame_id, base, stampNs(header.stamp), position, orientation, false);
+    return this.#place(parent, base, timeMs, position, orientation, false);
   }
 
   #place(
     parent: string,
     child: string,
-    stamp: bigint,
+    timeMs: number,
     position: Pose['position'],
     rotation: Quaternion,
     fixed: boolean,
-  ): void {
+  ): string | null {
     const orientation = unitQuaternion(rotation);
-    if (orientation === null || !isFiniteVector(position)) {
-      throw new Error(`the transform of ${child} is none`);
-    }
-    if (!this.#tree.set(frameName(parent), child, stamp, { position, orientation }, fixed)) {
-      throw new Error(`too many frames: ${child} is not kept`);
-    }
-    if (stamp > this.#newestNs) this.#newestNs = stamp;
+    if (orientation === null || !isFiniteVector(position)) return `the transform of ${child} is none`;
+    const verdict = this.#tree.set(frameName(parent), child, timeMs, { position, orientation }, fixed);
+    if (verdict === 'too-many') return `too many frames: ${child} is not kept`;
+    if (verdict === 'loop') return `${child} cannot be above itself: its transform is not kept`;
+    if (!fixed) this.#newestMs = Math.max(this.#newestMs, timeMs);
+    return null;
   }
 
   #takeBattery(message: unknown): void {

@@ -23,6 +23,7 @@ export {
 export * from './obstacles/pose-track.ts';
 export * from './obstacles/scan-grid.ts';
 export * from './obstacles/sensor-grid.ts';
+export * from './odometry/odometry.ts';
 export * from './queueing-delay.ts';
 export * from './rejection-reporter.ts';
 export * from './return/return-drive.ts';

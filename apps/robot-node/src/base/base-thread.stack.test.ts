@@ -17,9 +17,9 @@ const stateWhere = (is: (state: TimedBaseState) => boolean) =>
 it('drives on a velocity, and stops by itself when it is not refreshed', async () => {
   base = new BaseThread({ watchdogMs: 150, charge: 0.95, origin: null });
   base.apply({ ...zeroTwist(), linear: { x: 0.3, y: 0, z: 0 } });
-  await stateWhere(({ twist }) => twist.linear.x > 0);
+  await stateWhere(({ twist }) => (twist?.linear.x ?? 0) > 0);
   // The velocity is not repeated, so the thread's own watchdog brakes.
-  await stateWhere(({ twist }) => twist.linear.x === 0);
+  await stateWhere(({ twist }) => twist?.linear.x === 0);
   expect(base.watchdogStops).toBe(1);
 });
 

@@ -4,13 +4,16 @@ import type { Battery, Pose, Twist } from '@farpoint/protocol';
 export interface BaseState {
   /** Pose of base_link in the world. */
   pose: Pose;
-  /** Actual velocity, in base_link. */
-  twist: Twist;
+  /** Actual velocity, in base_link; `null` if nobody measures it. */
+  twist: Twist | null;
   battery: Battery | null;
   /** Whether the base touches an obstacle. */
   contact: boolean;
-  /** When pose and twist were measured, robot's clock, ms; if absent, now. */
-  measuredMs?: number;
+  /**
+   * When pose and twist were measured, robot's clock, ms; `null` if nobody says where the robot is; if absent, nothing moves
+   * it, or it is simulated: now.
+   */
+  measuredMs?: number | null;
 }
 
 /** The time of the state, on the robot's clock. */

@@ -1,4 +1,4 @@
-import { compose, inverse } from '@farpoint/protocol';
+import { compose, inverse, type Pose } from '@farpoint/protocol';
 import {
   type CloudFrame,
   CloudReader,
@@ -12,6 +12,7 @@ import type {
   CaptureRoom,
   CaptureWishes,
   FrameSource,
+  Mounted,
   SourceDescription,
   SourceFrame,
 } from './frame-source.ts';
@@ -34,16 +35,19 @@ export class CloudShmSource implements FrameSource {
   onReady: (() => void) | null = null;
   onFault: ((error: Error) => void) | null = null;
   readonly #link: ProducerLink<CloudReader>;
-  #state: BaseState = STANDING;
+  readonly #mount: Pose;
+  #state: BaseState = { ...STANDING, measuredMs: null };
   #readyMs: number;
 
   private constructor(
     reader: CloudReader,
     first: CloudFrame | null,
-    { folder, owner }: CloudShmOptions,
+    { folder, owner, mount = null }: CloudShmOptions & Mounted,
     now: () => number,
   ) {
     const { maxPoints, format, framesPerSecond } = reader.header;
+    // For the picture only: where nobody has said how the camera is mounted, nothing rests on where the robot is.
+    this.#mount = mount ?? STATIC_CAMERA_POSE;
     this.description = {
       kind: `shm (${format})`,
       width: first?.width ?? maxPoints,
@@ -67,7 +71,7 @@ export class CloudShmSource implements FrameSource {
   }
 
   /** @throws {SharedMemoryError} if no producer appears in time */
-  static async open(options: CloudShmOptions, now: () => number): Promise<CloudShmSource> {
+  static async open(options: CloudShmOptions & Mounted, now: () => number): Promise<CloudShmSource> {
     const { folder, owner, waitMs } = options;
     const begin = now();
     const reader = await openWhenThere(() => CloudReader.open(folder, owner), waitMs);
@@ -129,11 +133,16 @@ export class CloudShmSource implements FrameSource {
 
   #sourceFrame(frame: CloudFrame, nowMs: number, room: CaptureRoom): SourceFrame {
     const { form, points: count, pose, capturedAtMs } = frame;
-    // Assume the mounting of a camera without poses: level, looking ahead, 1 m above the base.
-    if (pose !== null) this.#state = { ...STANDING, pose: compose(pose, inverse(STATIC_CAMERA_POSE)) };
+    const takenMs = Math.min(capturedAtMs ?? this.#readyMs, nowMs);
+    // The camera's poses are all that is known of the robot's motion.
+    if (pose !== null) {
+      const base = compose(pose, inverse(this.#mount));
+      this.#state = { ...STANDING, pose: base, twist: null, measuredMs: takenMs };
+    }
     const stamp = {
-      cameraPose: pose ?? STATIC_CAMERA_POSE,
-      capturedAtMs: Math.min(capturedAtMs ?? this.#readyMs, nowMs),
+      cameraPose: pose ?? this.#mount,
+      capturedAtMs: takenMs,
+      ...(pose === null ? { base: 'unknown' as const } : {}),
     };
     return form === 'images'
       ? { form, depth: room.depth, colour: room.colour, ...stamp }

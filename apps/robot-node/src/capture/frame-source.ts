@@ -25,6 +25,12 @@ export function cameraOf({ topic, label, most }: TopicEntry): CameraDescription 
   return { name: (label ?? topic).slice(-MOST_NAME), most };
 }
 
+/** What is configured about where a source's sensor sits: the one place that says it. */
+export interface Mounted {
+  /** Its optical frame in base_link; `null` or without it, nobody has said. */
+  mount?: Pose | null;
+}
+
 export interface SourceDescription {
   /** The kind of source, for people, e.g. `sim`. */
   kind: string;
@@ -68,6 +74,11 @@ export interface CaptureRoom {
 interface FrameStamp {
   /** Pose of the optical frame in the world. */
   cameraPose: Pose;
+  /**
+   * Pose of base_link in the world then. `unknown` if nobody knows it; `disputed` if those who say where the sensor sits
+   * contradict each other. Without it, the sensor's pose and its mount tell it.
+   */
+  base?: Pose | 'unknown' | 'disputed';
   capturedAtMs: number;
   /** Whether this cloud answers a latency test. If undefined, any cloud may. */
   latencyTest?: boolean;

@@ -2,7 +2,7 @@ import { monotonicMs } from '../clock.ts';
 import { type GraphOptions, openGraph } from '../ros/open-graph.ts';
 import { wallNs } from '../ros/wall-clock.ts';
 import { type CloudShmOptions, CloudShmSource } from './cloud-shm-source.ts';
-import type { FrameSource } from './frame-source.ts';
+import type { FrameSource, Mounted } from './frame-source.ts';
 import { openPcdSource, type PcdSourceOptions } from './pcd-source.ts';
 import { RecordingSource, type RecordingSourceOptions } from './recording-source.ts';
 import { type ReferenceShmOptions, ReferenceShmSource } from './reference-shm-source.ts';
@@ -16,6 +16,10 @@ import { TriggeredSource } from './triggered-source.ts';
 export type SourceOptions =
   | ({ kind: 'sim' } & SimSourceOptions)
   | ({ kind: 'sim-lidar' } & SimLidarSourceOptions)
+  | (RealSourceOptions & Mounted);
+
+/** Sources whose sensors sit where nobody but the configuration may know. */
+type RealSourceOptions =
   | ({ kind: 'pcd' } & PcdSourceOptions)
   | ({ kind: 'rgbd' } & RgbdSourceOptions)
   | ({ kind: 'recording' } & RecordingSourceOptions)

@@ -113,8 +113,8 @@ export class RecordingSource implements FrameSource {
   }
 
   get state(): BaseState {
-    const { pose, twist, battery } = this.#player;
-    return { pose, twist, battery, contact: false };
+    const { base, battery } = this.#player;
+    return { pose: base.pose, twist: base.twist, battery, contact: false };
   }
 
   get rings(): readonly number[] | null {

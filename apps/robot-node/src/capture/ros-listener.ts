@@ -17,17 +17,17 @@ export interface ListenOptions {
   onFault: (fault: RosFault) => void;
 }
 
-/** @param take gets the message, valid only during the call; what it throws is reported as a fault */
+/** @param take gets the message, valid only during the call, and when it came; what it throws is reported as a fault */
 export function listen(
   graph: RosGraph,
   entry: TopicEntry,
   options: ListenOptions,
-  take: (message: unknown) => void,
+  take: (message: unknown, receivedMs: number) => void,
 ): Listener {
   let decode: ((bytes: Uint8Array) => unknown) | null = null;
-  return listenBytes(graph, entry, options, (bytes, _, definition) => {
+  return listenBytes(graph, entry, options, (bytes, receivedMs, definition) => {
     decode ??= decoderOf(graph.version, entry.type, definition ?? entry.definitions ?? null);
-    take(decode(bytes));
+    take(decode(bytes), receivedMs);
   });
 }
 

@@ -12,11 +12,11 @@ const OPTICAL = 'camera_optical_frame';
 const WALL_S = 1_700_000_000;
 const wishes = { bitsPerSecond: 0, latencyTest: false };
 
-const headerAt = (ms: number, frame_id = OPTICAL) => ({
-  stamp: { sec: WALL_S + Math.floor(ms / 1000), nanosec: (ms % 1000) * 1e6, nsec: (ms % 1000) * 1e6 },
-  frame_id,
-  seq: 0,
-});
+const headerAt = (ms: number, frame_id = OPTICAL) => {
+  const second = Math.floor(ms / 1000);
+  const ns = (ms - second * 1000) * 1e6;
+  return { stamp: { sec: WALL_S + second, nanosec: ns, nsec: ns }, frame_id, seq: 0 };
+};
 
 /** A cloud of x, y, z: a line for a LiDAR, the grid at a depth of 2 m for a camera. */
 function cloudOf(ms: number, width: number, height: number, frame = OPTICAL, point = at(2)) {
@@ -220,7 +220,7 @@ describe('RosSource', () => {
     expect(faults).toHaveLength(2);
     expect(faults[0]).toMatch(/^\/points: /);
     expect(faults[1]).toBe('/points: byte 20: the data ends, 36 bytes expected');
-    graph.say('/points', CLOUD, cloudOf(0, 3, 1));
+    graph.say('/points', CLOUD, cloudOf(30, 3, 1));
     expect(capture()).toMatchObject({ count: 3 });
   });
 
@@ -392,12 +392,51 @@ describe('RosSource', () => {
     });
   });
 
-  it('uses the arrival time if a stamp is from another clock', async () => {
+  describe('a cloud’s stamp', async () => {
     const table = [{ topic: '/points', as: 'cloud' }];
-    const { graph, capture, pass } = await setUp(table, (g) => g.say('/points', CLOUD, cloudOf(0, 3, 1)));
-    graph.say('/points', CLOUD, { ...cloudOf(0, 3, 1), header: headerAt(-1_600_000_000_000) });
-    pass(30);
-    expect(capture()).toMatchObject({ capturedAtMs: 5000 });
+    const begun = async () => {
+      const set = await setUp(table, (g) => g.say('/points', CLOUD, cloudOf(0, 3, 1)));
+      set.capture();
+      const comes = (header: ReturnType<typeof headerAt>) => {
+        set.graph.say('/points', CLOUD, { ...cloudOf(0, 3, 1), header });
+        return set.capture()?.capturedAtMs ?? null;
+      };
+      return { ...set, comes };
+    };
+
+    it('of another clock is learnt first, then what is later than the earliest is late', async () => {
+      const { comes, pass, faults } = await begun();
+      const years = -1_600_000_000_000;
+      for (let t = 0; t < 1000; t += 100, pass(100)) expect(comes(headerAt(t + years))).toBeNull();
+      expect(faults).toEqual(['/points: its stamps are of another clock, which is not known yet']);
+      expect(comes(headerAt(1000 + years))).toBe(6000);
+      pass(600);
+      expect(comes(headerAt(1100 + years))).toBe(6100);
+    });
+
+    it('that is old is old, and said to be', async () => {
+      const { comes, pass, faults } = await begun();
+      pass(10_000);
+      let nowMs = 10_000;
+      for (const lateMs of [450, 700, 900, 2000, 5000, 60_000]) {
+        pass(100_000);
+        nowMs += 100_000;
+        expect(comes(headerAt(nowMs - lateMs))).toBeCloseTo(5000 + nowMs - lateMs, 2);
+        expect(faults.length > 0).toBe(lateMs > 1000);
+      }
+      expect(faults[0]).toMatch('/points: its messages are more than a second old when they come');
+    });
+
+    it('that is ahead is refused, and so is a message that came before', async () => {
+      const { comes, pass, faults } = await begun();
+      pass(1000);
+      expect(comes(headerAt(1050))).toBe(6000);
+      expect(comes(headerAt(86_400_000))).toBeNull();
+      expect(comes(headerAt(1050))).toBeNull();
+      expect(faults).toHaveLength(2);
+      pass(100);
+      expect(comes(headerAt(1100))).toBeCloseTo(6100, 2);
+    });
   });
 
   it.each([

@@ -1,35 +1,35 @@
 /** Clouds, poses and readings from a live ROS graph, as the topic table allows. */
 
+import type { Pose } from '@farpoint/protocol';
 import {
   type CloudAxes,
-  ModelTopic,
-  NavigationTopic,
-  RateLimit,
   RosFault,
   type RosGraph,
-  type TopicEntry,
   type TopicReading,
   type TopicTable,
   topicAs,
-  WorldState,
 } from '@farpoint/ros';
 import type { BaseState } from '../base/base.ts';
+import { mountDispute } from '../obstacles/sensor-mount.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
 import { capturedAtMs, type RosClock } from '../ros/capture-time.ts';
+import { LATE_MS, lateFault } from '../ros/late-fault.ts';
+import { StampClock, stampRefusals } from '../ros/stamp-clock.ts';
+import { FaultLimit } from './fault-limit.ts';
 import {
   type CaptureRoom,
   type CaptureWishes,
   cameraOf,
   type FrameSource,
+  type Mounted,
   type SourceDescription,
   type SourceFrame,
 } from './frame-source.ts';
-import { ReadingTopic } from './reading-topic.ts';
 import { RosCloudFeed } from './ros-cloud-feed.ts';
 import type { FeedShape, RosFeed } from './ros-feed.ts';
 import { RosImageFeed } from './ros-image-feed.ts';
-import { type Listener, listen } from './ros-listener.ts';
 import { RosPictureFeed } from './ros-picture-feed.ts';
+import { StateTopics } from './ros-state-topics.ts';
 
 export interface RosSourceOptions {
   topics: TopicTable;
@@ -39,13 +39,6 @@ export interface RosSourceOptions {
   waitMs: number;
 }
 
-/** Number of state messages that may wait in the graph. */
-const STATE_QUEUE = 100;
-const STATE_ROLES = ['pose', 'tf', 'battery'];
-const SPOKEN = [ReadingTopic, NavigationTopic, ModelTopic];
-/** How often a path or a map whose frame was unknown is tried again, times a second. */
-const RETRIES = 2;
-
 export class RosSource implements FrameSource {
   readonly description: SourceDescription;
   onReady: (() => void) | null = null;
@@ -54,9 +47,11 @@ export class RosSource implements FrameSource {
   readonly #graph: RosGraph;
   readonly #feed: RosFeed;
   readonly #axes: CloudAxes;
-  readonly #world: WorldState;
   readonly #state: StateTopics;
-  readonly #clock: RosClock;
+  readonly #stamps: StampClock;
+  readonly #mount: Pose | null;
+  readonly #topic: string;
+  readonly #faults = new FaultLimit();
   readonly #pictures: RosPictureFeed;
 
   private constructor(
@@ -64,15 +59,15 @@ export class RosSource implements FrameSource {
     feed: RosFeed,
     shape: FeedShape,
     state: StateTopics,
-    topics: TopicTable,
+    { topics, mount = null }: RosSourceOptions & Mounted,
+    stamps: StampClock,
     clock: RosClock,
   ) {
     this.#graph = graph;
     this.#feed = feed;
     this.#axes = shape.axes;
-    this.#world = state.world;
     this.#state = state;
-    this.#clock = clock;
+    [this.#stamps, this.#mount, this.#topic] = [stamps, mount, feed.listeners.at(-1)?.entry.topic ?? ''];
     const { width, height, capacity, camera, axes } = shape;
     const pictures = topics.filter(({ as }) => as === 'picture');
     const names = feed.listeners.map(({ entry }) => entry.topic).join(', ');
@@ -83,12 +78,12 @@ export class RosSource implements FrameSource {
       cameras: pictures.map(cameraOf),
     };
     this.#pictures = new RosPictureFeed(graph, pictures, (stampNs, receivedMs) =>
-      this.#capturedAtMs(stampNs, receivedMs, clock.now()),
+      Math.min(capturedAtMs(clock, stampNs, receivedMs), clock.now()),
     );
     this.#pictures.onFault = (fault) => this.onFault?.(fault);
     feed.onFrame = () => this.onReady?.();
     feed.onFault = (fault) => this.onFault?.(fault);
-    state.onFault = (fault) => this.onFault?.(fault);
+    state.onFault = (fault) => this.#tell(fault, clock.now());
     state.onReading = (reading) => this.onReading?.(reading);
     graph.onFault = (fault) => this.onFault?.(fault);
   }
@@ -98,21 +93,26 @@ export class RosSource implements FrameSource {
    *
    * @throws {RosFault} saying what did not arrive and the possible causes
    */
-  static async open(graph: RosGraph, options: RosSourceOptions, clock: RosClock): Promise<RosSource> {
+  static async open(
+    graph: RosGraph,
+    options: RosSourceOptions & Mounted,
+    clock: RosClock,
+  ): Promise<RosSource> {
     const { topics, axes, waitMs } = options;
     let last: RosFault | null = null;
     const onFault = (fault: RosFault) => {
       last = fault;
     };
     graph.onFault = onFault;
-    const state = new StateTopics(graph, topics, clock);
+    const stamps = new StampClock(clock);
+    const state = new StateTopics(graph, topics, clock, stamps);
     let feed: RosFeed | null = null;
     try {
       feed = openFeed(graph, topics, axes);
       feed.onFault = onFault;
       await firstFrame(feed, waitMs);
       if (feed.shape === null) throw whyNothing(graph, feed, waitMs, last);
-      return new RosSource(graph, feed, feed.shape, state, topics, clock);
+      return new RosSource(graph, feed, feed.shape, state, options, stamps, clock);
     } catch (error) {
       feed?.close();
       state.close();
@@ -126,9 +126,7 @@ export class RosSource implements FrameSource {
   }
 
   get state(): BaseState {
-    const { basePose: pose, twist, battery } = this.#world;
-    const { measuredMs } = this.#state;
-    return { pose, twist, battery, contact: false, ...(measuredMs === null ? {} : { measuredMs }) };
+    return this.#state.state;
   }
 
   get rings(): readonly number[] | null {
@@ -145,10 +143,14 @@ export class RosSource implements FrameSource {
     }
     if (fed === null) return null;
     const { count, frameId, stampNs, receivedMs } = fed;
-    const stamp = {
-      cameraPose: this.#world.opticalPose(frameId, stampNs, this.#axes),
-      capturedAtMs: this.#capturedAtMs(stampNs, receivedMs, nowMs),
-    };
+    const judged = this.#stamps.inOrder(this.#topic, stampNs, receivedMs);
+    if (typeof judged !== 'number') {
+      this.#tell(new RosFault('bad-message', stampRefusals[judged], { topic: this.#topic }), nowMs);
+      return null;
+    }
+    const capturedMs = Math.min(judged, nowMs);
+    if (nowMs - capturedMs > LATE_MS) this.#tell(lateFault(this.#topic), nowMs);
+    const stamp = this.#placed(frameId, stampNs === 0n ? null : capturedMs, capturedMs, nowMs);
     return this.description.camera === null
       ? { form: 'points', points: room.points, count, ...stamp }
       : { form: 'images', depth: room.depth, colour: room.colour, ...stamp };
@@ -173,82 +175,26 @@ export class RosSource implements FrameSource {
     void this.#graph.close();
   }
 
-  #capturedAtMs(stampNs: bigint, receivedMs: number, nowMs: number): number {
-    return Math.min(capturedAtMs(this.#clock, stampNs, receivedMs), nowMs);
-  }
-}
-
-/** The topics that report the robot's pose and state. */
-class StateTopics {
-  readonly world = new WorldState();
-  /** When the robot's pose last came, ms on the robot's clock. */
-  measuredMs: number | null = null;
-  onFault: ((fault: RosFault) => void) | null = null;
-  onReading: ((reading: TopicReading) => void) | null = null;
-  readonly #listeners: Listener[];
-  readonly #navigation: NavigationTopic[] = [];
-  readonly #retries = new RateLimit(RETRIES);
-  /** What {@link #tell} was given before {@link start}. */
-  #early: Map<string, TopicReading> | null = new Map();
-
-  constructor(graph: RosGraph, topics: TopicTable, clock: RosClock) {
-    const poseRole = topicAs(topics, 'pose') === undefined ? 'tf' : 'pose';
-    this.#listeners = topics
-      .filter((entry) => isHeard(entry))
-      .map((entry) => this.#listen(graph, entry, clock, poseRole));
+  /** @param stampedMs `null` without a stamp */
+  #placed(frameId: string, stampedMs: number | null, capturedAtMs: number, nowMs: number) {
+    const mount = this.#mount;
+    const { cameraPose, base, mount: told } = this.#state.world.place(frameId, stampedMs, this.#axes, mount);
+    if (!this.#state.hasPoses) return { cameraPose, capturedAtMs };
+    const dispute = mount === null || told === null ? null : mountDispute(mount, told);
+    if (dispute !== null)
+      this.#tell(
+        new RosFault('bad-cloud', `guard.mount and tf disagree about where ${frameId} sits: by ${dispute}`, {
+          ...{ topic: this.#topic, remedy: 'correct the one that is wrong, or leave tf out' },
+        }),
+        nowMs,
+      );
+    return { cameraPose, capturedAtMs, base: dispute === null ? (base ?? 'unknown') : 'disputed' } as const;
   }
 
-  /** The callbacks are set. */
-  start(): void {
-    const early = this.#early ?? new Map<string, TopicReading>();
-    this.#early = null;
-    for (const reading of early.values()) this.onReading?.(reading);
+  /** What comes with every message is told now and then. */
+  #tell(fault: RosFault, nowMs: number): void {
+    if (this.#faults.admits(fault.message, nowMs)) this.onFault?.(fault);
   }
-
-  close(): void {
-    for (const listener of this.#listeners) listener.close();
-  }
-
-  /** @param poseRole of the topics that say where the robot is */
-  #listen(graph: RosGraph, entry: TopicEntry, clock: RosClock, poseRole: 'pose' | 'tf'): Listener {
-    const { topic: name, type, as } = entry;
-    const onFault = (fault: RosFault) => this.onFault?.(fault);
-    const reading = ReadingTopic.is(entry) ? new ReadingTopic(entry) : null;
-    const navigation = NavigationTopic.is(entry) ? new NavigationTopic(entry) : null;
-    if (navigation !== null) this.#navigation.push(navigation);
-    const model = ModelTopic.is(entry) ? new ModelTopic(entry) : null;
-    const limited = reading?.readsAll !== true && as !== 'joints';
-    return listen(graph, entry, { queue: STATE_QUEUE, limited, onFault }, (message) => {
-      if (STATE_ROLES.includes(as)) this.world.take({ name, type }, message);
-      if (as === poseRole) this.measuredMs = clock.now();
-      const told = reading?.take(message, clock.now()) ?? null;
-      if (told !== null) this.onReading?.(told);
-      const shown = model?.take(message, clock.now()) ?? null;
-      if (shown !== null) this.#tell(shown);
-      if (navigation !== null) this.#tell(navigation.take(message, this.#framePose));
-      else if (as === 'tf' || as === 'pose') this.#retryNavigation(clock.now());
-    });
-  }
-
-  readonly #framePose = (frameId: string, stampNs: bigint) => this.world.framePose(frameId, stampNs);
-
-  #retryNavigation(nowMs: number): void {
-    if (!this.#navigation.some(({ waits }) => waits) || !this.#retries.admits(nowMs)) return;
-    for (const topic of this.#navigation) {
-      const told = topic.retry(this.#framePose);
-      if (told !== null) this.#tell(told);
-    }
-  }
-
-  /** What may come once only: it is kept until {@link start}. */
-  #tell(reading: TopicReading): void {
-    if (this.#early === null) this.onReading?.(reading);
-    else this.#early.set(reading.topic, reading);
-  }
-}
-
-function isHeard(entry: TopicEntry): boolean {
-  return STATE_ROLES.includes(entry.as) || SPOKEN.some((kind) => kind.is(entry));
 }
 
 /** @throws {RosFault} if the table has no clouds */

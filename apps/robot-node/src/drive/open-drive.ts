@@ -10,7 +10,7 @@ import {
 } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import type { RobotAudit } from '../audit/robot-audit.ts';
-import type { TimedBaseState } from '../base/base.ts';
+import { BaseOdometry } from '../base/base-odometry.ts';
 import { monotonicMs } from '../clock.ts';
 import type { FixPosition } from '../geofence/fix-position.ts';
 import { type FenceOptions, openGeofence } from '../geofence/open-geofence.ts';
@@ -53,8 +53,6 @@ export interface DriveParts {
   /** Simulated wheels; `null` for real ones. */
   base: object | null;
   obstacles: ObstacleStation;
-  /** The newest of the base; `null` before the first. */
-  state: () => TimedBaseState | null;
   /** All operators. */
   heard: () => Iterable<HeardOperator | null | undefined>;
   /** Counts the beginning of each intervention. */
@@ -65,6 +63,8 @@ export interface DriveParts {
 /** Between the operators' commands and the wheels. */
 export interface Drive {
   station: DriveStation;
+  /** Where the robot is: it takes what the base reports. */
+  odometry: BaseOdometry;
   estop: EstopJournal;
   status: MotionStatus;
   /** Takes the robot's readings, where the fence needs a satellite receiver's; `null` if it does not. */
@@ -81,8 +81,10 @@ export interface Drive {
  */
 export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
   const { limits, motion, takePolicy, estopRelease, afterGap, resumeWithinMs } = options;
-  const { base, sink, recording, audit, obstacles, state, heard, count, log } = parts;
-  const fence = options.fence == null ? null : openGeofence(options.fence, state, base !== null);
+  const { base, sink, recording, audit, obstacles, heard, count, log } = parts;
+  const odometry = new BaseOdometry(limits, base !== null);
+  const fence =
+    options.fence == null ? null : openGeofence(options.fence, () => odometry.believed, base !== null);
   const letGo = afterGap === 'let-go';
   const guard = new DriveGuard({
     ...{ limits, takePolicy, estopRelease, randomBytes: (bytes) => randomBytes(bytes) },
@@ -95,7 +97,7 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
     options.returns === undefined
       ? null
       : new ReturnStation(options.returns, {
-          ...{ limits, lookout: obstacles, isSimulated: base !== null, audit, log },
+          ...{ limits, lookout: obstacles, audit, log },
         });
   const supervisor = new MotionSupervisor(guard, {
     ramps,
@@ -115,6 +117,7 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
     supervisor,
     (twist) => {
       sink.apply(twist, guard.estopState().latched);
+      odometry.told(twist, monotonicMs());
       recording?.velocity(twist);
     },
     monotonicMs,
@@ -123,6 +126,7 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
   if (obstacles.topics !== null) obstacles.topics.onChange = () => station.apply();
   return {
     station,
+    odometry,
     estop: openJournal(guard, options, audit, log),
     status: new MotionStatus(
       supervisor,
@@ -133,9 +137,8 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
     fix: fence?.fix ?? null,
     returns,
     tick: () => {
-      const newest = state();
-      obstacles.update(newest, guard.leaseHolder !== null || returns?.drive.isActive === true);
-      if (returns?.update(newest, newestHeardMs(heard())) === true) station.apply();
+      obstacles.update(odometry, guard.leaseHolder !== null || returns?.drive.isActive === true);
+      if (returns?.update(odometry, newestHeardMs(heard())) === true) station.apply();
     },
   };
 }

@@ -18,9 +18,19 @@ export class FixPosition {
     return this.#place;
   }
 
-  /** Takes any reading of the robot. @param atMs when it came, robot's clock */
-  take({ topic, numbers }: Pick<TopicReading, 'topic' | 'numbers'>, atMs: number): void {
-    if (topic !== this.#topic) return;
+  /**
+   * Takes any reading of the robot. One of which nobody can tell when it was measured, or which is older than the newest, is
+   * left out.
+   *
+   * @param receivedMs robot's clock
+   */
+  take(
+    { topic, numbers, measuredMs }: Pick<TopicReading, 'topic' | 'numbers' | 'measuredMs'>,
+    receivedMs: number,
+  ): void {
+    if (topic !== this.#topic || measuredMs === null) return;
+    const atMs = measuredMs ?? receivedMs;
+    if (this.#place !== null && atMs < this.#place.atMs) return;
     const [latitude, longitude] = numbers ?? [];
     if (typeof latitude !== 'number' || typeof longitude !== 'number') {
       this.#place = null;

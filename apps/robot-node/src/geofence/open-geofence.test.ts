@@ -2,6 +2,7 @@ import { type Twist, zeroTwist } from '@farpoint/protocol';
 import { defaultGeofenceOptions, EarthFrame } from '@farpoint/safety';
 import { describe, expect, test } from 'vitest';
 import type { TimedBaseState } from '../base/base.ts';
+import { BaseOdometry } from '../base/base-odometry.ts';
 import { openGeofence } from './open-geofence.ts';
 
 const fence = { allowed: [], forbidden: [], slow: [], radiusM: 3 };
@@ -29,8 +30,18 @@ describe('by odometry', () => {
 
   test('another base must say when it was there', () => {
     expect(factor(state(0), false)).toBe(0);
+    expect(factor(state(0, { measuredMs: null }), false)).toBe(0);
     expect(factor(state(0, { measuredMs: 990 }), false)).toBe(1);
     expect(factor(state(0, { measuredMs: 400 }), false)).toBe(0);
+  });
+
+  test('a velocity that nobody measures is the one that the wheels were told', () => {
+    const odometry = new BaseOdometry({ maxLinear: 1, maxAngular: 1 }, false);
+    odometry.take(state(1.8, { measuredMs: 1000, twist: null }));
+    const { geofence } = openGeofence(options, () => odometry.believed, false);
+    expect(geofence.bound(zeroTwist(), 1010).factor).toBe(1);
+    odometry.told({ ...zeroTwist(), linear: { x: 1, y: 0, z: 0 } }, 1000);
+    expect(geofence.bound(zeroTwist(), 1010)).toMatchObject({ factor: 0, urgent: true });
   });
 });
 
@@ -53,5 +64,19 @@ describe('by satellites', () => {
     expect(bound().factor).toBe(0);
     fix?.take({ topic: '/fix', numbers: [48, 11, null] }, 400);
     expect(bound().factor).toBe(0);
+  });
+
+  test('a position counts as old as it is, and not at all where nobody can tell', () => {
+    const { geofence, fix } = open();
+    const factor = () => geofence.bound(ahead, 1010).factor;
+    fix?.take({ topic: '/fix', numbers: [48, 11, null], measuredMs: null }, 1000);
+    expect(factor()).toBe(0);
+    fix?.take({ topic: '/fix', numbers: [48, 11, null], measuredMs: 400 }, 1000);
+    expect(factor()).toBe(0);
+    fix?.take({ topic: '/fix', numbers: [48, 11, null], measuredMs: 900 }, 1000);
+    expect(factor()).toBe(1);
+    // One that was overtaken.
+    fix?.take({ topic: '/fix', numbers: [48, 11 + 9, null], measuredMs: 800 }, 1005);
+    expect(factor()).toBe(1);
   });
 });

@@ -25,7 +25,7 @@ export interface OpenedGeofence {
 }
 
 /**
- * @param state gives the newest of the base; `null` before the first
+ * @param state gives the newest of the base, as far as it is believed; `null` if nobody can tell where the robot is
  * @param isSimulated whether the base is simulated: then its state was measured at its time. Others say when, or their
  *   position is unknown
  */
@@ -53,15 +53,15 @@ function poseOf(
   errorM: number,
   isSimulated: boolean,
 ): FencePose | null {
-  const atMs = measuredMs ?? (isSimulated ? timeMs : null);
+  const atMs = measuredMs === undefined && isSimulated ? timeMs : (measuredMs ?? null);
   if (atMs === null) return null;
   const { x: qx, y: qy, z: qz, w: qw } = pose.orientation;
   return {
     x: pose.position.x,
     y: pose.position.y,
     yaw: Math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz)),
-    linear: twist.linear.x,
-    angular: twist.angular.z,
+    linear: twist?.linear.x ?? 0,
+    angular: twist?.angular.z ?? 0,
     ...{ errorM, atMs },
   };
 }

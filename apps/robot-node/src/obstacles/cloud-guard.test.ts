@@ -17,7 +17,7 @@ const world = officeWorld();
 
 function optionsFor(kind: 'sim' | 'sim-lidar'): CloudGuardOptions {
   const source = kind === 'sim' ? { kind, seed: 1, size: 240 } : { kind, seed: 1 };
-  const mount = mountOf(source, null)!;
+  const mount = mountOf(source)!;
   const memory = makeSharedGrid(SHAPE);
   return { memory, shape: SHAPE, mount, odometry: true, clearanceM: 0.04, heightM: 1.1, dropM: 0.15 };
 }

@@ -65,13 +65,14 @@ export class CloudGuard implements Disposable {
     this.#blankFloor = looks ? new BlankFloor({ ...camera, width, height }, mount, shape) : null;
   }
 
-  /** Judges a cloud and hands the grid on. */
+  /** Judges a cloud and hands the grid on: around base_link if it is not known where that was. */
   take(frame: SourceFrame): void {
     const beganMs = monotonicMs();
     const { shape, odometry, mount } = this.#options;
     const { side, cellM } = shape;
-    const placed = odometry && frame.cameraPose !== STATIC_CAMERA_POSE;
-    const base = placed ? compose(frame.cameraPose, this.#fromOptical) : ORIGIN;
+    const known = odometry ? this.#baseOf(frame) : null;
+    const placed = known !== null;
+    const base = known ?? ORIGIN;
     // A robot on a ramp has its floor with it: only its heading counts.
     const { z, w } = base.orientation;
     const length = Math.hypot(z, w) || 1;
@@ -103,10 +104,16 @@ export class CloudGuard implements Disposable {
       this.#blankFloor?.mark(frame.depth, { x: within.x, y: within.y, yaw }, grid.classes);
     }
     this.#writer.write({
-      ...{ capturedAtMs: frame.capturedAtMs, placed, classes: grid.classes },
+      ...{ capturedAtMs: frame.capturedAtMs, placed, disputed: frame.base === 'disputed' },
+      classes: grid.classes,
       ...{ firstX: cells[0] - side / 2, firstY: cells[1] - side / 2 },
       tookMs: monotonicMs() - beganMs,
     });
+  }
+
+  #baseOf({ base, cameraPose }: SourceFrame): Pose | null {
+    if (base !== undefined) return typeof base === 'string' ? null : base;
+    return cameraPose === STATIC_CAMERA_POSE ? null : compose(cameraPose, this.#fromOptical);
   }
 
   [Symbol.dispose](): void {

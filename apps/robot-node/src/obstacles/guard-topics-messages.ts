@@ -39,7 +39,7 @@ export interface GuardTopicsSetup {
 
 export type GuardTopicsRequest =
   /** Odometry came. */
-  { type: 'pose'; pose: FloorPose; twist: Readonly<Twist>; atMs: number } | { type: 'close' };
+  { type: 'pose'; pose: FloorPose; twist: Readonly<Twist> | null; atMs: number } | { type: 'close' };
 
 export type GuardTopicsReport =
   /** The collision topic demands something else than before: look at once. */

@@ -37,7 +37,7 @@ function scanOf(range: number) {
 const THREAD = new URL('../testing/ending-guard-worker.ts', import.meta.url);
 const BAND = { clearanceM: 0.04, heightM: 1.1 };
 const CONFIGURATION: ObstacleGuardConfiguration = {
-  ...{ mode: 'auto', footprint: Footprint.disc(0.25).corners, mount: null },
+  ...{ mode: 'auto', footprint: Footprint.disc(0.25).corners },
   brakes: { linear: 2, angular: 3 },
   ...{ ...BAND, dropM: 0.15, marginM: 0.1, unseenMps: 0.3, scansShowFloor: true },
 };
@@ -76,9 +76,8 @@ describe('the guard’s topics', { skip: !isAvailable(), timeout: 30_000 }, () =
     const station = open();
     ending.push(() => station.close());
     const publishing = setInterval(() => {
-      const pose = { position: { x: 2, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
-      const timeMs = monotonicMs();
-      station.update({ pose, twist: zeroTwist(), battery: null, contact: false, timeMs }, true);
+      const newest = { pose: { x: 2, y: 0, yaw: 0 }, twist: zeroTwist(), measuredMs: monotonicMs() };
+      station.update({ newest, jumps: { count: 0, lastMs: Number.NEGATIVE_INFINITY } }, true);
       if (range !== null) scans.publish(messageBytes(2, SCAN, scanOf(range)));
       if (most !== null) demands.publish(messageBytes(2, FLOAT, { data: most }));
     }, 50);

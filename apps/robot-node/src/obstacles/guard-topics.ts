@@ -97,7 +97,7 @@ export class GuardTopics {
   }
 
   /** Odometry came. */
-  moved(pose: FloorPose, twist: Readonly<Twist>, atMs: number): void {
+  moved(pose: FloorPose, twist: Readonly<Twist> | null, atMs: number): void {
     if (this.topics.length > 0) this.#post({ type: 'pose', pose, twist, atMs });
   }
 

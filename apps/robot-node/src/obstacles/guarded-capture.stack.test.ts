@@ -8,9 +8,10 @@ import { monotonicMs } from '../clock.ts';
 import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
 import { guardedSensors, type ObstacleGuardConfiguration } from './guarded-sensors.ts';
 import { ObstacleStation } from './obstacle-station.ts';
+import { opticalMount } from './sensor-mount.ts';
 
 const CONFIGURATION: ObstacleGuardConfiguration = {
-  ...{ mode: 'auto', footprint: Footprint.disc(0.25).corners, mount: null },
+  ...{ mode: 'auto', footprint: Footprint.disc(0.25).corners },
   brakes: { linear: 2, angular: 3 },
   ...{ clearanceM: 0.04, heightM: 1.1, dropM: 0.15, marginM: 0.1, unseenMps: 0.3 },
 };
@@ -41,15 +42,16 @@ it('clouds of every sensor are judged while somebody drives, although nobody wat
   expect(station.state(monotonicMs())).toBe('blind');
   expect(station.bound(wish, monotonicMs())).toMatchObject({ factor: 0.3, urgent: false });
 
-  station.update(null, true);
+  const nothing = { newest: null, jumps: { count: 0, lastMs: Number.NEGATIVE_INFINITY } };
+  station.update(nothing, true);
   // Odometry comes as well, as from a robot that stands at the start.
-  const pose = { position: { x: 3, y: 6, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
+  const pose = { x: 3, y: 6, yaw: 0 };
   const silent = () => station.bound(wish, monotonicMs()).reason === 'sensor-silent';
   await expect
     .poll(
       () => {
         const timeMs = monotonicMs();
-        station.update({ pose, twist: zeroTwist(), battery: null, contact: false, timeMs }, true);
+        station.update({ ...nothing, newest: { pose, twist: zeroTwist(), measuredMs: timeMs } }, true);
         return [station.state(timeMs), silent()];
       },
       { timeout: 10_000 },
@@ -57,7 +59,7 @@ it('clouds of every sensor are judged while somebody drives, although nobody wat
     .toEqual(['on', false]);
   expect(frames).toEqual([]);
 
-  station.update(null, false);
+  station.update(nothing, false);
   await expect.poll(() => station.state(monotonicMs()), { timeout: 5000 }).toBe('blind');
 }, 30_000);
 
@@ -69,7 +71,8 @@ it('a robot whose sensor sits nobody knows where has no guard, and bounds nothin
   const station = new ObstacleStation({ configuration: CONFIGURATION, grids, captures: [] });
   expect(station.state(0)).toBe('off');
   expect(station.bound({ ...zeroTwist(), linear: { x: 1, y: 0, z: 0 } }, 0).factor).toBe(1);
-  const known = { ...CONFIGURATION, mount: { x: 0, y: 0, z: 1, roll: 0, pitch: 0, yaw: 0 } };
-  expect(guardedSensors(unknown, known).grids.length).toBe(1);
-  expect(guardedSensors(SENSORS, { ...known, mode: 'off' }).grids).toEqual([]);
+  const mount = opticalMount({ x: 0, y: 0, z: 1, roll: 0, pitch: 0, yaw: 0 });
+  const known = [{ ...SENSORS[0]!, capture: { ...CAPTURE, sensor: 0, source: { ...source, mount } } }];
+  expect(guardedSensors(known, CONFIGURATION).grids.length).toBe(1);
+  expect(guardedSensors(SENSORS, { ...CONFIGURATION, mode: 'off' }).grids).toEqual([]);
 });

@@ -5,7 +5,7 @@ import type { SourceOptions } from '../capture/open-source.ts';
 import { lidarHeight } from '../capture/sim-lidar-source.ts';
 import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
 import type { GuardTopicsOptions } from './guard-topics-messages.ts';
-import { opticalMount, type SensorMount } from './sensor-mount.ts';
+import { opticalMount } from './sensor-mount.ts';
 import { type GridShape, makeSharedGrid, SharedGridReader } from './shared-grid.ts';
 
 /** The obstacle guard as configured. Lengths in metres, speeds in m/s. */
@@ -18,8 +18,6 @@ export interface ObstacleGuardConfiguration {
   dropM: number;
   marginM: number;
   unseenMps: number;
-  /** Where the main sensor sits, if it is not simulated; `null`: not known. */
-  mount: SensorMount | null;
   /** How hard the base brakes: m/s² and rad/s². */
   brakes: { linear: number; angular: number };
   /** The topics of the robot's ROS graph that bound its motion as well. */
@@ -44,6 +42,8 @@ export interface GuardedSensors {
   sensors: readonly CloudSensorOptions[];
   /** One for each guarded sensor; empty if the guard is off. */
   grids: readonly GuardedGrid[];
+  /** Whether something is to say where the robot is. */
+  odometry: boolean;
 }
 
 /** The guard's end of a grid. */
@@ -61,11 +61,11 @@ export function guardedSensors(
   configuration: ObstacleGuardConfiguration,
 ): GuardedSensors {
   const { mode, clearanceM, heightM, dropM, blankIsMissing = false } = configuration;
-  if (mode === 'off') return { sensors, grids: [] };
+  if (mode === 'off') return { sensors, grids: [], odometry: false };
   const grids: GuardedGrid[] = [];
   const guarded = sensors.map((sensor) => {
     const { source } = sensor.capture;
-    const mount = mountOf(source, configuration.mount);
+    const mount = mountOf(source);
     if (mount === null) return sensor;
     const common = { shape: GRID_SHAPE, odometry: hasOdometry(source), clearanceM, heightM, dropM };
     const gridOf = (looks?: string): SharedArrayBuffer => {
@@ -83,16 +83,20 @@ export function guardedSensors(
     const guard = { clouds, floor };
     return { ...sensor, capture: { ...sensor.capture, guard } };
   });
-  return { sensors: guarded, grids };
+  // A producer in shared memory may know no poses.
+  const odometry = guarded.some(
+    ({ capture: { source, guard } }) => guard !== undefined && source.kind !== 'shm' && hasOdometry(source),
+  );
+  return { sensors: guarded, grids, odometry };
 }
 
 /** The pose of a sensor's optical frame in base_link; `null` if nobody knows. */
-export function mountOf(source: SourceOptions, configured: SensorMount | null): Pose | null {
+export function mountOf(source: SourceOptions): Pose | null {
   if (source.kind === 'sim') return simMount({});
   if (source.kind === 'sim-lidar') {
     return opticalMount({ x: 0, y: 0, z: lidarHeight(source.index), roll: 0, pitch: 0, yaw: 0 });
   }
-  return configured === null ? null : opticalMount(configured);
+  return source.mount ?? null;
 }
 
 /** Where a simulated camera sits. */

@@ -24,7 +24,7 @@ it('a low thing 0.3 m before the robot, which the camera sees no longer, is told
   const base = new SimulatedBase(world);
   const camera = await SimulatedCamera.create({ world, seed: 1, camera: { width: SIZE, height: SIZE } });
   const { fx, fy, cx, cy } = camera.intrinsics;
-  const mount = mountOf({ kind: 'sim', seed: 1, size: SIZE }, null)!;
+  const mount = mountOf({ kind: 'sim', seed: 1, size: SIZE })!;
   const memory = makeSharedGrid(GRID_SHAPE);
   using clouds = new CloudGuard(
     codec,

@@ -10,12 +10,13 @@ import {
   Footprint,
   FREE,
   type Lookout,
+  type MeasuredMotion,
   type MotionBound,
   type MotionGuard,
   ObstacleGuard,
 } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
-import type { TimedBaseState } from '../base/base.ts';
+import type { BaseOdometry } from '../base/base-odometry.ts';
 import type { Capture } from '../capture/capture.ts';
 import type { GuardReport } from './guard-report.ts';
 import { GuardTopics } from './guard-topics.ts';
@@ -30,6 +31,8 @@ import type { SharedGridReader } from './shared-grid.ts';
 export interface ObstacleStationOptions {
   configuration: ObstacleGuardConfiguration;
   grids: GuardedSensors['grids'];
+  /** Whether something is to say where the robot is; default: nothing. */
+  odometry?: boolean;
   /** All of the robot's sensors. */
   captures: readonly Pick<Capture, 'guard'>[];
   /** Their names. */
@@ -45,12 +48,13 @@ export class ObstacleStation implements MotionGuard, Lookout {
   readonly #options: ObstacleStationOptions;
   /** `null` if it is off. */
   readonly #guard: ObstacleGuard | null;
-  #state: TimedBaseState | null = null;
+  #moved: MeasuredMotion | null = null;
+  #jumps = 0;
   #driven = false;
   #reason: Intervention | null = null;
 
   constructor(options: ObstacleStationOptions) {
-    const { configuration, grids, topics = null } = options;
+    const { configuration, grids, topics = null, odometry = false } = options;
     const { footprint, marginM, unseenMps, brakes, scansShowFloor = false } = configuration;
     this.#options = options;
     this.topics = topics;
@@ -62,6 +66,7 @@ export class ObstacleStation implements MotionGuard, Lookout {
         ? null
         : new ObstacleGuard(new Footprint(footprint), sensors, {
             ...{ marginM, unseenMps, emergency: brakes, planes, planesShowFloor: scansShowFloor },
+            odometry,
             // Before it must brake hard, it slows down more gently.
             braking: { linear: brakes.linear / 2, angular: (brakes.angular * 2) / 3 },
           });
@@ -113,21 +118,21 @@ export class ObstacleStation implements MotionGuard, Lookout {
   }
 
   /**
-   * Called often, with the newest state of the base.
+   * Called often, with where the robot is.
    *
    * @param driven whether somebody drives: only then is every cloud judged, and are clouds captured for the guard alone
    */
-  update(state: TimedBaseState | null, driven: boolean): void {
+  update({ newest, jumps }: Pick<BaseOdometry, 'jumps' | 'newest'>, driven: boolean): void {
     if (this.#guard === null) return;
-    if (state !== null && state !== this.#state) {
-      this.#state = state;
-      const { twist, timeMs, measuredMs } = state;
-      const { x, y, z, w } = state.pose.orientation;
-      const yaw = Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
-      const pose = { x: state.pose.position.x, y: state.pose.position.y, yaw };
-      this.#guard.moved(pose, twist, measuredMs ?? timeMs);
-      this.topics?.moved(pose, twist, measuredMs ?? timeMs);
+    if (jumps.count !== this.#jumps) this.#guard.jumped(jumps.lastMs);
+    this.#jumps = jumps.count;
+    if (newest === null && this.#moved !== null) this.#guard.lost();
+    if (newest !== null && newest !== this.#moved) {
+      const { pose, twist, measuredMs } = newest;
+      this.#guard.moved(pose, twist, measuredMs);
+      this.topics?.moved(pose, twist, measuredMs);
     }
+    this.#moved = newest;
     if (driven === this.#driven) return;
     this.#driven = driven;
     for (const { sensor } of this.#options.grids) this.#options.captures[sensor]?.guard(driven);

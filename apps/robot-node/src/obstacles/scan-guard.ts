@@ -2,7 +2,7 @@
 import { laserScanSchema, stampNs } from '@farpoint/ros';
 import { type FloorPose, type PoseTrack, ScanGrid } from '@farpoint/safety';
 import type { RosClock } from '../ros/capture-time.ts';
-import { StampClock } from '../ros/stamp-clock.ts';
+import { StampClock, stampRefusals } from '../ros/stamp-clock.ts';
 import { bodyMount, type SensorMount } from './sensor-mount.ts';
 import { type GridShape, SharedGridWriter } from './shared-grid.ts';
 
@@ -46,12 +46,13 @@ export class ScanGuard {
    * Judges a message and hands the grid on. A scan without any measurement, one that came before, and one of which nobody
    * knows where it was taken give none: without grids, the scanner counts as silent.
    *
-   * @param receivedMs robot's clock @throws {Error} if it is no valid scan
+   * @param receivedMs robot's clock @throws {Error} if it is no valid scan, or its stamp is refused
    */
   take(message: unknown, receivedMs: number): void {
     const scan = laserScanSchema.parse(message);
-    const capturedAtMs = this.#stamps.capturedAtMs(stampNs(scan.header.stamp), receivedMs);
-    if (capturedAtMs === null) return;
+    const capturedAtMs = this.#stamps.inOrder('', stampNs(scan.header.stamp), receivedMs);
+    if (capturedAtMs === 'repeated') return;
+    if (typeof capturedAtMs === 'string') throw new Error(stampRefusals[capturedAtMs]);
     const beganMs = this.#clock.now();
     const { odometry, shape } = this.#options;
     const sweepS = scan.time_increment * (scan.ranges.length - 1);

@@ -11,7 +11,7 @@ import { SensorGuard } from './sensor-guard.ts';
 
 const SIZE = 240;
 const CONFIGURATION: ObstacleGuardConfiguration = {
-  ...{ mode: 'auto', footprint: [], mount: null, brakes: { linear: 2, angular: 3 } },
+  ...{ mode: 'auto', footprint: [], brakes: { linear: 2, angular: 3 } },
   ...{ clearanceM: 0.04, heightM: 1.1, dropM: 0.15, marginM: 0.15, unseenMps: 0.3, blankIsMissing: true },
 };
 const NOW_MS = 1000;

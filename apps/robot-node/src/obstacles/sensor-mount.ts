@@ -1,5 +1,5 @@
 /** Where a sensor sits on the robot. */
-import { multiply, type Pose, type Quaternion } from '@farpoint/protocol';
+import { compose, inverse, multiply, type Pose, type Quaternion } from '@farpoint/protocol';
 
 /** The pose of a sensor's body frame (x forward, y left, z up) in base_link: metres and radians, fixed axes. */
 export interface SensorMount {
@@ -29,4 +29,17 @@ export function bodyMount({ x, y, z, roll, pitch, yaw }: SensorMount): Pose {
 export function opticalMount(mount: SensorMount): Pose {
   const { position, orientation } = bodyMount(mount);
   return { position, orientation: multiply(orientation, OPTICAL_IN_BODY) };
+}
+
+/** Two that say where a sensor sits may differ by so much: metres, radians. */
+const MOST_OFF_M = 0.02;
+const MOST_TURNED = Math.PI / 180;
+
+/** By what two poses of one sensor differ, for people; `null` if they agree. */
+export function mountDispute(one: Pose, other: Pose): string | null {
+  const { position, orientation } = compose(inverse(one), other);
+  const offM = Math.hypot(position.x, position.y, position.z);
+  const turned = 2 * Math.acos(Math.min(1, Math.abs(orientation.w)));
+  if (offM <= MOST_OFF_M && turned <= MOST_TURNED) return null;
+  return `${Math.round(offM * 100)} cm and ${Math.round((turned * 180) / Math.PI)}°`;
 }

@@ -9,7 +9,7 @@ function shared() {
   return { writer: new SharedGridWriter(memory, SHAPE), reader: new SharedGridReader(memory, SHAPE) };
 }
 const grid = (n: number) => ({
-  ...{ capturedAtMs: n, placed: n % 2 === 0, firstX: -n, firstY: n },
+  ...{ capturedAtMs: n, placed: n % 2 === 0, disputed: n % 3 === 0, firstX: -n, firstY: n },
   classes: new Uint8Array(36).fill(n),
 });
 const written = (n: number) => ({ ...grid(n), tookMs: n / 10 });

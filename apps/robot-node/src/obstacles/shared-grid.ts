@@ -9,8 +9,8 @@ const HEADER_BYTES = 8;
 const SLOTS = 3;
 const SLOT_MASK = 3;
 const FRESH = 4;
-/** Capture time, placed, first cell's x and y, and how long it took to make. */
-const FACTS = 5;
+/** Capture time, placed, first cell's x and y, how long it took to make, and disputed. */
+const FACTS = 6;
 
 export interface GridShape {
   side: number;
@@ -51,9 +51,9 @@ export class SharedGridWriter {
   }
 
   /** @param grid with the time that it took to make it, ms */
-  write({ capturedAtMs, placed, firstX, firstY, classes, tookMs }: WrittenGrid): void {
+  write({ capturedAtMs, placed, firstX, firstY, classes, tookMs, disputed = false }: WrittenGrid): void {
     const slot = this.#slots[this.#own] as ReturnType<typeof slotsOf>[number];
-    slot.facts.set([capturedAtMs, placed ? 1 : 0, firstX, firstY, tookMs]);
+    slot.facts.set([capturedAtMs, placed ? 1 : 0, firstX, firstY, tookMs, disputed ? 1 : 0]);
     slot.classes.set(classes);
     this.#own = Atomics.exchange(this.#state, 0, this.#own | FRESH) & SLOT_MASK;
   }
@@ -79,11 +79,12 @@ export class SharedGridReader {
     if ((Atomics.load(this.#state, 0) & FRESH) === 0) return null;
     this.#own = Atomics.exchange(this.#state, 0, this.#own) & SLOT_MASK;
     const { facts, classes } = this.#slots[this.#own] as ReturnType<typeof slotsOf>[number];
-    const [capturedAtMs, placed, firstX, firstY, tookMs] = facts as unknown as [
-      ...[number, number, number, number, number],
+    const [capturedAtMs, placed, firstX, firstY, tookMs, disputed] = facts as unknown as [
+      ...[number, number, number, number, number, number],
     ];
     this.count.grids++;
     this.count.lastMs = tookMs;
-    return { ...this.#shape, capturedAtMs, placed: placed === 1, firstX, firstY, classes };
+    const is = { placed: placed === 1, disputed: disputed === 1 };
+    return { ...this.#shape, capturedAtMs, ...is, firstX, firstY, classes };
   }
 }

@@ -1,5 +1,7 @@
 import { resolveOptions } from '@farpoint/service';
 import { describe, expect, it } from 'vitest';
+import { mountOf } from '../obstacles/guarded-sensors.ts';
+import { opticalMount } from '../obstacles/sensor-mount.ts';
 import { toRobotOptions } from './robot-options.ts';
 import { robotProgram } from './robot-program.ts';
 
@@ -10,14 +12,15 @@ function options(...argv: string[]) {
 function optionsIn(yaml: string, ...argv: string[]) {
   const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => yaml });
   if (resolved.action !== 'run') throw new Error(resolved.action);
-  return toRobotOptions(resolved.values, resolved.where).obstacleGuard;
+  const { obstacleGuard, sensors } = toRobotOptions(resolved.values, resolved.where);
+  return { ...obstacleGuard, mount: sensors[0] && mountOf(sensors[0].capture.source) };
 }
 
 describe('the options of the obstacle guard', () => {
   it('are those of the simulated robot by default', () => {
-    const { mode, footprint, mount, marginM, blankIsMissing } = options();
+    const { mode, footprint, marginM, blankIsMissing } = options();
     expect([blankIsMissing, options('--guard-blank-floor', 'unseen').blankIsMissing]).toEqual([true, false]);
-    expect([mode, mount, marginM]).toEqual(['auto', null, 0.15]);
+    expect([mode, marginM]).toEqual(['auto', 0.15]);
     expect(footprint.length).toBe(24);
   });
 
@@ -30,9 +33,12 @@ describe('the options of the obstacle guard', () => {
       { x: 0.4, y: -0.3 },
     ]);
     expect(Math.hypot(...Object.values(options('--footprint', '0.4').footprint[0]!))).toBeCloseTo(0.4, 1);
-    expect(options('--guard-mount', '0.12,0,0.9,0,0.2,0').mount).toEqual({
-      ...{ x: 0.12, y: 0, z: 0.9, roll: 0, pitch: 0.2, yaw: 0 },
-    });
+    const place = { x: 0.12, y: 0, z: 0.9, roll: 0, pitch: 0.2, yaw: 0 };
+    for (const source of ['shm', 'pcd'])
+      expect(
+        options('--source', source, '--path', 'a.pcd', '--guard-mount', '0.12,0,0.9,0,0.2,0').mount,
+      ).toEqual(opticalMount(place));
+    expect(options('--source', 'shm').mount).toBeNull();
   });
 
   it.each([

@@ -139,7 +139,6 @@ export function toObstacleGuard(
     dropM: values.guardDropM,
     marginM: values.guardMarginM,
     unseenMps: values.guardUnseenMps,
-    mount: guardMount,
     topics,
     blankIsMissing: values.guardBlankFloor === 'missing',
     scansShowFloor: values.guardScanFloor === 'seen',

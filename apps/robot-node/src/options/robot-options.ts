@@ -2,24 +2,19 @@
 import { randomBytes } from 'node:crypto';
 import { join } from 'node:path';
 import { MOST_RESUME_MS } from '@farpoint/protocol';
-import { RosFault, ros1Hostname, type TopicEntry, topicAs } from '@farpoint/ros';
+import { RosFault, type TopicEntry, topicAs } from '@farpoint/ros';
 import { type OptionMistake, OptionsError } from '@farpoint/service';
 import { BitRate } from '@farpoint/timing';
 import { SIM_FIX, SIM_MOTORS } from '../base/sim-topics.ts';
-import type { CaptureOptions } from '../capture/capture-messages.ts';
-import type { SourceOptions } from '../capture/open-source.ts';
 import type { SinkOptions } from '../drive/open-sink.ts';
 import type { RobotOptions, VideoCameraOptions } from '../robot-configuration.ts';
 import { describeTopics, readFrom, sourcedFolders } from '../ros/message-folders.ts';
-import type { GraphOptions } from '../ros/open-graph.ts';
-import type { CloudSensorOptions } from '../sensors/cloud-sensor.ts';
 import { describeQuantities } from '../telemetry/sample-board.ts';
 import { toAlarmRules } from './alarms.ts';
 import { toAudit } from './audit-configuration.ts';
 import { toBroadcast } from './broadcast.ts';
 import { checkAccess } from './check-access.ts';
-import { checkVideos, cloudTrigger } from './check-videos.ts';
-import { framesPerS } from './frame-rate.ts';
+import { checkVideos } from './check-videos.ts';
 import { toObstacleGuard } from './guard.ts';
 import { toGuardTopics } from './guard-topics.ts';
 import { toMotion } from './motion.ts';
@@ -28,8 +23,10 @@ import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { rosKindOf } from './ros-kind.ts';
 import { stateFolder } from './state.ts';
 import { toFence } from './to-fence.ts';
+import { toGraph } from './to-graph.ts';
 import { toModel } from './to-model.ts';
 import { toReturn } from './to-return.ts';
+import { toSensors } from './to-sensors.ts';
 import { toStops } from './to-stops.ts';
 
 /** How messages say where an option's value comes from. */
@@ -149,28 +146,6 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   };
 }
 
-/** The main source of clouds comes first. */
-function toSensors(values: RobotOptionValues, topics: TopicEntry[]): CloudSensorOptions[] {
-  const capture: CaptureOptions = {
-    sensor: 0,
-    source: toSource(values, topics),
-    framesPerSecond: framesPerS(values),
-    plan: values.plan,
-    sampling: { lambda: values.lambda, epsilon: values.epsilon, nearDistance: values.priorityDistance },
-    floorFraction: values.floor,
-    mostPoints: values.maxPoints,
-    picturesOfCloud: values.picturesOfCloud,
-  };
-  const main: CloudSensorOptions = { name: 'Camera', capture, priority: 0, weight: 1 };
-  if (values.source !== 'sim') return [main];
-  const lidars = Array.from({ length: values.simLidars }, (_, index): CloudSensorOptions => {
-    const source: SourceOptions = { kind: 'sim-lidar', seed: values.simSeed, index };
-    const lidar: CaptureOptions = { ...capture, sensor: index + 1, source, picturesOfCloud: false };
-    return { name: index === 0 ? 'LiDAR' : `LiDAR ${index + 1}`, capture: lidar, priority: 1, weight: 1 };
-  });
-  return [main, ...lidars];
-}
-
 function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, detail: string) => void): void {
   const { source, path } = values;
   const played = source === 'recording' || source === 'pcd' || source === 'rgbd';
@@ -190,44 +165,6 @@ function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, de
   if (values.stopTopic !== null && rosKindOf(values) === null)
     refuse('stopTopic', 'needs a ROS graph: neither source nor sink is ROS');
   if (source === 'sim' && values.simSize % 4 !== 0) refuse('simSize', 'must be a multiple of 4');
-}
-
-function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOptions {
-  const path = values.path ?? '';
-  switch (values.source) {
-    case 'sim':
-      return {
-        kind: 'sim',
-        seed: values.simSeed,
-        size: values.simSize,
-        floorCameras: values.simFloor === 'seen',
-        triggerPerS: cloudTrigger(values.videos, framesPerS(values)),
-      };
-    case 'shm':
-      return {
-        kind: 'shm',
-        layout: values.shmLayout,
-        folder: values.shmFolder,
-        owner: values.shmOwner ?? undefined,
-        waitMs: values.shmWaitS * 1000,
-      };
-    case 'recording':
-      return {
-        ...{ kind: 'recording', path, topic: values.topic, rate: values.playRate, fromS: values.playFromS },
-        ...{ atEnd: values.playEnd, axes: values.playAxes, topics, videos: values.playVideos === 'all' },
-        telemetry: values.playTelemetry === 'all',
-      };
-    case 'ros1':
-    case 'ros2':
-      return {
-        ...{ kind: 'ros', graph: toGraph(values, values.source), topics },
-        ...{ axes: values.rosAxes, waitMs: values.rosWaitS * 1000 },
-      };
-    case 'pcd':
-      return { kind: 'pcd', path, frame: values.pcdFrame };
-    case 'rgbd':
-      return { kind: 'rgbd', path };
-  }
 }
 
 function toVideos(values: RobotOptionValues): VideoCameraOptions[] {
@@ -275,26 +212,5 @@ function toSink(values: RobotOptionValues): SinkOptions {
     mode: values.shmAccess === 'group' ? 0o660 : 0o600,
     silenceMs: values.watchdogMs,
     readerRequired: values.shmReader === 'required',
-  };
-}
-
-function toGraph(values: RobotOptionValues, kind: GraphOptions['kind']): GraphOptions {
-  const { env } = process;
-  // Characters that a node name may not contain become _.
-  const name = values.rosName ?? `farpoint_${values.id.replaceAll(/[^A-Za-z0-9_]/g, '_')}`;
-  if (kind === 'ros2') {
-    const { rosDomain, rosInterface, rosPeers, rosReach } = values;
-    return {
-      ...{ kind, name, graph: values.rosGraph },
-      ...(rosDomain === null ? {} : { domain: rosDomain }),
-      ...(rosInterface === null ? {} : { interface: rosInterface }),
-      ...(rosPeers.length === 0 ? {} : { peers: rosPeers }),
-      ...(rosReach === null ? {} : { localhostOnly: rosReach === 'localhost' }),
-    };
-  }
-  return {
-    ...{ kind, name },
-    masterUrl: values.rosMaster ?? (env.ROS_MASTER_URI || 'http://localhost:11311'),
-    hostname: values.rosHostname ?? ros1Hostname(env),
   };
 }

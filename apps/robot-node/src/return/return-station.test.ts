@@ -1,18 +1,18 @@
 import { zeroTwist } from '@farpoint/protocol';
 import { defaultReturnOptions } from '@farpoint/safety';
 import { describe, expect, test } from 'vitest';
-import type { TimedBaseState } from '../base/base.ts';
+import { BaseOdometry } from '../base/base-odometry.ts';
 import { newestHeardMs } from './newest-heard.ts';
 import { ReturnStation } from './return-station.ts';
 
 const FACTS = { driven: false, leased: false, latched: false, wheels: true };
 const TICK_MS = 25;
 
-function at(x: number, timeMs: number, measuredMs?: number): TimedBaseState {
+function at(x: number, timeMs: number) {
   const orientation = { x: 0, y: 0, z: 0, w: 1 };
   return {
     ...{ pose: { position: { x, y: 0, z: 0 }, orientation }, twist: zeroTwist(), battery: null },
-    ...{ contact: false, timeMs, ...(measuredMs === undefined ? {} : { measuredMs }) },
+    ...{ contact: false, timeMs },
   };
 }
 
@@ -27,9 +27,9 @@ function station(isSimulated = true) {
       lookout: { live: () => true, sees: () => true },
       audit: { returned: (...entry) => void audited.push(entry) },
       log: { info: say, warn: say },
-      isSimulated,
     },
   );
+  const odometry = new BaseOdometry({ maxLinear: 1, maxAngular: 1.5 }, isSimulated);
   const robot = { x: 0, nowMs: 0, heardMs: 0 };
   /** @param speed of a driver, m/s; `null`: nobody is there */
   const run = (seconds: number, speed: number | null) => {
@@ -37,7 +37,8 @@ function station(isSimulated = true) {
     for (let t = 0; t < seconds * 1000; t += TICK_MS) {
       robot.nowMs += TICK_MS;
       if (speed !== null) robot.heardMs = robot.nowMs;
-      if (returns.update(at(robot.x, robot.nowMs), robot.heardMs)) stops++;
+      odometry.take(at(robot.x, robot.nowMs));
+      if (returns.update(odometry, robot.heardMs)) stops++;
       const wish = returns.drive.wishAt(robot.nowMs, { ...FACTS, driven: (speed ?? 0) !== 0 });
       robot.x += ((speed ?? wish?.linear.x ?? 0) * TICK_MS) / 1000;
     }

@@ -3,9 +3,8 @@ import type { DriveLimits, ReturnEnd, ReturnState } from '@farpoint/protocol';
 import { type Lookout, ReturnDrive, type ReturnPhase } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import type { RobotAudit } from '../audit/robot-audit.ts';
-import type { TimedBaseState } from '../base/base.ts';
+import type { BaseOdometry } from '../base/base-odometry.ts';
 import { ReasonCounts } from '../telemetry/robot-counters.ts';
-import { measuredPose } from './measured-pose.ts';
 import { ReturnAnnouncer } from './return-announcer.ts';
 import type { ReturnConfiguration } from './return-configuration.ts';
 
@@ -16,8 +15,6 @@ export interface ReturnStationParts {
   /** Of the robot. */
   limits: Pick<DriveLimits, 'maxLinear' | 'maxAngular'>;
   lookout: Lookout;
-  /** Whether the base is simulated: then its state was measured at its time. */
-  isSimulated: boolean;
   audit: Pick<RobotAudit, 'returned'>;
   log: Pick<Logger, 'info' | 'warn'>;
 }
@@ -59,15 +56,14 @@ export class ReturnStation {
   /**
    * Call this every 25 ms.
    *
-   * @param state the newest of the base; `null` before the first
+   * @param odometry where the robot is
    * @param heardMs when any operator was last heard, robot's clock
    * @returns whether the robot must stand at once
    */
-  update(state: TimedBaseState | null, heardMs: number): boolean {
+  update({ newest }: Pick<BaseOdometry, 'newest'>, heardMs: number): boolean {
     const wasActive = this.drive.isActive;
     this.drive.heard(heardMs);
-    const measured = state === null ? null : measuredPose(state, this.#parts.isSimulated);
-    if (measured !== null) this.drive.moved(measured.pose, measured.measuredMs);
+    if (newest !== null) this.drive.moved(newest.pose, newest.measuredMs);
     return wasActive && !this.drive.isActive;
   }
 

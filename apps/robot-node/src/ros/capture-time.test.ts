@@ -26,9 +26,14 @@ describe('the capture time', () => {
     expect(capturedAtMs(clockAt(1040, [7, 3]), stampAt(1000), 1040)).toBeCloseTo(1000, 6);
   });
 
+  it('of an old stamp is old', () => {
+    for (const ageMs of [450, 700, 5000, 3_600_000])
+      expect(capturedAtMs(clockAt(1040), stampAt(1040 - ageMs), 1035)).toBeCloseTo(1040 - ageMs, 4);
+  });
+
   it.each([
     ['from the future', 1050],
-    ['too old', 400],
+    ['of another clock', -100_000_000],
   ])('of a stamp that is %s is the arrival', (_, stamp) => {
     expect(capturedAtMs(clockAt(1040), stampAt(stamp), 1035)).toBe(1035);
   });

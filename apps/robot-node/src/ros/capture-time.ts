@@ -7,8 +7,8 @@ export interface RosClock {
   wallNs(): bigint;
 }
 
-/** An older stamp is from another clock, or from a picture that was delayed. The arrival time is then used, ms. */
-const MOST_AGE_MS = 500;
+/** Older stamps are of another clock, whose messages count as captured when they arrive, ms. */
+const MOST_AGE_MS = 24 * 3600 * 1000;
 
 /** Both clocks are read at once if no more time passes between two readings, ms; and how often that is tried. */
 const AT_ONCE_MS = 0.02;
@@ -18,8 +18,9 @@ const MOST_TRIES = 5;
 export type CaptureTime = (stampNs: bigint, receivedMs: number) => number;
 
 /**
- * The stamp's time if it is recent and on our clock, otherwise the arrival time; ms. Messages of one stamp, a cloud and
- * a picture for example, are of one instant, whenever they arrive.
+ * Of what is only shown, as pictures are: the stamp's time, however old it is; where it lies in the future, or more than a
+ * day back, the arrival, ms. Messages of one stamp, a cloud and a picture for example, are of one instant, whenever they
+ * arrive. `StampClock` judges what the robot's safety rests on.
  */
 export function capturedAtMs(clock: RosClock, stampNs: bigint, receivedMs: number): number {
   const { nowMs, wallNs } = readBoth(clock);
@@ -29,7 +30,7 @@ export function capturedAtMs(clock: RosClock, stampNs: bigint, receivedMs: numbe
 }
 
 /** A thread that loses the processor between the two readings would shift the instant. */
-function readBoth(clock: RosClock): { nowMs: number; wallNs: bigint } {
+export function readBoth(clock: RosClock): { nowMs: number; wallNs: bigint } {
   let before = clock.now();
   for (let tries = 1; ; tries++) {
     const wallNs = clock.wallNs();

@@ -1,53 +1,91 @@
-import { capturedAtMs, type RosClock } from './capture-time.ts';
+/**
+ * When ROS messages were captured, by their stamps: on the robot's clock. A stamp that is old is old, however old; one that
+ * lies ahead of the robot's time of day is refused. Only stamps that lie more than a day back are taken for another clock's,
+ * a simulation's or one that was never set: what is later than the earliest of the last seconds is late by that much.
+ */
+import { type RosClock, readBoth } from './capture-time.ts';
 
+/** By so much clocks that are kept in step may differ, ms. */
+export const MOST_AHEAD_MS = 100;
+/** Localisation says ahead of time where frames will be, ms. */
+const MOST_AHEAD_LOCALISED_MS = 2000;
+/** Stamps that lie farther back are of another clock, ms. */
+const FOREIGN_MS = 24 * 3600 * 1000;
+/** How long another clock is watched before its stamps are believed, ms. */
+const SETTLES_MS = 1000;
 /** The least delay of the last one to two of these counts, ms. */
 const WINDOW_MS = 10_000;
-/** Stamps that go back by more than this are of another clock, ms. */
+/** A source's stamps may go back by less, where messages overtake each other, ms. */
 const RESTART_MS = 1000;
+/** Sources whose order is kept. */
+const MOST_SOURCES = 2048;
 
-/**
- * When what a topic's messages hold was captured, for those who must notice that it arrives late. Stamps of this machine's
- * clock are taken at their word. With another clock, nobody knows the delay, but how much longer it is than the shortest
- * one of the last seconds: a topic that falls behind is noticed, one that is always late is not.
- */
+/** Why a stamp is refused, for people; completes "its stamps …" or stands alone. */
+export const stampRefusals = {
+  ahead: 'its stamps are ahead of this machine’s time of day: keep both clocks in step (chrony, PTP)',
+  missing: 'a message without a stamp after others that had one',
+  repeated: 'a message that is not newer than the one before',
+  unsettled: 'its stamps are of another clock, which is not known yet',
+} as const;
+export type StampRefusal = keyof typeof stampRefusals;
+
+/** The stamps of one graph. */
 export class StampClock {
   readonly #clock: RosClock;
-  #lastNs: bigint | null = null;
-  /** The shortest from stamp to arrival in the present window and in the one before, ms. */
+  readonly #lastNs = new Map<string, bigint>();
+  /** Of the other clock: the shortest from stamp to arrival in the present window and in the one before, ms. */
   #least = Number.POSITIVE_INFINITY;
   #leastBefore = Number.POSITIVE_INFINITY;
   #windowMs = Number.NEGATIVE_INFINITY;
+  #settledMs = Number.POSITIVE_INFINITY;
 
   constructor(clock: RosClock) {
     this.#clock = clock;
   }
 
   /**
+   * When a message was captured, robot's clock, ms; it is never after it was received.
+   *
+   * @param source of which this message must be newer than the last
    * @param receivedMs the robot's clock
-   * @returns when it was captured, robot's clock, ms; `null` for a message that is not newer than the last
    */
-  capturedAtMs(stampNs: bigint, receivedMs: number): number | null {
-    // Some drivers do not stamp.
-    if (stampNs === 0n) return receivedMs;
-    const backMs = this.#lastNs === null ? 0 : Number(this.#lastNs - stampNs) / 1e6;
-    if (this.#lastNs !== null && backMs >= 0) {
-      if (backMs <= RESTART_MS) return null;
-      this.#forget();
+  inOrder(source: string, stampNs: bigint, receivedMs: number): number | StampRefusal {
+    const lastNs = this.#lastNs.get(source);
+    if (stampNs !== 0n && lastNs !== undefined) {
+      const backMs = Number(lastNs - stampNs) / 1e6;
+      if (backMs >= 0 && backMs <= RESTART_MS) return 'repeated';
     }
-    this.#lastNs = stampNs;
-    const offsetMs = receivedMs - Number(stampNs) / 1e6;
-    if (receivedMs - this.#windowMs > WINDOW_MS) {
-      this.#leastBefore = receivedMs - this.#windowMs > 2 * WINDOW_MS ? offsetMs : this.#least;
-      this.#least = offsetMs;
+    return this.#judged(source, stampNs, receivedMs, MOST_AHEAD_MS);
+  }
+
+  /** The same of a source whose messages may overtake each other. @param localised whether it may be ahead of time */
+  inAnyOrder(source: string, stampNs: bigint, receivedMs: number, localised = false): number | StampRefusal {
+    return this.#judged(source, stampNs, receivedMs, localised ? MOST_AHEAD_LOCALISED_MS : MOST_AHEAD_MS);
+  }
+
+  #judged(source: string, stampNs: bigint, receivedMs: number, mostAheadMs: number): number | StampRefusal {
+    // Some drivers never stamp.
+    if (stampNs === 0n) return this.#lastNs.has(source) ? 'missing' : receivedMs;
+    const { nowMs, wallNs } = readBoth(this.#clock);
+    const ageMs = Number(wallNs - stampNs) / 1e6;
+    if (ageMs < -mostAheadMs) return 'ahead';
+    if (this.#lastNs.has(source) || this.#lastNs.size < MOST_SOURCES) this.#lastNs.set(source, stampNs);
+    if (ageMs < FOREIGN_MS) return Math.min(nowMs - ageMs, receivedMs);
+    return this.#foreign(receivedMs - Number(stampNs) / 1e6, receivedMs);
+  }
+
+  #foreign(offsetMs: number, receivedMs: number): number | StampRefusal {
+    if (receivedMs - this.#windowMs > 2 * WINDOW_MS) {
+      [this.#least, this.#leastBefore] = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
+      this.#windowMs = receivedMs;
+      this.#settledMs = receivedMs + SETTLES_MS;
+    } else if (receivedMs - this.#windowMs > WINDOW_MS) {
+      this.#leastBefore = this.#least;
+      this.#least = Number.POSITIVE_INFINITY;
       this.#windowMs = receivedMs;
     }
     this.#least = Math.min(this.#least, offsetMs);
-    const late = receivedMs - (offsetMs - Math.min(this.#least, this.#leastBefore));
-    return Math.min(late, capturedAtMs(this.#clock, stampNs, receivedMs), receivedMs);
-  }
-
-  #forget(): void {
-    [this.#least, this.#leastBefore] = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
-    this.#windowMs = Number.NEGATIVE_INFINITY;
+    if (receivedMs < this.#settledMs) return 'unsettled';
+    return receivedMs - (offsetMs - Math.min(this.#least, this.#leastBefore));
   }
 }

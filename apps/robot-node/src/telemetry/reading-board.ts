@@ -28,7 +28,12 @@ export class ReadingBoard {
   add(reading: TopicReading, nowMs: number): void {
     const before = this.#entries.get(reading.topic);
     if (before === undefined && this.#entries.size >= MOST_TOPICS) return;
-    this.#entries.set(reading.topic, { reading, heardMs: nowMs, toldMs: null, told: before?.told ?? 0 });
+    this.#entries.set(reading.topic, {
+      reading,
+      heardMs: reading.measuredMs ?? nowMs,
+      toldMs: null,
+      told: before?.told ?? 0,
+    });
   }
 
   /** The reading to send now: the one that has waited longest among those that are new or due again. */

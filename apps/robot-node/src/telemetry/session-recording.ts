@@ -6,6 +6,7 @@ import {
   PICTURE_CHUNK_HEADER_BYTES,
   type Twist,
   type VideoCodec,
+  zeroTwist,
 } from '@farpoint/protocol';
 import {
   type CloudKind,
@@ -232,7 +233,8 @@ export class SessionRecording implements VideoTaker {
   }
 
   telemetry(state: TimedBaseState, status: MotionStatus, operators: number): void {
-    const { timeMs, pose, twist, battery, contact } = state;
+    const { timeMs, pose, battery, contact } = state;
+    const twist = state.twist ?? zeroTwist();
     this.#recorder.state(timeMs, pose, twist);
     if (!this.#recorder.takes('telemetry')) return;
     const nowMs = monotonicMs();

@@ -42,8 +42,8 @@ export function streamStatistics(
       framesDropped: droppedFrames,
       framesPerSecond: lastFramesPerSecond,
       pointsPerFrame: lastPoints,
-      speed: state?.twist.linear.x ?? 0,
-      turn: state?.twist.angular.z ?? 0,
+      speed: state?.twist?.linear.x ?? 0,
+      turn: state?.twist?.angular.z ?? 0,
     });
   }
   return lines;

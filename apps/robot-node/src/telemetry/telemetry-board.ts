@@ -90,8 +90,7 @@ export class TelemetryBoard {
 
   /** Takes the base's state. */
   state({ timeMs, twist, battery }: TimedBaseState): void {
-    const { x, y } = twist.linear;
-    this.alarms.take('speed', Math.hypot(x, y), timeMs);
+    if (twist !== null) this.alarms.take('speed', Math.hypot(twist.linear.x, twist.linear.y), timeMs);
     if (battery === null) return;
     this.alarms.take('charge', battery.percentage * 100, timeMs);
     this.alarms.take('voltage', battery.voltage, timeMs);

@@ -5,6 +5,7 @@ import {
   type Telemetry,
   type TelemetryMessage,
   telemetryCodec,
+  zeroTwist,
 } from '@farpoint/protocol';
 import { BitRate } from '@farpoint/timing';
 import type { TimedBaseState } from '../base/base.ts';
@@ -86,9 +87,9 @@ export class TelemetrySender {
         type: 'telemetry',
         sequence: this.#sequence,
         timeMs: state.timeMs,
-        ...(state.measuredMs === undefined ? {} : { ageMs: Math.max(0, state.timeMs - state.measuredMs) }),
+        ...(state.measuredMs == null ? {} : { ageMs: Math.max(0, state.timeMs - state.measuredMs) }),
         pose: state.pose,
-        twist: state.twist,
+        twist: state.twist ?? zeroTwist(),
         ...(state.battery === null ? {} : { battery: state.battery }),
         drive: this.#status.drive(nowMs, state.contact),
         motion,

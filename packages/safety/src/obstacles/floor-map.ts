@@ -45,6 +45,12 @@ export class FloorMap {
     for (const plane of this.#planes) plane.centreOn(x, y);
   }
 
+  /** Forgets everything. */
+  forget(): void {
+    this.#floor.forget();
+    for (const each of this.#planes) each.forget();
+  }
+
   /**
    * Takes what a sensor says.
    *
@@ -52,10 +58,7 @@ export class FloorMap {
    * @param plane the number of the sensor among those that see one plane only; `null` for another
    */
   merge(grid: SensorGrid, travel: number, plane: number | null = null): void {
-    if (grid.placed !== this.#placed) {
-      this.#floor.forget();
-      for (const each of this.#planes) each.forget();
-    }
+    if (grid.placed !== this.#placed) this.forget();
     this.#placed = grid.placed;
     (plane === null ? this.#floor : this.#planes[plane])?.merge(grid, travel);
   }

@@ -23,6 +23,8 @@ export interface ObstacleGuardOptions {
   planes: number;
   /** Whether floor over which such a sensor sees nothing counts as seen. */
   planesShowFloor: boolean;
+  /** Whether something is to say where the robot is: the robot is slow while nothing does. */
+  odometry: boolean;
 }
 
 export const defaultObstacleGuardOptions: Readonly<ObstacleGuardOptions> = {
@@ -38,6 +40,7 @@ export const defaultObstacleGuardOptions: Readonly<ObstacleGuardOptions> = {
   cellM: 0.05,
   planes: 0,
   planesShowFloor: false,
+  odometry: false,
 };
 
 /** How much of the margin is kept even when the robot creeps. */

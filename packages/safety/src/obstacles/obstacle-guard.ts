@@ -30,6 +30,10 @@ export class ObstacleGuard implements MotionGuard {
   readonly #whereabouts = new Whereabouts();
   /** When each sensor's newest cloud was taken, ms. */
   readonly #lastMs: number[];
+  /** Of which sensors nobody knows where they sit. */
+  readonly #disputed: boolean[];
+  /** What was placed by poses before is somewhere else, ms. */
+  #jumpedMs = Number.NEGATIVE_INFINITY;
   /** The direction in which the robot has been stopped; `null` if it has not. */
   #stopped: string | null = null;
   #braking = false;
@@ -50,6 +54,7 @@ export class ObstacleGuard implements MotionGuard {
     this.#nearField = new NearFieldSearch(this.#map, footprint);
     this.#reach = footprint.reach;
     this.#lastMs = new Array<number>(sensors).fill(Number.NEGATIVE_INFINITY);
+    this.#disputed = new Array<boolean>(sensors).fill(false);
   }
 
   /** Takes what a sensor's newest cloud says. @param sensor its number, from 0 */
@@ -57,17 +62,38 @@ export class ObstacleGuard implements MotionGuard {
     if (!(grid.capturedAtMs > (this.#lastMs[sensor] ?? Number.POSITIVE_INFINITY))) return;
     const firstPlane = this.#lastMs.length - this.#options.planes;
     const plane = sensor < firstPlane ? null : sensor - firstPlane;
+    if (grid.placed && grid.capturedAtMs < this.#jumpedMs) return;
     // Grids in two frames cannot be one map. The clouds' frame counts; a scanner in another is silent.
     if (plane !== null && grid.placed !== this.#map.placed && this.#cloudsLive(grid.capturedAtMs)) return;
     this.#lastMs[sensor] = grid.capturedAtMs;
+    this.#disputed[sensor] = grid.disputed === true;
+    if (grid.disputed === true) return;
     const half = grid.side / 2;
     this.#map.centreOn(grid.firstX + half, grid.firstY + half);
     this.#map.merge(grid, grid.placed ? 0 : this.#whereabouts.travelAt(grid.capturedAtMs), plane);
   }
 
-  /** Takes odometry: the pose of base_link, its velocity, and when they were measured. */
-  moved(pose: Readonly<FloorPose>, twist: Readonly<Twist>, measuredMs: number): void {
+  /** Takes odometry: the pose of base_link, its velocity if it is known, and when they were measured. */
+  moved(pose: Readonly<FloorPose>, twist: Readonly<Twist> | null, measuredMs: number): void {
     this.#whereabouts.measured(pose, twist, measuredMs);
+  }
+
+  /** Odometry is not believed any more: it counts as silent until the next {@link moved}. */
+  lost(): void {
+    this.#whereabouts.lost();
+  }
+
+  /**
+   * The pose has jumped: what was placed by poses before is somewhere else. The sensors count as silent until they give
+   * something newer.
+   *
+   * @param atMs since when the pose is another
+   */
+  jumped(atMs: number): void {
+    this.#jumpedMs = atMs;
+    if (!this.#map.placed) return;
+    this.#map.forget();
+    this.#lastMs.fill(Number.NEGATIVE_INFINITY);
   }
 
   /** How old each sensor's newest cloud is, and whether the sensor counts as silent; ms, infinite before the first. */
@@ -125,6 +151,7 @@ export class ObstacleGuard implements MotionGuard {
       return FREE;
     }
     if (!Number.isFinite(speed)) return stopFor('obstacle');
+    if (this.#disputed.includes(true)) return stopFor('sensor-silent');
     const placed = this.#map.placed;
     const { reactionMs, braking, emergency, timeToCollisionMs } = this.#options;
     const reactionS = reactionMs / 1000;
@@ -198,7 +225,8 @@ export class ObstacleGuard implements MotionGuard {
   }
 
   #someSilent(nowMs: number, placed: boolean): boolean {
-    if (placed && this.#whereabouts.silent(nowMs)) return true;
+    const isNeeded = placed || this.#options.odometry;
+    if (isNeeded && (!placed || this.#whereabouts.silent(nowMs))) return true;
     return this.#lastMs.some((lastMs) => this.#isSilent(lastMs, nowMs));
   }
 

@@ -7,7 +7,7 @@ const KEPT = 64;
 
 interface Sample {
   pose: Readonly<FloorPose>;
-  twist: Readonly<Twist>;
+  twist: Readonly<Twist> | null;
   atMs: number;
 }
 
@@ -17,7 +17,7 @@ export class PoseTrack {
   readonly #samples: Sample[] = [];
 
   /** Odometry came. One that is not newer than the last is left out. */
-  measured(pose: Readonly<FloorPose>, twist: Readonly<Twist>, atMs: number): void {
+  measured(pose: Readonly<FloorPose>, twist: Readonly<Twist> | null, atMs: number): void {
     if (![pose.x, pose.y, pose.yaw, atMs].every(Number.isFinite)) return;
     if (atMs <= (this.#samples.at(-1)?.atMs ?? Number.NEGATIVE_INFINITY)) return;
     this.#samples.push({ pose, twist, atMs });
@@ -47,7 +47,10 @@ function between({ pose: a, atMs }: Sample, { pose: b, atMs: untilMs }: Sample, 
   };
 }
 
-function carriedOn({ pose: { x, y, yaw }, twist: { linear, angular } }: Sample, seconds: number): FloorPose {
+function carriedOn({ pose, twist }: Sample, seconds: number): FloorPose {
+  if (twist === null) return { ...pose };
+  const { x, y, yaw } = pose;
+  const { linear, angular } = twist;
   const heading = yaw + (angular.z * seconds) / 2;
   const [cos, sin] = [Math.cos(heading) * seconds, Math.sin(heading) * seconds];
   return {

@@ -26,6 +26,8 @@ export interface SensorGrid {
    * cloud was taken.
    */
   placed: boolean;
+  /** Whether those who say where the sensor sits contradict each other: nobody knows where its cells lie. */
+  disputed?: boolean;
   /** Cells along a side, and their length, metres. */
   side: number;
   cellM: number;

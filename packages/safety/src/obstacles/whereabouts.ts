@@ -22,12 +22,18 @@ export class Whereabouts {
   readonly #travels = new Float64Array(STEPS);
   #next = 0;
 
-  /** Odometry came. */
-  measured(pose: Readonly<FloorPose>, twist: Readonly<Twist>, measuredMs: number): void {
+  /** Odometry came. @param twist `null` if nobody measures it */
+  measured(pose: Readonly<FloorPose>, twist: Readonly<Twist> | null, measuredMs: number): void {
     if (![pose.x, pose.y, pose.yaw, measuredMs].every(Number.isFinite)) return;
     Object.assign(this.#pose, pose);
     this.#twist = twist;
     this.#measuredMs = measuredMs;
+  }
+
+  /** Nobody knows any more where the robot is. */
+  lost(): void {
+    this.#measuredMs = Number.NEGATIVE_INFINITY;
+    this.#twist = null;
   }
 
   /** The velocity of base_link that odometry gave last; `null` without odometry. */

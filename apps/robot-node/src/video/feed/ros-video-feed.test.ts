@@ -58,12 +58,18 @@ describe.each([1, 2] as const)('a topic of ROS %i', (version) => {
     expect(faults).toEqual([]);
   });
 
-  it('with a stamp of another clock is taken at its arrival', () => {
+  it('with a stamp of another clock is taken at its arrival, with an old one when it says', () => {
     const { clock, graph, frames } = setUp(version);
     clock.ms = BEGAN_MS + 70;
-    graph.say(TOPIC, IMAGE, image(-5000));
+    graph.say(TOPIC, IMAGE, image(-100_000_000));
     graph.say(TOPIC, IMAGE, image(900));
-    expect(frames.map(({ captureNs }) => captureNs)).toEqual([1_070_000_000n, 1_070_000_000n]);
+    clock.ms = BEGAN_MS + 2070;
+    graph.say(TOPIC, IMAGE, image(50));
+    expect(frames.map(({ captureNs }) => captureNs)).toEqual([
+      1_070_000_000n,
+      1_070_000_000n,
+      1_050_000_000n,
+    ]);
   });
 
   it('says what it cannot show, and goes on', () => {
