@@ -109,6 +109,11 @@ export class TransformTree {
     return newest;
   }
 
+  /** Forgets a transform, where another source of it takes over. */
+  forget(child: string): void {
+    this.#edges.delete(child);
+  }
+
   /** Forgets moving transforms, after a jump in time. */
   forgetMoving(): void {
     for (const [child, { fixed }] of this.#edges) if (!fixed) this.#edges.delete(child);

@@ -195,11 +195,12 @@ export class WorldState {
       const child = frameName(child_frame_id);
       const { translation: position, rotation } = transform;
       const timeMs = fixed ? 0 : this.#times.of(`tf ${child}`, stampNs(header.stamp), isLocalised(child));
-      const why =
-        typeof timeMs === 'string'
-          ? `the transform of ${child}: ${timeMs}`
-          : this.#place(header.frame_id, child, timeMs, position, rotation, fixed);
-      if (why === null) this.#byOdometry.delete(child);
+      if (typeof timeMs === 'string') {
+        fault ??= `the transform of ${child}: ${timeMs}`;
+        continue;
+      }
+      if (this.#byOdometry.delete(child)) this.#tree.forget(child);
+      const why = this.#place(header.frame_id, child, timeMs, position, rotation, fixed);
       fault ??= why;
     }
     return fault;

@@ -8,6 +8,7 @@ import {
   type TrustedOwner,
 } from '@farpoint/shared-memory';
 import type { BaseState } from '../base/base.ts';
+import { MOST_AHEAD_MS, REFUSED_AGE_MS } from '../ros/stamp-clock.ts';
 import type {
   CaptureRoom,
   CaptureWishes,
@@ -133,16 +134,18 @@ export class CloudShmSource implements FrameSource {
 
   #sourceFrame(frame: CloudFrame, nowMs: number, room: CaptureRoom): SourceFrame {
     const { form, points: count, pose, capturedAtMs } = frame;
-    const takenMs = Math.min(capturedAtMs ?? this.#readyMs, nowMs);
+    const isAhead = capturedAtMs !== null && capturedAtMs > nowMs + MOST_AHEAD_MS;
+    if (isAhead) this.onFault?.(new Error('the producer says that a frame was captured in the future'));
+    const takenMs = isAhead ? nowMs - REFUSED_AGE_MS : Math.min(capturedAtMs ?? this.#readyMs, nowMs);
     // The camera's poses are all that is known of the robot's motion.
-    if (pose !== null) {
+    if (pose !== null && !isAhead) {
       const base = compose(pose, inverse(this.#mount));
       this.#state = { ...STANDING, pose: base, twist: null, measuredMs: takenMs };
     }
     const stamp = {
       cameraPose: pose ?? this.#mount,
       capturedAtMs: takenMs,
-      ...(pose === null ? { base: 'unknown' as const } : {}),
+      ...(pose === null || isAhead ? { base: 'unknown' as const } : {}),
     };
     return form === 'images'
       ? { form, depth: room.depth, colour: room.colour, ...stamp }

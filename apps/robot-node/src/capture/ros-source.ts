@@ -14,7 +14,7 @@ import { mountDispute } from '../obstacles/sensor-mount.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
 import { capturedAtMs, type RosClock } from '../ros/capture-time.ts';
 import { LATE_MS, lateFault } from '../ros/late-fault.ts';
-import { StampClock, stampRefusals } from '../ros/stamp-clock.ts';
+import { REFUSED_AGE_MS, StampClock, stampRefusals } from '../ros/stamp-clock.ts';
 import { FaultLimit } from './fault-limit.ts';
 import {
   type CaptureRoom,
@@ -144,13 +144,12 @@ export class RosSource implements FrameSource {
     if (fed === null) return null;
     const { count, frameId, stampNs, receivedMs } = fed;
     const judged = this.#stamps.inOrder(this.#topic, stampNs, receivedMs);
-    if (typeof judged !== 'number') {
+    const isKnown = typeof judged === 'number';
+    const capturedMs = Math.min(isKnown ? judged : receivedMs - REFUSED_AGE_MS, nowMs);
+    const stamp = this.#placed(frameId, capturedMs, isKnown, nowMs);
+    if (!isKnown)
       this.#tell(new RosFault('bad-message', stampRefusals[judged], { topic: this.#topic }), nowMs);
-      return null;
-    }
-    const capturedMs = Math.min(judged, nowMs);
-    if (nowMs - capturedMs > LATE_MS) this.#tell(lateFault(this.#topic), nowMs);
-    const stamp = this.#placed(frameId, stampNs === 0n ? null : capturedMs, capturedMs, nowMs);
+    else if (nowMs - capturedMs > LATE_MS) this.#tell(lateFault(this.#topic), nowMs);
     return this.description.camera === null
       ? { form: 'points', points: room.points, count, ...stamp }
       : { form: 'images', depth: room.depth, colour: room.colour, ...stamp };
@@ -175,10 +174,11 @@ export class RosSource implements FrameSource {
     void this.#graph.close();
   }
 
-  /** @param stampedMs `null` without a stamp */
-  #placed(frameId: string, stampedMs: number | null, capturedAtMs: number, nowMs: number) {
+  /** @param isKnown whether it is known when it was captured */
+  #placed(frameId: string, capturedAtMs: number, isKnown: boolean, nowMs: number) {
     const mount = this.#mount;
-    const { cameraPose, base, mount: told } = this.#state.world.place(frameId, stampedMs, this.#axes, mount);
+    const atMs = isKnown ? capturedAtMs : nowMs;
+    const { cameraPose, base, mount: told } = this.#state.world.place(frameId, atMs, this.#axes, mount);
     if (!this.#state.hasPoses) return { cameraPose, capturedAtMs };
     const dispute = mount === null || told === null ? null : mountDispute(mount, told);
     if (dispute !== null)
@@ -188,7 +188,8 @@ export class RosSource implements FrameSource {
         }),
         nowMs,
       );
-    return { cameraPose, capturedAtMs, base: dispute === null ? (base ?? 'unknown') : 'disputed' } as const;
+    const known = isKnown && base !== null ? base : 'unknown';
+    return { cameraPose, capturedAtMs, base: dispute === null ? known : 'disputed' } as const;
   }
 
   /** What comes with every message is told now and then. */

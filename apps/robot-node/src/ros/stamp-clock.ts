@@ -7,6 +7,11 @@ import { type RosClock, readBoth } from './capture-time.ts';
 
 /** By so much clocks that are kept in step may differ, ms. */
 export const MOST_AHEAD_MS = 100;
+/**
+ * Nobody knows when a cloud was captured whose stamp is refused. It counts as so old, ms: too old to be driven by, but what
+ * stands in the robot's way is better seen late than not at all.
+ */
+export const REFUSED_AGE_MS = 1000;
 /** Localisation says ahead of time where frames will be, ms. */
 const MOST_AHEAD_LOCALISED_MS = 2000;
 /** Stamps that lie farther back are of another clock, ms. */

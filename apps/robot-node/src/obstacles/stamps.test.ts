@@ -1,0 +1,200 @@
+/**
+ * Time from outside is judged: whatever the stamps of clouds, poses and fixes say, the robot comes no nearer to a wall and no
+ * farther out of its fence than with honest ones and what is stated here.
+ */
+import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import fc from 'fast-check';
+import { describe, expect, it } from 'vitest';
+import {
+  CLOUD,
+  cloudAt,
+  headerAt,
+  mountTransform,
+  ODOMETRY,
+  odometryAt,
+  POSE,
+  poseAt,
+  rosWall,
+  TF,
+  transformAt,
+} from '../testing/ros-wall-source.ts';
+import { driveAtWall, type WallTruth } from '../testing/wall-drive.ts';
+
+const MOUNT = { x: 0.1, y: 0, z: 0.9, roll: 0, pitch: 0.3, yaw: 0 };
+const SPEED = 0.6;
+/** What clocks in step may differ by, at full speed. */
+const AHEAD_M = 0.1 * SPEED;
+/** How far the robot goes before a pose that does not move is given up, and until it stands. */
+const FROZEN_M = 0.1 + 0.55 * SPEED + SPEED ** 2 / 2 + 0.1;
+
+type Header = ReturnType<typeof headerAt>;
+type Stamps = (nowMs: number) => Header['stamp'] | null;
+
+/** One way in which a publisher stamps; `null`: as it should. */
+const ways = {
+  honest: fc.constant((nowMs: number) => nowMs),
+  ahead: fc.constantFrom(50, 150, 1000, 86_400_000).map((by) => (nowMs: number) => nowMs + by),
+  behind: fc
+    .constantFrom(200, 450, 700, 2000, 5000, 60_000, 3_600_000, 1.6e12)
+    .map((by) => (nowMs: number) => nowMs - by),
+  repeated: fc.constant((_: number, last: number) => last),
+  missing: fc.constant(() => null),
+  steps: fc.constantFrom(-60_000, -1500, -300, 300, 60_000).map((by) => {
+    let offset = 0;
+    let count = 0;
+    return (nowMs: number) => {
+      if (++count % 10 === 0) offset += by;
+      return nowMs + offset;
+    };
+  }),
+};
+type Way = (nowMs: number, last: number) => number | null;
+/** A publisher that goes from one way to another, every so many messages. */
+const publisher = fc
+  .array(
+    fc.tuple(fc.integer({ min: 1, max: 60 }), fc.oneof(...(Object.values(ways) as fc.Arbitrary<Way>[]))),
+    {
+      minLength: 1,
+      maxLength: 4,
+    },
+  )
+  .map((phases): Stamps => {
+    let [phase, left, last] = [0, phases[0]?.[0] ?? 0, 5000];
+    return (nowMs) => {
+      if (left-- <= 0) {
+        phase = (phase + 1) % phases.length;
+        left = phases[phase]?.[0] ?? 0;
+      }
+      const way = phases[phase]?.[1] as Way;
+      const ms = way(nowMs, last);
+      if (ms === null) return { sec: 0, nanosec: 0 };
+      last = ms;
+      return headerAt(ms, '').stamp;
+    };
+  });
+
+const stamped = <Message extends { header: Header }>(
+  message: Message,
+  stamp: Header['stamp'] | null,
+): Message => (stamp === null ? message : { ...message, header: { ...message.header, stamp } });
+
+interface Run {
+  clouds?: Stamps;
+  poses?: Stamps;
+  by?: 'odometry' | 'tf' | 'pose';
+  fenceM?: number;
+  wallM?: number;
+  /** How late clouds and poses come, with honest stamps, ms. */
+  lateMs?: { clouds?: number; poses?: number };
+  seconds?: number;
+}
+
+describe('a robot', async () => {
+  const codec = await loadCodecFromDisk();
+
+  async function drive({ clouds, poses, by = 'odometry', lateMs = {}, ...rest }: Run) {
+    const topics = {
+      odometry: { topic: '/odom', as: 'pose' },
+      tf: { topic: '/tf', as: 'tf' },
+      pose: { topic: '/pose', as: 'pose', type: POSE },
+    };
+    const wall = await rosWall([{ topic: '/points', as: 'cloud' }, topics[by]], MOUNT);
+    const { source, graph, setNow, faults } = wall;
+    const waiting: { kind: 'cloud' | 'pose'; truth: WallTruth }[] = [];
+    const driven = driveAtWall(codec, {
+      ...{ mount: MOUNT, source, setNow, speed: SPEED, odometry: true, ...rest },
+      feed: (truth) => {
+        waiting.push({ kind: 'pose', truth }, { kind: 'cloud', truth });
+        const due = ({ kind, truth: { nowMs } }: (typeof waiting)[number]) =>
+          nowMs <= truth.nowMs - ((kind === 'cloud' ? lateMs.clouds : lateMs.poses) ?? 0);
+        const comes = waiting.filter(due);
+        waiting.splice(0, waiting.length, ...waiting.filter((each) => !due(each)));
+        for (const { kind, truth: then } of comes) {
+          const { nowMs, x, points, base } = then;
+          if (kind === 'cloud')
+            graph.say('/points', CLOUD, stamped(cloudAt(nowMs, points), clouds?.(nowMs) ?? null));
+          else if (by === 'odometry')
+            graph.say('/odom', ODOMETRY, stamped(odometryAt(nowMs, x, then), poses?.(nowMs) ?? null));
+          else if (by === 'pose') graph.say('/pose', POSE, stamped(poseAt(nowMs, x), poses?.(nowMs) ?? null));
+          else {
+            const odom = stamped(transformAt(nowMs, 'odom', 'base_link', base), poses?.(nowMs) ?? null);
+            // A joint that goes on, whatever becomes of odometry.
+            const joint = { ...mountTransform(MOUNT, 'arm'), header: headerAt(nowMs, 'base_link') };
+            graph.say('/tf', TF, { transforms: [odom, joint] });
+          }
+        }
+      },
+    });
+    source.close();
+    return { ...driven, faults };
+  }
+
+  it.each([450, 700, 2000])('whose clouds come %i ms late stops before the wall, slower', async (clouds) => {
+    const { contactMps, fastestMps } = await drive({ lateMs: { clouds }, seconds: 10 });
+    expect(contactMps).toBeNull();
+    expect(fastestMps).toBeLessThan(0.31);
+  });
+
+  it.each([700, 2000, 5000])(
+    'whose odometry comes %i ms late stands, where it has a fence',
+    async (poses) => {
+      const { outsideM, fastestMps } = await drive({ lateMs: { poses }, fenceM: 5, wallM: 20, seconds: 16 });
+      expect([outsideM < 0, fastestMps]).toEqual([true, 0]);
+    },
+  );
+
+  it('with honest stamps goes up to its fence, and not out of it', async () => {
+    const { outsideM, fastestMps } = await drive({ fenceM: 2, wallM: 20, seconds: 8 });
+    expect(fastestMps).toBeGreaterThan(0.5);
+    expect(outsideM).toBeLessThan(0);
+    expect(outsideM).toBeGreaterThan(-0.3);
+  });
+
+  it.each(['odometry', 'tf', 'pose'] as const)(
+    'comes to no wall and out of no fence, whatever the stamps say (%s)',
+    async (by) => {
+      let metres = 0;
+      await fc.assert(
+        fc.asyncProperty(publisher, publisher, async (clouds, poses) => {
+          const atWall = await drive({ by, clouds, poses, seconds: 8 });
+          expect(atWall.contactMps).toBeNull();
+          metres += 1.5 - atWall.gapM;
+        }),
+        { seed: 36, numRuns: 12 },
+      );
+      // Without this check, the property would hold for a robot that never moves.
+      expect(metres / 12).toBeGreaterThan(0.3);
+      await fc.assert(
+        fc.asyncProperty(publisher, async (poses) => {
+          const { outsideM } = await drive({ by, poses, fenceM: 1.5, wallM: 30, seconds: 8 });
+          expect(outsideM).toBeLessThan(AHEAD_M + FROZEN_M);
+        }),
+        { seed: 37, numRuns: 12 },
+      );
+    },
+    120_000,
+  );
+
+  it('whose pose does not move, with stamps that do, is given up', async () => {
+    for (const by of ['odometry', 'tf', 'pose'] as const) {
+      const wall = await rosWall(
+        [
+          { topic: '/points', as: 'cloud' },
+          by === 'odometry' ? { topic: '/odom', as: 'pose' } : { topic: '/pose', as: 'pose', type: POSE },
+        ],
+        MOUNT,
+      );
+      const { source, graph, setNow } = wall;
+      const { outsideM } = driveAtWall(codec, {
+        ...{ mount: MOUNT, source, setNow, odometry: true, fenceM: 1, wallM: 30, seconds: 12 },
+        feed: (truth) => {
+          if (by === 'odometry') graph.say('/odom', ODOMETRY, odometryAt(truth.nowMs, 0, truth));
+          else graph.say('/pose', POSE, poseAt(truth.nowMs, 0));
+          graph.say('/points', CLOUD, cloudAt(truth.nowMs, truth.points));
+        },
+      });
+      source.close();
+      expect(outsideM).toBeLessThan(FROZEN_M + 0.25 - 1);
+    }
+  });
+});

@@ -1,0 +1,200 @@
+/**
+ * A robot that drives at a wall under its obstacle guard, in simulated time, with exact knowledge of where it really is. What
+ * its sensor sees goes through one of the robot's own sources, with whatever times and frames that is given.
+ */
+import { compose, inverse, type Pose, rotationMatrix, type Twist, zeroTwist } from '@farpoint/protocol';
+import { defaultGeofenceOptions, Footprint, FREE } from '@farpoint/safety';
+import type { Codec } from '@farpoint/wasm-codec';
+import { BaseOdometry } from '../base/base-odometry.ts';
+import type { CaptureRoom, FrameSource } from '../capture/frame-source.ts';
+import { openGeofence } from '../geofence/open-geofence.ts';
+import { CloudGuard } from '../obstacles/cloud-guard.ts';
+import { GRID_SHAPE } from '../obstacles/guarded-sensors.ts';
+import { ObstacleStation } from '../obstacles/obstacle-station.ts';
+import { bodyMount, opticalMount, type SensorMount } from '../obstacles/sensor-mount.ts';
+import { makeSharedGrid, SharedGridReader } from '../obstacles/shared-grid.ts';
+
+/** What is true at an instant. */
+export interface WallTruth {
+  nowMs: number;
+  /** How far along x it is, and at what speed. */
+  x: number;
+  speed: number;
+  base: Pose;
+  twist: Twist;
+  /** x, y, z of what the sensor sees, in its body's axes. */
+  points: Float32Array;
+}
+
+export interface WallDrive {
+  /** The sensor, as it really sits. */
+  mount: SensorMount;
+  /** As the guard is told; default: as it sits. */
+  told?: SensorMount;
+  source: FrameSource;
+  /** Whether something is to say where the robot is. */
+  odometry: boolean;
+  /** Gives the source what is true, or anything else. Called every 50 ms. */
+  feed(truth: WallTruth): void;
+  /** Asked for; negative: backwards. */
+  speed?: number;
+  seconds?: number;
+  /** How far from where it begins it may go, m. */
+  fenceM?: number;
+  /** From the robot's edge to the wall at the start, m. */
+  wallM?: number;
+  /** Moves on the clock that the source reads. */
+  setNow(nowMs: number): void;
+}
+
+export interface WallDriven {
+  /** From the robot's edge to the wall at the end; negative inside it. */
+  gapM: number;
+  /** How fast it came to the wall, m/s; `null` if it did not. */
+  contactMps: number | null;
+  /** How far its edge came out of the fence; negative if it did not. */
+  outsideM: number;
+  /** The fastest that it went. */
+  fastestMps: number;
+}
+
+const RADIUS = 0.25;
+const TICK_MS = 10;
+const CLOUD_MS = 50;
+const BAND = { clearanceM: 0.04, heightM: 1.1, dropM: 0.15 };
+/** The robot's edge is so far from the wall at the start, m. */
+const START_M = 1.5;
+const HEIGHT_M = 2;
+const FAR_M = 10;
+const ACCELERATION = 1;
+const BRAKES = 2;
+
+/** All directions in which the sensor looks. */
+const RAYS = (() => {
+  const rays: number[] = [];
+  for (let elevation = -80; elevation <= 20; elevation += 3)
+    for (let azimuth = -180; azimuth < 180; azimuth += 2.5) {
+      const [e, a] = [(elevation * Math.PI) / 180, (azimuth * Math.PI) / 180];
+      rays.push(Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e));
+    }
+  return Float64Array.from(rays);
+})();
+export const WALL_POINTS = RAYS.length / 3;
+
+/** What a sensor at this pose sees of the floor and of a wall across x, in its body's axes. */
+function look({ position, orientation }: Pose, wallX: number): Float32Array {
+  const [r0, r1, r2, , , , r6, r7, r8] = rotationMatrix(orientation);
+  const seen = new Float32Array(RAYS.length);
+  let count = 0;
+  for (let i = 0; i < RAYS.length; i += 3) {
+    const [x, y, z] = [RAYS[i] as number, RAYS[i + 1] as number, RAYS[i + 2] as number];
+    const [dx, dz] = [r0 * x + r1 * y + r2 * z, r6 * x + r7 * y + r8 * z];
+    const toWall = (wallX - position.x) / dx;
+    const toFloor = -position.z / dz;
+    const hitsWall = toWall > 0 && position.z + dz * toWall < HEIGHT_M;
+    const far = Math.min(hitsWall ? toWall : FAR_M, toFloor > 0 ? toFloor : FAR_M);
+    if (!(far < FAR_M)) continue;
+    seen[count++] = x * far;
+    seen[count++] = y * far;
+    seen[count++] = z * far;
+  }
+  return seen.subarray(0, count);
+}
+
+/** Drives at the wall until the time is over or the robot is in it. Closes nothing. */
+export function driveAtWall(codec: Codec, drive: WallDrive): WallDriven {
+  const { mount, told = mount, source, odometry, feed, speed = 0.6, seconds = 6, setNow } = drive;
+  const { fenceM = null, wallM = START_M } = drive;
+  const way = Math.sign(speed);
+  const wallX = way * (RADIUS + wallM);
+  const memory = makeSharedGrid(GRID_SHAPE);
+  using clouds = new CloudGuard(codec, source.description, {
+    ...{ memory, shape: GRID_SHAPE, mount: opticalMount(told), odometry: true, ...BAND },
+  });
+  const station = new ObstacleStation({
+    configuration: {
+      ...{ mode: 'on', footprint: Footprint.disc(RADIUS).corners, ...BAND, marginM: 0.15, unseenMps: 0.3 },
+      brakes: { linear: BRAKES, angular: 3 },
+    },
+    grids: [{ sensor: 0, reader: new SharedGridReader(memory, GRID_SHAPE) }],
+    captures: [],
+    odometry,
+  });
+  const believed = new BaseOdometry({ maxLinear: Math.abs(speed), maxAngular: 1 }, false);
+  const fence =
+    fenceM === null
+      ? null
+      : openGeofence(
+          {
+            ...{ fence: { allowed: [], forbidden: [], slow: [], radiusM: fenceM }, fix: null, errorM: 0 },
+            limits: { ...defaultGeofenceOptions, radiusM: RADIUS, brakeMps2: BRAKES / 2 },
+          },
+          () => believed.believed,
+          false,
+        ).geofence;
+  const { capacity } = source.description;
+  const room: CaptureRoom = {
+    points: new Float32Array(capacity * 4),
+    ...{ depth: new Float32Array(), colour: new Uint32Array() },
+  };
+  const wish = zeroTwist();
+  wish.linear.x = speed;
+  const driven: WallDriven = {
+    gapM: wallM,
+    contactMps: null,
+    outsideM: Number.NEGATIVE_INFINITY,
+    fastestMps: 0,
+  };
+  let [x, now] = [0, 0];
+  for (let ms = 0; ms < seconds * 1000 && driven.contactMps === null; ms += TICK_MS) {
+    const nowMs = BEGAN_MS + ms;
+    setNow(nowMs);
+    if (ms % CLOUD_MS === 0) {
+      const base = { position: { x, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
+      const twist = { ...zeroTwist(), linear: { x: now, y: 0, z: 0 } };
+      const points = look(compose(base, bodyMount(mount)), wallX);
+      feed({ nowMs, x, speed: now, base, twist, points });
+      const frame = source.capture(nowMs, { bitsPerSecond: 0, latencyTest: false }, room);
+      if (frame !== null) clouds.take(frame);
+    }
+    believed.take({ ...source.state, timeMs: nowMs });
+    station.update(believed, true);
+    // Nothing is asked of the robot before its sensor can have been seen.
+    const asked = ms < 1200 ? zeroTwist() : wish;
+    const bounds = [station.bound(asked, nowMs), fence?.bound(asked, nowMs) ?? FREE];
+    const urgent = bounds.some((bound) => bound.urgent);
+    const target = asked.linear.x * Math.min(...bounds.map(({ factor }) => factor));
+    believed.told({ ...zeroTwist(), linear: { x: target, y: 0, z: 0 } }, nowMs);
+    const most = ((urgent || Math.abs(target) < Math.abs(now) ? BRAKES : ACCELERATION) * TICK_MS) / 1000;
+    now += Math.max(-most, Math.min(most, target - now));
+    x += (now * TICK_MS) / 1000;
+    driven.gapM = Math.abs(wallX) - RADIUS - way * x;
+    if (fenceM !== null) driven.outsideM = Math.max(driven.outsideM, Math.abs(x) + RADIUS - fenceM);
+    driven.fastestMps = Math.max(driven.fastestMps, Math.abs(now));
+    if (driven.gapM <= 0) driven.contactMps = Math.abs(now);
+  }
+  return driven;
+}
+
+/** When the drive begins, ms. */
+export const BEGAN_MS = 5000;
+
+/** x, y, z and a colour each, in the optical axes of the same sensor. */
+export function opticalPoints(points: Float32Array, length: number): Float32Array {
+  const turned = new Float32Array(length * 4).fill(Number.NaN);
+  for (let i = 0; i < points.length / 3; i++) {
+    const [x, y, z] = [points[i * 3] as number, points[i * 3 + 1] as number, points[i * 3 + 2] as number];
+    turned.set([-y, -z, x, 0], i * 4);
+  }
+  return turned;
+}
+
+/** Where the optical frame of a sensor is in the world. */
+export function opticalPose(base: Pose, mount: SensorMount): Pose {
+  return compose(base, opticalMount(mount));
+}
+
+/** Where a frame lies in another. */
+export function between(from: Pose, to: Pose): Pose {
+  return compose(inverse(from), to);
+}

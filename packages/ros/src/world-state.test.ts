@@ -1,0 +1,187 @@
+import { compose, type Pose } from '@farpoint/protocol';
+import { describe, expect, test } from 'vitest';
+import { type StampTimes, WorldState } from './world-state.ts';
+
+const ODOM = { name: '/odom', type: 'nav_msgs/msg/Odometry' };
+const POSE = { name: '/pose', type: 'geometry_msgs/msg/PoseStamped' };
+const TF = { name: '/tf', type: 'tf2_msgs/msg/TFMessage' };
+const STATIC = { name: '/tf_static', type: 'tf2_msgs/msg/TFMessage' };
+const NO_TURN = { x: 0, y: 0, z: 0, w: 1 };
+const OPTICAL = { x: -0.5, y: 0.5, z: -0.5, w: 0.5 };
+
+const header = (ms: number, frame_id: string) => ({
+  stamp: { sec: Math.floor(ms / 1000), nanosec: (ms % 1000) * 1e6 },
+  frame_id,
+});
+const odometry = (ms: number, x: number, { parent = 'odom', child = 'base_link' } = {}) => ({
+  header: header(ms, parent),
+  child_frame_id: child,
+  pose: { pose: { position: { x, y: 0, z: 0 }, orientation: NO_TURN } },
+  twist: { twist: { linear: { x: 0.5, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0 } } },
+});
+const transform = (ms: number, parent: string, child: string, x: number, rotation = NO_TURN) => ({
+  header: header(ms, parent),
+  child_frame_id: child,
+  transform: { translation: { x, y: 0, z: 0 }, rotation },
+});
+const tf = (...transforms: ReturnType<typeof transform>[]) => ({ transforms });
+
+describe('pose, velocity and time', () => {
+  test('come from one message', () => {
+    const world = new WorldState();
+    expect(world.base).toMatchObject({ pose: { position: { x: 0 } }, twist: null, timeMs: null });
+    world.take(ODOM, odometry(1000, 1));
+    expect(world.base).toMatchObject({
+      pose: { position: { x: 1 } },
+      twist: { linear: { x: 0.5 } },
+      timeMs: 1000,
+    });
+  });
+
+  test('of tf that stops are not renewed by the wheels, nor by another joint', () => {
+    const world = new WorldState();
+    world.take(ODOM, odometry(1000, 1));
+    world.take(TF, tf(transform(1000, 'odom', 'base_link', 1.1)));
+    for (let ms = 1100; ms <= 5000; ms += 100) {
+      world.take(ODOM, odometry(ms, ms / 1000));
+      world.take(TF, tf(transform(ms, 'base_link', 'arm', 0.2)));
+    }
+    expect(world.base).toMatchObject({ pose: { position: { x: 1.1 } }, twist: null, timeMs: 1000 });
+  });
+
+  test('of a pose alone have no velocity, which is not zero', () => {
+    const world = new WorldState();
+    world.take(POSE, {
+      header: header(1000, 'map'),
+      pose: { position: { x: 2, y: 0, z: 0 }, orientation: NO_TURN },
+    });
+    expect(world.base).toMatchObject({ pose: { position: { x: 2 } }, twist: null, timeMs: 1000 });
+  });
+
+  test('of a robot that nothing moves have no time', () => {
+    const world = new WorldState();
+    world.take(
+      STATIC,
+      tf(transform(0, 'base_link', 'lidar', 0.2), transform(0, 'base_footprint', 'base_link', 0)),
+    );
+    expect(world.base.timeMs).toBeNull();
+  });
+
+  test('that step back begin anew', () => {
+    const world = new WorldState();
+    world.take(ODOM, odometry(100_000, 1));
+    world.take(ODOM, odometry(40_000, 2));
+    world.take(ODOM, odometry(40_100, 3));
+    expect(world.base).toMatchObject({ pose: { position: { x: 3 } }, timeMs: 40_100 });
+  });
+});
+
+describe('odometry whose frames', () => {
+  test('are empty is that of base_link in odom', () => {
+    const world = new WorldState();
+    expect(world.take(ODOM, odometry(1000, 1, { parent: '', child: '' }))).toBeNull();
+    world.take(ODOM, odometry(1100, 2, { parent: '', child: '' }));
+    expect(world.base).toMatchObject({ pose: { position: { x: 2 } }, timeMs: 1100 });
+  });
+
+  test('are the same says nothing', () => {
+    const world = new WorldState();
+    expect(world.take(ODOM, odometry(1000, 1, { child: 'odom' }))).toMatch(
+      'its child_frame_id is its frame_id',
+    );
+    expect(world.base.timeMs).toBeNull();
+    const place = { position: { x: 2, y: 0, z: 0 }, orientation: NO_TURN };
+    expect(world.take(POSE, { header: header(1000, 'base_link'), pose: place })).toMatch(
+      'its frame_id is base_link',
+    );
+  });
+});
+
+test('what of a message cannot be taken is left out, and the rest is taken', () => {
+  const world = new WorldState();
+  const none = { x: 0, y: 0, z: 0, w: 0 };
+  const why = world.take(
+    TF,
+    tf(transform(1000, 'wrist', 'grip', 1, none), transform(1000, 'odom', 'base_link', 3)),
+  );
+  expect(why).toBe('the transform of grip is none');
+  expect(world.base).toMatchObject({ pose: { position: { x: 3 } }, timeMs: 1000 });
+  expect(world.take(TF, tf(transform(1100, 'base_link', 'odom', 0)))).toMatch('odom cannot be above itself');
+});
+
+test('refused stamps change nothing, and localisation may be ahead', () => {
+  const asked: [string, boolean][] = [];
+  const times: StampTimes = {
+    of: (source, ns, mayBeAhead) => {
+      asked.push([source, mayBeAhead]);
+      return ns > 2_000_000_000n ? 'its stamps are ahead' : Number(ns) / 1e6;
+    },
+  };
+  const world = new WorldState(times);
+  world.take(ODOM, odometry(1000, 1));
+  expect(world.take(ODOM, odometry(86_400_000, 9))).toBe('its stamps are ahead');
+  world.take(ODOM, odometry(1100, 2));
+  expect(world.base).toMatchObject({ pose: { position: { x: 2 } }, timeMs: 1100 });
+  expect(world.take(TF, tf(transform(9000, 'base_link', 'arm', 1)))).toBe(
+    'the transform of arm: its stamps are ahead',
+  );
+  world.take(TF, tf(transform(1000, 'map', 'odom', 1)));
+  world.take(STATIC, tf(transform(9000, 'base_link', 'lidar', 1)));
+  expect(asked.slice(-2)).toEqual([
+    ['tf arm', false],
+    ['tf odom', true],
+  ]);
+});
+
+describe('a sensor', () => {
+  const mount: Pose = { position: { x: 0.3, y: 0, z: 0.5 }, orientation: OPTICAL };
+  const moved = () => {
+    const world = new WorldState();
+    world.take(ODOM, odometry(1000, 7));
+    return world;
+  };
+
+  test('is placed by tf, which also says its mount', () => {
+    const world = moved();
+    world.take(STATIC, tf(transform(0, 'base_link', 'lidar', 0.2)));
+    const { cameraPose, base, mount: told } = world.place('lidar', 1000, 'body', mount);
+    expect([cameraPose.position.x, base?.position.x, told?.position.x]).toEqual([
+      7.2,
+      7,
+      expect.closeTo(0.2),
+    ]);
+    expect(told?.orientation).toEqual(OPTICAL);
+  });
+
+  test('that tf does not know is where it is configured', () => {
+    const { cameraPose, base, mount: told } = moved().place('lidar', 1000, 'body', mount);
+    expect(cameraPose).toEqual(compose(base as Pose, mount));
+    expect([base?.position.x, told]).toEqual([7, null]);
+  });
+
+  test('whose tree is another than the robot’s is not placed by it', () => {
+    const world = moved();
+    world.take(STATIC, tf(transform(0, 'elsewhere', 'lidar', 100)));
+    const { cameraPose, base, mount: told } = world.place('lidar', 1000, 'body', mount);
+    expect([cameraPose.position.x, base?.position.x, told]).toEqual([7.3, 7, null]);
+  });
+
+  test('of a robot that nobody places has no base, but its mount', () => {
+    const world = new WorldState();
+    world.take(STATIC, tf(transform(0, 'base_link', 'lidar', 0.2)));
+    const { cameraPose, base, mount: told } = world.place('lidar', 1000, 'body', null);
+    expect([cameraPose.position.x, base, told?.position.x]).toEqual([0.2, null, 0.2]);
+  });
+
+  test('is not placed by poses that are too old for its cloud, or too young', () => {
+    const world = moved();
+    expect([
+      world.place('lidar', 1250, 'body', mount).base,
+      world.place('lidar', 800, 'body', mount).base,
+    ]).toEqual([expect.anything(), expect.anything()]);
+    expect([
+      world.place('lidar', 1350, 'body', mount).base,
+      world.place('lidar', 600, 'body', mount).base,
+    ]).toEqual([null, null]);
+  });
+});
