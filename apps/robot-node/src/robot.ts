@@ -77,8 +77,6 @@ export class Robot {
   #state: TimedBaseState | null = null;
   /** When the first sensor's capture thread last gave a sign of life, ms on the robot's clock. */
   #captureSeenMs: number | null = null;
-  /** The robot ends because of a failure: the next start begins with the emergency stop latched. */
-  #failed = false;
 
   private constructor(parts: RobotParts, options: RobotOptions, log: Logger) {
     const { captures, base, sink, recording, videos, grants, robotKey, audit } = parts;
@@ -202,7 +200,7 @@ export class Robot {
         told.forEach(addReading);
         board.sample(MOTORS_TOPIC, motors, monotonicMs());
       };
-      base.onFailure = (error) => this.#fail(error);
+      base.onFailure = (error) => this.onFailure?.(error);
     }
     this.#ticking = setInterval(() => this.#tick(), TICK_MS);
     this.#reports = new RobotReports({
@@ -241,9 +239,13 @@ export class Robot {
     return this.#captureSeenMs === null ? 0 : monotonicMs() - this.#captureSeenMs;
   }
 
-  /** Stops the wheels first, then ends all sessions and closes everything. */
-  async close(): Promise<void> {
-    if (!this.#failed) this.driving.estop.end();
+  /**
+   * Stops the wheels first, then ends all sessions and closes everything.
+   *
+   * @param isAsked whether somebody wants it to end. After any other end, the next start begins with the emergency stop latched
+   */
+  async close(isAsked = true): Promise<void> {
+    if (isAsked) this.driving.estop.end();
     this.drive.guard.latchEstop('robot');
     this.drive.halt();
     clearInterval(this.#ticking);
@@ -273,17 +275,12 @@ export class Robot {
   /** The robot cannot continue without its first sensor. Without another it shows less, but continues. */
   #onSensorFailure(sensor: CloudSensor, error: Error): void {
     if (sensor === this.sensors.first) {
-      this.#fail(error);
+      this.onFailure?.(error);
       return;
     }
     this.#log.error({ err: error, sensor: sensor.name }, 'a sensor has failed: the robot goes on without it');
     this.#board.take(failureReading(sensor), monotonicMs());
     this.sensors.updateBudgets();
-  }
-
-  #fail(error: Error): void {
-    this.#failed = true;
-    this.onFailure?.(error);
   }
 
   #tick(): void {

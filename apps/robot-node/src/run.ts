@@ -39,7 +39,7 @@ export async function run(): Promise<void> {
     });
     // Before anything else is closed, however the run ends.
     shutdown.signal.addEventListener('abort', () => robot.drive.halt());
-    shutdown.onClose('robot', () => robot.close());
+    shutdown.onClose('robot', () => robot.close(shutdown.isAsked));
     shutdown.onClose('systemd', () => systemd?.stopping());
     robot.onFailure = (error) => {
       log.fatal({ err: error }, 'the source failed');

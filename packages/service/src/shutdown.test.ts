@@ -29,6 +29,17 @@ test('closers run one after the other, the last added first, then exit 0', async
   expect(exits).toEqual([0]);
 });
 
+test('an end is asked for unless it has a code of failure, and the first end counts', async () => {
+  const asked = make().shutdown;
+  expect(asked.isAsked).toBe(true);
+  await asked.end('received SIGTERM');
+  void asked.end('uncaught exception', 1);
+  expect(asked.isAsked).toBe(true);
+  const failed = make().shutdown;
+  void failed.end('uncaught exception', 1);
+  expect(failed.isAsked).toBe(false);
+});
+
 test('a closer that fails does not prevent the others from running; exit 1', async () => {
   const { exits, shutdown } = make();
   const closed = vi.fn();

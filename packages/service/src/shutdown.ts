@@ -24,6 +24,7 @@ export class Shutdown {
   readonly #closers: { name: string; close: Closer }[] = [];
   readonly #abort = new AbortController();
   #ending: Promise<number> | null = null;
+  #code = 0;
 
   constructor(options: ShutdownOptions) {
     this.#log = options.log;
@@ -34,6 +35,11 @@ export class Shutdown {
   /** Aborted when shutdown begins: for loops and waits. */
   get signal(): AbortSignal {
     return this.#abort.signal;
+  }
+
+  /** Whether the program ends because it was asked to, and not because something failed. True before it ends. */
+  get isAsked(): boolean {
+    return this.#code === 0;
   }
 
   /** Adds something to close; it is closed before everything that was added earlier. */
@@ -61,6 +67,7 @@ export class Shutdown {
    * for the first.
    */
   end(reason: string, code = 0): Promise<number> {
+    if (this.#ending === null) this.#code = code;
     this.#ending ??= this.#run(reason, code);
     return this.#ending;
   }
