@@ -1,5 +1,5 @@
 /** What the options leave open: missing ones, the key, and whether the largest grant is not too large. */
-import { readFileSync, statSync } from 'node:fs';
+import { statSync } from 'node:fs';
 import {
   GrantKeysError,
   issueGrant,
@@ -8,7 +8,7 @@ import {
   parseSigningKey,
   type SigningKey,
 } from '@farpoint/grants';
-import { fileFault, OptionsError } from '@farpoint/service';
+import { OptionsError, readTextFile, TextFileError } from '@farpoint/service';
 import { type GrantTerms, grantFor } from './grant-for.ts';
 import type { IssuerOptions } from './options.ts';
 import type { Rule } from './rules.ts';
@@ -43,11 +43,12 @@ export async function readSigningKey(
   path: string,
 ): Promise<{ key: SigningKey; exposed: boolean }> {
   try {
-    const key = await parseSigningKey(readFileSync(path, 'utf8'));
+    const key = await parseSigningKey(readTextFile(path));
     return { key, exposed: (statSync(path).mode & 0o077) !== 0 };
   } catch (error) {
     if (error instanceof GrantKeysError) throw new OptionsError(`${where}: ${path}`, error.message);
-    throw new OptionsError(where, `names a file that cannot be read: ${fileFault(error) ?? String(error)}`);
+    if (error instanceof TextFileError) throw new OptionsError(where, error.message);
+    throw error;
   }
 }
 

@@ -79,7 +79,7 @@ it.each<[string, string[], RegExp]>([
   [
     'a file that is not there',
     [...enough, ...rules(rule), '--key', 'nix'],
-    /--key names a file that cannot be read: nix does not exist/,
+    /--key cannot be read: nix does not exist/,
   ],
   [
     'a scope without openid',

@@ -1,5 +1,4 @@
 /** Builds the link that the options describe. */
-import { readFileSync } from 'node:fs';
 import type { Direction, DirectionOptions } from '@farpoint/link-emulator';
 import {
   burstLossOf,
@@ -13,7 +12,7 @@ import {
   TcpFlow,
   unlimitedCapacity,
 } from '@farpoint/network-sim';
-import { OptionsError } from '@farpoint/service';
+import { OptionsError, readTextFile, TextFileError } from '@farpoint/service';
 import type * as z from 'zod';
 import type { DirectionalKey, directional, LinkOptions } from './options.ts';
 
@@ -95,9 +94,10 @@ function capacityOf(options: LinkOptions, direction: Direction): CapacitySpec {
 function readTrace(path: string, end: 'loop' | 'hold'): CapacitySpec {
   let text: string;
   try {
-    text = readFileSync(path, 'utf8');
+    text = readTextFile(path);
   } catch (error) {
-    throw new OptionsError('--trace', `cannot be read: ${(error as Error).message}`);
+    if (error instanceof TextFileError) throw new OptionsError('--trace', error.message);
+    throw error;
   }
   try {
     return parseTrace(text, end);

@@ -2,6 +2,7 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { OptionsError, resolveOptions } from '@farpoint/service';
+import { uselessFiles } from '@farpoint/service/testing/useless-files';
 import { afterAll, expect, test } from 'vitest';
 import { directionOf } from './directions.ts';
 import { program } from './options.ts';
@@ -70,4 +71,10 @@ test.each([
 ])('%j is refused', (argv, words) => {
   expect(() => read(...argv)).toThrow(OptionsError);
   expect(() => read(...argv)).toThrow(words);
+});
+
+test.each(uselessFiles())('a trace that is $what is refused', ({ path, words }) => {
+  expect(() => read('--trace', path)).toThrow(OptionsError);
+  expect(() => read('--trace', path)).toThrow(path);
+  expect(() => read('--trace', path)).toThrow(words);
 });

@@ -40,6 +40,6 @@ test('reports a missing file in one sentence, with exit code 2', async () => {
   const service = start([...anyPorts, '--robot-tokens', '/nix']);
   expect(await service.exited).toBe(2);
   expect(service.errors).toMatch(
-    /^farpoint-signaling: --robot-tokens names a file that cannot be read: .* does not exist.*\n$/,
+    /^farpoint-signaling: --robot-tokens cannot be read: .* does not exist.*\n$/,
   );
 });

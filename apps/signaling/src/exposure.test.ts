@@ -7,7 +7,7 @@ import { parseTokens } from './token-file.ts';
 
 const closed = new AccessList(parseTokens('["a-token-of-some-length"]', false));
 const open = new AccessList(null);
-const tls = { cert: Buffer.of(), key: Buffer.of() };
+const tls = { cert: '', key: '' };
 const local: ExposureOptions = {
   ...{ host: '127.0.0.1', open: false, plaintextTokens: false },
   ...{ reference: false, referenceOpen: false, trustProxy: false },

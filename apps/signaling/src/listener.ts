@@ -12,8 +12,8 @@ import { type ServerOptions, type WebSocket, WebSocketServer } from 'ws';
 import { limitSocketsPerAddress } from './address-sockets.ts';
 
 export interface TlsFiles {
-  readonly cert: Buffer;
-  readonly key: Buffer;
+  readonly cert: string;
+  readonly key: string;
 }
 
 /** What to do with a request for a WebSocket. */

@@ -198,7 +198,7 @@ describe('tokens', () => {
 
   test('give a clear error if their file is missing', async () => {
     await expect(TestService.start({ robotTokens: join(folder, 'nix') })).rejects.toThrow(
-      /^--robot-tokens names a file that cannot be read: .*nix does not exist/,
+      /^--robot-tokens cannot be read: .*nix does not exist/,
     );
   });
 });

@@ -1,6 +1,5 @@
-import { readFileSync } from 'node:fs';
 import { createSecureContext } from 'node:tls';
-import { fileFault, OptionsError } from '@farpoint/service';
+import { OptionsError, readTextFile, TextFileError } from '@farpoint/service';
 import { AccessList } from './access.ts';
 import type { TlsFiles } from './listener.ts';
 import type { SignalingOptions } from './options.ts';
@@ -47,20 +46,18 @@ function readTls(certPath: string, keyPath: string): TlsFiles {
 function readTokens(flag: string, path: string | null, bound: boolean): AccessList {
   if (path === null) return new AccessList(null);
   try {
-    return new AccessList(parseTokens(readOptionFile(flag, path).toString('utf8'), bound));
+    return new AccessList(parseTokens(readOptionFile(flag, path), bound));
   } catch (error) {
     if (error instanceof OptionsError) throw error;
     throw new OptionsError(`${flag}: ${path}`, (error as Error).message);
   }
 }
 
-function readOptionFile(flag: string, path: string): Buffer {
+function readOptionFile(flag: string, path: string): string {
   try {
-    return readFileSync(path);
+    return readTextFile(path);
   } catch (error) {
-    throw new OptionsError(
-      flag,
-      `names a file that cannot be read: ${fileFault(error) ?? (error as Error).message}`,
-    );
+    if (error instanceof TextFileError) throw new OptionsError(flag, error.message);
+    throw error;
   }
 }

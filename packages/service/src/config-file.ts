@@ -1,8 +1,8 @@
-import { readFileSync } from 'node:fs';
 import { type Document, isAlias, isMap, isScalar, LineCounter, type Node, parseDocument } from 'yaml';
 import { closest, closestKey } from './closest.ts';
 import { type OptionMistake, OptionsError } from './option-errors.ts';
 import { configSections } from './option-table.ts';
+import { readTextFile, TextFileError } from './text-file.ts';
 
 type Path = readonly (string | number)[];
 
@@ -29,7 +29,7 @@ interface Expected {
  *
  * @param mistakes gets a sentence for every unknown section or key; the rest is still read
  * @returns null if there is no such file and none was requested
- * @throws {OptionsError} if the file is missing, or is not YAML
+ * @throws {OptionsError} if the file is missing, empty, or not YAML
  */
 export function readConfigFile(
   path: string,
@@ -140,10 +140,12 @@ function firstLine(error: unknown): string {
 
 function readFromDisk(path: string): string | null {
   try {
-    return readFileSync(path, 'utf8');
+    return readTextFile(path);
   } catch (error) {
-    if ((error as NodeJS.ErrnoException).code === 'ENOENT') return null;
-    throw new OptionsError(path, `cannot be read: ${(error as Error).message}`);
+    if (!(error instanceof TextFileError)) throw error;
+    if (error.code === 'ENOENT') return null;
+    // Without its options a robot would have the limits of another.
+    throw new OptionsError(path, error.code === null ? error.fault : error.message);
   }
 }
 

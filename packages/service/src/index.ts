@@ -19,4 +19,5 @@ export * from './replace-file.ts';
 export * from './shutdown.ts';
 export { StartFailure } from './start-failure.ts';
 export { fileFault } from './system-error.ts';
+export * from './text-file.ts';
 export { WatchedText, type WatchedTextOptions } from './watched-text.ts';

@@ -21,12 +21,17 @@ const FILE_WORDS: Readonly<Record<string, string>> = {
   EMFILE: 'cannot be opened: too many open files',
 };
 
-/** One sentence about a file, without the system's own name for the fault if there is a plain one. */
-export function fileFault(error: unknown): string | null {
+/**
+ * One sentence about a file, without the system's own name for the fault if there is a plain one.
+ *
+ * @param path for faults that name no path, as those of reading an open file
+ */
+export function fileFault(error: unknown, path?: string): string | null {
   const found = systemErrorOf(error);
-  if (found === null || found.path === undefined || found.syscall === 'listen') return null;
+  const named = found?.path ?? path;
+  if (found === null || named === undefined || found.syscall === 'listen') return null;
   const words = FILE_WORDS[found.code ?? ''];
-  return words === undefined ? null : `${found.path} ${words}`;
+  return words === undefined ? null : `${named} ${words}`;
 }
 
 /** Where a program could not listen. */

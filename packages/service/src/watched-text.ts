@@ -1,5 +1,6 @@
 import { readFile, stat } from 'node:fs/promises';
 import { fileFault } from './system-error.ts';
+import { TextFileError, textOfFile } from './text-file.ts';
 
 export interface WatchedTextOptions {
   readonly path: string;
@@ -7,7 +8,7 @@ export interface WatchedTextOptions {
   readonly maxBytes: number;
   /** Default: 250. */
   readonly intervalMs?: number | undefined;
-  /** Called with the content, first and whenever it has changed. An exception is a fault of the file. */
+  /** Called with the text, first and whenever it has changed. An exception is a fault of the file. */
   readonly onText: (text: string) => void;
   /** Called once while a fault lasts. What was read before stays in force. */
   readonly onFault: (detail: string) => void;
@@ -56,8 +57,9 @@ export class WatchedText {
       const found = await stat(path);
       if (!found.isFile()) return this.#report(`${path} is not a regular file`);
       if (found.size > maxBytes) return this.#report(`${path} is longer than ${maxBytes} bytes`);
-      text = await readFile(path, 'utf8');
+      text = textOfFile(path, await readFile(path));
     } catch (error) {
+      if (error instanceof TextFileError) return this.#report(`${path} ${error.fault}`);
       return this.#report(fileFault(error) ?? String(error));
     }
     this.#fault = null;

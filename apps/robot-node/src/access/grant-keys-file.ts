@@ -1,6 +1,5 @@
-import { readFileSync } from 'node:fs';
 import { type GrantKeys, GrantKeysError, parseGrantKeys } from '@farpoint/grants';
-import { fileFault } from '@farpoint/service';
+import { readTextFile, TextFileError } from '@farpoint/service';
 
 /** The JWK set with the keys whose grants count, in a file that can be read again. */
 export class GrantKeysFile {
@@ -28,12 +27,13 @@ export class GrantKeysFile {
 }
 
 async function read(path: string): Promise<GrantKeys> {
-  let text: string;
   try {
     // A JWK set is a few kilobytes.
-    text = readFileSync(path, 'utf8');
+    return await parseGrantKeys(readTextFile(path));
   } catch (error) {
-    throw new GrantKeysError(`cannot be read: ${fileFault(error) ?? String(error)}`);
+    if (error instanceof TextFileError)
+      throw new GrantKeysError(error.code === null ? `${path} ${error.fault}` : error.message);
+    if (error instanceof GrantKeysError) throw new GrantKeysError(`${path} ${error.message}`);
+    throw error;
   }
-  return await parseGrantKeys(text);
 }

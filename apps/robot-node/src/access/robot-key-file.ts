@@ -1,4 +1,4 @@
-import { chmodSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
+import { chmodSync, mkdirSync, statSync, writeFileSync } from 'node:fs';
 import { dirname } from 'node:path';
 import {
   exportOperatorKey,
@@ -10,12 +10,14 @@ import {
   operatorSecretJwkSchema,
   soleFingerprint,
 } from '@farpoint/grants';
-import { fileFault, type Logger } from '@farpoint/service';
+import { fileFault, type Logger, readTextFile, TextFileError } from '@farpoint/service';
 
 /** The robot's key can be neither read nor made. The message says what to do, for people. */
 export class RobotKeyError extends Error {
   override readonly name = 'RobotKeyError';
 }
+
+const LOST = 'Restore it, or delete it: then operators are asked whether they trust the new one';
 
 /** The robot's own key, by which operators recognise it. */
 export class RobotKey {
@@ -37,10 +39,13 @@ export class RobotKey {
   static async open(path: string): Promise<RobotKey> {
     let text: string;
     try {
-      text = readFileSync(path, 'utf8');
+      text = readTextFile(path);
     } catch (error) {
-      if ((error as NodeJS.ErrnoException).code === 'ENOENT') return await RobotKey.#make(path);
-      throw new RobotKeyError(`${path} cannot be read: ${fileFault(error) ?? String(error)}`);
+      if (!(error instanceof TextFileError)) throw error;
+      if (error.code === 'ENOENT') return await RobotKey.#make(path);
+      throw new RobotKeyError(
+        error.code === null ? `${path} ${error.fault}. ${LOST}` : `${path} ${error.message}`,
+      );
     }
     // Whoever reads the key can pretend to be this robot.
     if ((statSync(path).mode & 0o077) !== 0) chmodSync(path, 0o600);
@@ -80,9 +85,7 @@ async function parse(path: string, text: string): Promise<OperatorKey> {
   try {
     return await importOperatorKey(operatorSecretJwkSchema.parse(JSON.parse(text)));
   } catch {
-    throw new RobotKeyError(
-      `${path} is not a robot’s key. Restore it, or delete it: then operators are asked whether they trust the new one`,
-    );
+    throw new RobotKeyError(`${path} is not a robot’s key. ${LOST}`);
   }
 }
 

@@ -8,6 +8,7 @@ import {
   parseTrajectoryLog,
 } from '@farpoint/cloud-formats';
 import { compose, inverse, type Pose } from '@farpoint/protocol';
+import { withoutMark } from '@farpoint/service';
 import type { FrameSource } from './frame-source.ts';
 import { PlaybackSource, STATIC_CAMERA_POSE } from './playback-source.ts';
 
@@ -71,7 +72,7 @@ function cameraPoses(path: string, count: number): Pose[] {
 
 function naming<T>(file: string, parse: (text: string) => T): T {
   try {
-    return parse(readFileSync(file, 'utf8'));
+    return parse(withoutMark(readFileSync(file, 'utf8')));
   } catch (error) {
     throw new Error(`${file}: ${error instanceof Error ? error.message : String(error)}`, { cause: error });
   }

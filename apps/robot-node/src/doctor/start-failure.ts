@@ -31,7 +31,7 @@ export function startFailure({ sensors, sink, record }: RobotOptions, error: unk
     );
   if (error instanceof GrantKeysError)
     return new StartFailure(
-      `the file of access.grantKeys ${error.message}`,
+      `access.grantKeys: ${error.message}`,
       'write it with `farpoint-signaling grant keygen`',
       {
         cause: error,

@@ -22,12 +22,12 @@ export function checkAccess(
   if (referenceSignaling !== null)
     refuse('referenceSignaling', 'cannot be combined with --grant-keys: its operators have no grants');
   const text = readText(grantKeys, (detail) => refuse('grantKeys', detail));
-  if (text === '') return;
+  if (text === null) return;
   try {
     readJwkSet(text);
   } catch (error) {
     if (!(error instanceof GrantKeysError)) throw error;
-    refuse('grantKeys', error.message);
+    refuse('grantKeys', `${grantKeys} ${error.message}`);
   }
 }
 

@@ -18,7 +18,7 @@ import { checkVideos } from './check-videos.ts';
 import { toObstacleGuard } from './guard.ts';
 import { toGuardTopics } from './guard-topics.ts';
 import { toMotion } from './motion.ts';
-import { readText } from './read-text.ts';
+import { readCertificates } from './read-text.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { rosKindOf } from './ros-kind.ts';
 import { stateFolder } from './state.ts';
@@ -38,7 +38,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   const refuse = (key: RobotOptionKey, detail: string) => mistakes.push({ where: where(key), detail });
   checkSource(values, refuse);
   const topics = describedTopics(values, (detail) => refuse('topics', detail));
-  const ca = values.tlsCa === null ? null : readText(values.tlsCa, (detail) => refuse('tlsCa', detail));
+  const ca = readCertificates(values.tlsCa, (detail) => refuse('tlsCa', detail));
   checkAccess(values, refuse);
   const ofSim = values.source !== 'sim' ? [] : [SIM_MOTORS, ...(values.simOrigin === null ? [] : [SIM_FIX])];
   const quantities = describeQuantities([...topics, ...ofSim]);

@@ -21,7 +21,7 @@ export function toFence(
   let earth = given === null ? null : new EarthFrame(given);
   if (path !== null) {
     const text = readText(path, (detail) => refuse('fence', detail));
-    if (text === '') return undefined;
+    if (text === null) return undefined;
     try {
       const parsed = parseFence(text, given ?? (byFix ? 'first' : null));
       fence = parsed.fence;

@@ -17,7 +17,7 @@ export function toModel(
     refuse('urdf', 'is given, and a topic with `as: model`, too');
   if (urdf === null && source !== 'sim') return undefined;
   const text = urdf === null ? simUrdf(simLidars > 0) : readText(urdf, (detail) => refuse('urdf', detail));
-  if (text === '') return undefined;
+  if (text === null) return undefined;
   try {
     return modelReading(TOPIC, undefined, { kind: 'model', model: readUrdf(text) });
   } catch (error) {

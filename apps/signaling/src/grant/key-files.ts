@@ -1,14 +1,15 @@
-import { closeSync, openSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
+import { closeSync, openSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { GrantKeysError, type GrantPublicJwk, MAX_KEYS, readJwkSet } from '@farpoint/grants';
-import { fileFault, replaceFile } from '@farpoint/service';
+import { fileFault, readTextFile, replaceFile, TextFileError } from '@farpoint/service';
 import { CommandError } from './command-rim.ts';
 
 /** @throws {CommandError} */
 export function readText(flag: string, path: string): string {
   try {
-    return readFileSync(path, 'utf8');
+    return readTextFile(path);
   } catch (error) {
-    throw new CommandError(`${flag} cannot be read: ${fileFault(error) ?? String(error)}`, 1);
+    if (error instanceof TextFileError) throw new CommandError(`${flag} ${error.message}`, 1);
+    throw error;
   }
 }
 
@@ -50,10 +51,11 @@ export function writePublicKeys(flag: string, path: string, keys: readonly Grant
 /** `null` if the file does not exist. @throws {CommandError} */
 export function readIfThere(flag: string, path: string): string | null {
   try {
-    return readFileSync(path, 'utf8');
+    return readTextFile(path);
   } catch (error) {
-    if ((error as NodeJS.ErrnoException).code === 'ENOENT') return null;
-    throw new CommandError(`${flag} cannot be read: ${fileFault(error) ?? String(error)}`, 1);
+    if (!(error instanceof TextFileError)) throw error;
+    if (error.code === 'ENOENT') return null;
+    throw new CommandError(`${flag} ${error.message}`, 1);
   }
 }
 

@@ -1,0 +1,126 @@
+/** Every option of the robot that names a file to read: one that holds nothing is a mistake, never the same as none. */
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { OptionsError, resolveOptions } from '@farpoint/service';
+import { uselessFiles } from '@farpoint/service/testing/useless-files';
+import { describe, expect, it, test } from 'vitest';
+import { GrantKeysFile } from '../access/grant-keys-file.ts';
+import { RobotKey } from '../access/robot-key-file.ts';
+import { openPcdSource } from '../capture/pcd-source.ts';
+import { RecordingSource } from '../capture/recording-source.ts';
+import { openRgbdSource } from '../capture/rgbd-source.ts';
+import { toRobotOptions } from './robot-options.ts';
+import { robotProgram } from './robot-program.ts';
+
+/** Self-signed; of nobody. */
+const CERTIFICATE = `-----BEGIN CERTIFICATE-----
+MIIBcjCCARegAwIBAgIUDnocXNzhsFqEWVYaXByiIarNHz0wCgYIKoZIzj0EAwIw
+DTELMAkGA1UEAwwCY2EwIBcNMjYxMTI4MjI0OTA0WhgPMjEyNjExMDQyMjQ5MDRa
+MA0xCzAJBgNVBAMMAmNhMFkwEwYHKoZIzj0CAQYIKoZIzj0DAQcDQgAECLaVtO4t
+Jd9czqB15KSTjiV3muGhL+RImK1h2cbZflYk2NUbbY1e+jEGk4SMXCNB+f1gihmB
+q3GxuEO+62UrZqNTMFEwHQYDVR0OBBYEFMfkpmye4bxyf1q6L8J9Y2ShtCSPMB8G
+A1UdIwQYMBaAFMfkpmye4bxyf1q6L8J9Y2ShtCSPMA8GA1UdEwEB/wQFMAMBAf8w
+CgYIKoZIzj0EAwIDSQAwRgIhAMoNDQWsr4hzuO709iqhO+STJgfCMG4vqtmD+CRX
+PDXUAiEAvN0Oi55KTbVJM87BWybxzRRzkWMSHhdwWhELOj5EgQw=
+-----END CERTIFICATE-----
+`;
+
+const useless = uselessFiles();
+const folder = join(useless[0]?.path ?? '', '..');
+
+function robot(...argv: string[]) {
+  const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => null });
+  if (resolved.action !== 'run') throw new Error('printed');
+  return toRobotOptions(resolved.values, resolved.where);
+}
+
+function refusal(...argv: string[]): string {
+  try {
+    robot(...argv);
+  } catch (error) {
+    if (error instanceof OptionsError) return error.message;
+    throw error;
+  }
+  throw new Error(`${argv.join(' ')} is taken`);
+}
+
+function marked(name: string, text: string): string {
+  const path = join(folder, name);
+  writeFileSync(path, `\uFEFF${text}`);
+  return path;
+}
+
+describe.each(['--fence', '--urdf', '--tls-ca', '--grant-keys'])('%s', (option) => {
+  it.each(useless)('refuses a file that is $what', ({ path, words }) => {
+    const message = refusal(option, path);
+    expect(message.startsWith(`${option} `)).toBe(true);
+    expect(message).toContain(path);
+    expect(message).toContain(words);
+  });
+});
+
+/** Files that are opened when the robot starts, and what opens them. */
+const opened: [string, (path: string) => Promise<unknown>][] = [
+  ['grant keys', (path) => GrantKeysFile.open(path)],
+  ['PCD', async (path) => openPcdSource({ path, frame: 'auto' })],
+  ['RGB-D', async (path) => openRgbdSource({ path })],
+  [
+    'recording',
+    (path) => RecordingSource.open({ path, rate: 1, fromS: 0, atEnd: 'stop', topics: [] } as never, () => 0),
+  ],
+];
+describe.each(opened)('%s', (_, open) => {
+  it.each(useless)('names the file that is $what', async ({ path }) => {
+    await expect(open(path)).rejects.toThrow(path);
+  });
+});
+
+test.each(useless.filter(({ what }) => what !== 'missing'))(
+  'a robot key that is $what is never replaced',
+  async ({ path, words }) => {
+    await expect(RobotKey.open(path)).rejects.toThrow(path);
+    await expect(RobotKey.open(path)).rejects.toThrow(words);
+  },
+);
+
+describe('a byte order mark', () => {
+  test('is no part of a fence, a model, keys or certificates', () => {
+    const ring = [
+      [0, 0],
+      [0.01, 0],
+      [0.01, 0.01],
+      [0, 0],
+    ];
+    const geometry = { type: 'Polygon', coordinates: [ring] };
+    const feature = { type: 'Feature', properties: { kind: 'allowed' }, geometry };
+    const fence = JSON.stringify({ type: 'FeatureCollection', features: [feature] });
+    const shape = '<visual><geometry><sphere radius="1"/></geometry></visual>';
+    const urdf = `<?xml version="1.0"?><robot name="r"><link name="base_link">${shape}</link></robot>`;
+    const jwk = { kty: 'OKP', crv: 'Ed25519', kid: 'k', x: 'A'.repeat(43) };
+    const options = robot(
+      ...['--fence', marked('fence', fence), '--fence-origin', '0,0'],
+      ...['--urdf', marked('urdf', urdf), '--grant-keys', marked('keys', JSON.stringify({ keys: [jwk] }))],
+      ...['--tls-ca', marked('ca', CERTIFICATE)],
+    );
+    expect(options.fence?.fence.allowed).toHaveLength(1);
+    expect(options.model?.model).toMatchObject({ kind: 'model' });
+    expect(options.signaling.ca).toContain('BEGIN CERTIFICATE');
+  });
+});
+
+test.each([
+  ['text', 'no certificate here', 'without a certificate'],
+  ['a key', '-----BEGIN PRIVATE KEY-----\nAAAA\n-----END PRIVATE KEY-----\n', 'without a certificate'],
+  ['half a certificate', '-----BEGIN CERTIFICATE-----\nAAAA\n', 'without a certificate'],
+  [
+    'a damaged one',
+    '-----BEGIN CERTIFICATE-----\nAAAA\n-----END CERTIFICATE-----\n',
+    'certificate 1 cannot be read',
+  ],
+])('certificates to trust: %s is refused', (_, text, words) => {
+  const path = join(folder, 'ca.pem');
+  writeFileSync(path, text);
+  const message = refusal('--tls-ca', path);
+  expect(message).toContain(path);
+  expect(message).toContain(words);
+});
