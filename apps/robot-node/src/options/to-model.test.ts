@@ -50,8 +50,10 @@ test('a file that cannot be used is refused with what is wrong', () => {
   expect(modelOf({ urdf: '/nowhere/robot.urdf' }).refused).toEqual([
     expect.stringMatching(/^urdf: cannot be read: /),
   ]);
-  const path = fileOf('<!DOCTYPE r><robot/>');
-  expect(modelOf({ urdf: path }).refused).toEqual([`urdf: ${path}: line 1: it has a document type`]);
+  const path = fileOf('<!DOCTYPE r [<!ENTITY x "y">]><robot/>');
+  expect(modelOf({ urdf: path }).refused).toEqual([
+    `urdf: ${path}: line 1: its document type defines something`,
+  ]);
   const topics = [{ topic: '/robot_description', as: 'model' }] as RobotOptionValues['topics'];
   expect(modelOf({ urdf: fileOf(SMALL), source: 'ros2', topics }).refused).toHaveLength(1);
 });

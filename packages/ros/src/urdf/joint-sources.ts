@@ -1,6 +1,5 @@
 /** Where the positions of a model's moving links come from: joints by name, some of which follow others. */
-import { UrdfFault } from './urdf-fault.ts';
-import type { UrdfTree } from './urdf-tree.ts';
+import type { UrdfJoint } from './urdf-tree.ts';
 
 /** A moving link's position: `multiplier` times that of a joint, and `offset`. */
 export interface JointSource {
@@ -12,26 +11,36 @@ export interface JointSource {
   offset: number;
 }
 
-/** Of the moving links, in the tree's order. @throws {UrdfFault} */
-export function jointSources({ links }: UrdfTree): JointSource[] {
-  const joints = new Map(
-    links.flatMap(({ joint }) => (joint === null ? [] : [[joint.name, joint] as const])),
-  );
-  return [...joints.values()].flatMap((joint) => {
-    const { moves } = joint;
-    if (moves === null) return [];
-    let [at, multiplier, offset] = [joint, 1, 0];
-    for (let followed = 0; at.mimic !== null; followed++) {
-      const { mimic } = at;
-      const next = joints.get(mimic.joint);
-      if (next === undefined) throw new UrdfFault('unknown-name', `there is no joint ${mimic.joint}`);
-      if (followed > joints.size) throw new UrdfFault('not-a-tree', `${joint.name} follows itself`);
-      offset += multiplier * mimic.offset;
-      multiplier *= mimic.multiplier;
-      at = next;
-    }
-    if (!Number.isFinite(multiplier) || !Number.isFinite(offset))
-      throw new UrdfFault('bad-value', `${joint.name} follows another too fast`);
-    return [{ name: at.name, moves, multiplier, offset }];
+/**
+ * Of joints that move, in their order. One that follows a joint that does not exist, or in a ring itself, has the
+ * position that is told for itself.
+ *
+ * @param all by name
+ */
+export function jointSources(
+  moving: readonly UrdfJoint[],
+  all: ReadonlyMap<string, UrdfJoint>,
+): JointSource[] {
+  return moving.flatMap((joint) => {
+    const { name, moves } = joint;
+    return moves === null
+      ? []
+      : [{ moves: moves.how, ...(followed(joint, all) ?? { name, multiplier: 1, offset: 0 }) }];
   });
+}
+
+/** `null` if it ends nowhere. */
+function followed(joint: UrdfJoint, all: ReadonlyMap<string, UrdfJoint>): Omit<JointSource, 'moves'> | null {
+  let [at, multiplier, offset] = [joint, 1, 0];
+  for (let steps = 0; at.mimic !== null; steps++) {
+    const { mimic } = at;
+    const next = all.get(mimic.joint);
+    if (next === undefined || steps > all.size) return null;
+    offset += multiplier * mimic.offset;
+    multiplier *= mimic.multiplier;
+    at = next;
+  }
+  return Number.isFinite(multiplier) && Number.isFinite(offset)
+    ? { name: at.name, multiplier, offset }
+    : null;
 }

@@ -70,10 +70,11 @@ export function modelReading(topic: string, label: string | undefined, news: Mod
 
 function notDrawn(news: ModelNews): string {
   if (news.kind === 'refused') return `not drawn: ${news.fault.message}`;
-  const { parts, meshes } = news.model;
+  const { parts, meshes, undrawn } = news.model;
   if (!parts.some(({ part }) => part === 'shape')) return 'not drawn: it has no boxes, cylinders or spheres';
   const counted = (count: number) => `${count} ${count === 1 ? 'mesh' : 'meshes'}`;
   const told = [
+    undrawn > 0 ? `${undrawn} ${undrawn === 1 ? 'shape' : 'shapes'} not drawn` : '',
     meshes.missing > 0 ? `${counted(meshes.missing)} not drawn` : '',
     meshes.replaced > 0 ? `collision shapes for ${counted(meshes.replaced)}` : '',
   ];

@@ -14,10 +14,12 @@ import {
 import { type JointSource, jointSources } from './joint-sources.ts';
 import { UrdfFault } from './urdf-fault.ts';
 import { type LinkShape, materialsOf, shapesOf } from './urdf-shapes.ts';
-import { treeOf, type UrdfTree } from './urdf-tree.ts';
+import { treeOf, type UrdfJoint, type UrdfTree } from './urdf-tree.ts';
 import { identity } from './urdf-values.ts';
 import { readXml } from './xml.ts';
 
+/** What xacro may leave behind: it stands for nothing itself. */
+const XACRO_DEFINITIONS = ['xacro:arg', 'xacro:macro', 'xacro:property'];
 /** In the order in which the robot's pose is looked for (world-state.ts). */
 const BASE_LINKS = ['base_link', 'base_footprint'];
 /** Tenths of millimetres, and as fine for turns. */
@@ -31,6 +33,8 @@ export interface RobotModel {
   joints: JointSource[];
   /** Meshes for which their links' collision shapes stand, and meshes for which nothing is drawn. */
   meshes: { replaced: number; missing: number };
+  /** Shapes that are not drawn: their values are none, or they are too large or too far away. */
+  undrawn: number;
 }
 
 /** @throws {UrdfFault} */
@@ -38,7 +42,9 @@ export function readUrdf(text: string): RobotModel {
   const robot = readXml(text);
   if (robot.name !== 'robot')
     throw new UrdfFault('not-urdf', `its root is <${robot.name}>, not <robot>`, robot.line);
-  const macro = robot.children.find(({ name }) => name.startsWith('xacro:'));
+  const macro = robot.children.find(
+    ({ name }) => name.startsWith('xacro:') && !XACRO_DEFINITIONS.includes(name),
+  );
   if (macro !== undefined)
     throw new UrdfFault('xacro', `<${macro.name}> is a macro: expand the file with xacro first`, macro.line);
   const tree = treeOf(robot);
@@ -46,16 +52,23 @@ export function readUrdf(text: string): RobotModel {
   const meshes = { replaced: 0, missing: 0 };
   const bodies = bodiesOf(tree);
   const shapes: ModelPart[] = [];
+  let undrawn = 0;
   for (const { name, element } of tree.links) {
-    const { body, pose } = bodies.of.get(name) as Placed;
     const drawn = shapesOf(element, materials);
     meshes.replaced += drawn.replaced;
     meshes.missing += drawn.missing;
-    for (const shape of drawn.shapes) shapes.push(shapePart(body, pose, shape));
+    undrawn += drawn.unread;
+    const placed = bodies.of.get(name);
+    for (const shape of drawn.shapes) {
+      const part = placed === undefined ? null : shapePart(placed, shape);
+      if (part === null) undrawn++;
+      else shapes.push(part);
+    }
     if (shapes.length > MAX_MODEL_SHAPES)
       throw new UrdfFault('too-many', `there are more than ${MAX_MODEL_SHAPES} shapes`);
   }
-  return { parts: [...bodies.links, ...shapes], joints: jointSources(tree), meshes };
+  const all = new Map(tree.links.flatMap(({ joint }) => (joint === null ? [] : [[joint.name, joint]])));
+  return { parts: [...bodies.links, ...shapes], joints: jointSources(bodies.joints, all), meshes, undrawn };
 }
 
 /** A link in what moves as one with it. */
@@ -66,10 +79,18 @@ interface Placed {
   pose: Pose;
 }
 
-/** Every link's body and place in it, and the bodies that move. */
-function bodiesOf({ links }: UrdfTree): { of: Map<string, Placed>; links: ModelPart[] } {
+interface Bodies {
+  /** Every link's place in a body; without those beyond a joint that is too far away. */
+  of: ReadonlyMap<string, Placed>;
+  /** The bodies that move, and the joints by which they do. */
+  links: ModelPart[];
+  joints: UrdfJoint[];
+}
+
+function bodiesOf({ links }: UrdfTree): Bodies {
   const of = new Map<string, Placed>();
   const moving: ModelPart[] = [];
+  const joints: UrdfJoint[] = [];
   // The links that do not move against the root come first, so that it is known where base_link is.
   const base = basePose(links);
   for (const { name, joint } of links) {
@@ -77,18 +98,22 @@ function bodiesOf({ links }: UrdfTree): { of: Map<string, Placed>; links: ModelP
       of.set(name, { body: 0, pose: base });
       continue;
     }
-    const parent = of.get(joint.parent) as Placed;
+    const parent = of.get(joint.parent);
+    if (parent === undefined) continue;
     const pose = compose(parent.pose, joint.origin);
     if (joint.moves === null) {
       of.set(name, { body: parent.body, pose });
       continue;
     }
-    const { x, y, z } = joint.axis;
-    const axis: [number, number, number] = [rounded(x), rounded(y), rounded(z)];
-    moving.push({ part: 'link', parent: parent.body, place: placeOf(pose), moves: joint.moves, axis });
+    const place = placeOf(pose);
+    if (place === null) continue;
+    const { how, axis } = joint.moves;
+    const along: [number, number, number] = [rounded(axis.x), rounded(axis.y), rounded(axis.z)];
+    moving.push({ part: 'link', parent: parent.body, place, moves: how, axis: along });
+    joints.push(joint);
     of.set(name, { body: moving.length, pose: identity() });
   }
-  return { of, links: moving };
+  return { of, links: moving, joints };
 }
 
 /** Of the root in base_link, if that does not move against the root; else none. */
@@ -103,17 +128,20 @@ function basePose(links: UrdfTree['links']): Pose {
   return base === undefined ? identity() : inverse(base);
 }
 
-function shapePart(link: number, inBody: Pose, { pose, form, size, colour }: LinkShape): ModelPart {
+/** `null` if it is too far away. */
+function shapePart(
+  { body, pose: inBody }: Placed,
+  { pose, form, size, colour }: LinkShape,
+): ModelPart | null {
   const place = placeOf(compose(inBody, pose));
   const metres = size.map((each) => Math.max(rounded(each), 10 ** -DIGITS));
-  return { part: 'shape', link, place, form, size: metres, colour };
+  return place === null ? null : { part: 'shape', link: body, place, form, size: metres, colour };
 }
 
-/** @throws {UrdfFault} */
-function placeOf({ position, orientation }: Pose): ModelPlace {
+/** `null` if it is too far away. */
+function placeOf({ position, orientation }: Pose): ModelPlace | null {
   const { x, y, z } = position;
-  if (!(Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) <= MAX_MODEL_M))
-    throw new UrdfFault('bad-value', `a part is farther than ${MAX_MODEL_M} m from the base`);
+  if (!(Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) <= MAX_MODEL_M)) return null;
   const { x: qx, y: qy, z: qz, w: qw } = orientation;
   const length = Math.hypot(qx, qy, qz, qw);
   const [a, b, c, d] = [qx, qy, qz, qw].map((share) => rounded(share / length)) as [

@@ -1,12 +1,12 @@
 /** The links and joints of a robot description, which form a tree. */
 import { MAX_MODEL_LINKS, type Pose, type Vector3 } from '@farpoint/protocol';
 import { UrdfFault } from './urdf-fault.ts';
-import { attribute, axisOf, childOf, faultAt, nameIn, numbers, originOf } from './urdf-values.ts';
+import { attribute, axisOf, childOf, faultAt, numbers, originOf } from './urdf-values.ts';
 import type { XmlElement } from './xml.ts';
 
 const MAX_LINKS = 2048;
 
-/** URDF's types of joints. Those that move in several ways are drawn where they begin. */
+/** URDF's types of joints. Those that move in several ways are drawn where they begin, and have no axis that counts. */
 const MOVES = {
   revolute: 'turns',
   continuous: 'turns',
@@ -31,8 +31,7 @@ export interface UrdfJoint {
   /** Of the child in the parent, while the joint is at 0. */
   origin: Pose;
   /** `null`: not in a way that is shown. */
-  moves: 'turns' | 'slides' | null;
-  axis: Vector3;
+  moves: { how: 'turns' | 'slides'; axis: Vector3 } | null;
   mimic: Mimic | null;
 }
 
@@ -46,7 +45,7 @@ export interface UrdfTree {
 export function treeOf(robot: XmlElement): UrdfTree {
   const links = new Map<string, XmlElement>();
   for (const element of robot.children.filter(({ name }) => name === 'link')) {
-    const name = nameIn(element, 'name');
+    const name = attribute(element, 'name');
     if (links.has(name)) throw faultAt(element, `the link ${name} is there twice`);
     links.set(name, element);
   }
@@ -100,24 +99,25 @@ function jointOf(element: XmlElement): UrdfJoint {
   const linkOf = (end: string) => {
     const child = childOf(element, end);
     if (child === undefined) throw faultAt(element, `the joint has no ${end}`);
-    return nameIn(child, 'link');
+    return attribute(child, 'link');
   };
   const type = attribute(element, 'type');
   if (!Object.hasOwn(MOVES, type)) throw faultAt(element, 'URDF has no joints of this type');
+  const how = MOVES[type as keyof typeof MOVES];
+  const axis = how === null ? null : axisOf(element);
   const mimic = childOf(element, 'mimic');
   const factor = (of: XmlElement, key: string, otherwise: number) =>
     of.attributes.has(key) ? (numbers(of, key, 1)[0] as number) : otherwise;
   return {
-    name: nameIn(element, 'name'),
+    name: attribute(element, 'name'),
     ...{ parent: linkOf('parent'), child: linkOf('child') },
     origin: originOf(element),
-    moves: MOVES[type as keyof typeof MOVES],
-    axis: axisOf(element),
+    moves: how === null || axis === null ? null : { how, axis },
     mimic:
       mimic === undefined
         ? null
         : {
-            joint: nameIn(mimic, 'joint'),
+            joint: attribute(mimic, 'joint'),
             multiplier: factor(mimic, 'multiplier', 1),
             offset: factor(mimic, 'offset', 0),
           },

@@ -1,13 +1,9 @@
 /** The values of URDF's attributes: numbers, vectors, places and colours, each checked. */
-import { MAX_MODEL_M, multiply, type Pose, type Quaternion, type Vector3 } from '@farpoint/protocol';
+import { multiply, type Pose, type Quaternion, type Vector3 } from '@farpoint/protocol';
 import { UrdfFault } from './urdf-fault.ts';
 import type { XmlElement } from './xml.ts';
 
-const NUMBER = /^[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?$/;
-/** Of a joint's axis, and of factors: no more is sensible. */
-const MOST_NUMBER = 1e6;
-const MOST_TURN = 1000;
-const MOST_NAME = 200;
+const NUMBER = /^[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?$/;
 
 /** A required attribute. @throws {UrdfFault} */
 export function attribute(element: XmlElement, key: string): string {
@@ -16,21 +12,13 @@ export function attribute(element: XmlElement, key: string): string {
   return value;
 }
 
-/** The name of something, or of what it refers to. @throws {UrdfFault} */
-export function nameIn(element: XmlElement, key: string): string {
-  const name = attribute(element, key).trim();
-  if (name.length === 0 || name.length > MOST_NAME)
-    throw faultAt(element, `the ${key} of <${element.name}> must have 1 to ${MOST_NAME} characters`);
-  return name;
-}
-
-/** So many numbers, none larger than `most`. @throws {UrdfFault} */
-export function numbers(element: XmlElement, key: string, count: number, most = MOST_NUMBER): number[] {
+/** So many finite numbers. @throws {UrdfFault} */
+export function numbers(element: XmlElement, key: string, count: number): number[] {
   const words = attribute(element, key).trim().split(/\s+/);
   const read = words.map((word) => (NUMBER.test(word) ? Number(word) : Number.NaN));
-  if (read.length !== count || !read.every((number) => Math.abs(number) <= most)) {
+  if (read.length !== count || !read.every(Number.isFinite)) {
     const what = count === 1 ? 'a number' : `${count} numbers`;
-    throw faultAt(element, `${key} of <${element.name}> must be ${what} of at most ${most}`);
+    throw faultAt(element, `${key} of <${element.name}> must be ${what}`);
   }
   return read;
 }
@@ -39,21 +27,25 @@ export function numbers(element: XmlElement, key: string, count: number, most = 
 export function originOf(element: XmlElement): Pose {
   const origin = childOf(element, 'origin');
   if (origin === undefined) return identity();
-  const [x = 0, y = 0, z = 0] = origin.attributes.has('xyz') ? numbers(origin, 'xyz', 3, MAX_MODEL_M) : [];
-  const [roll = 0, pitch = 0, yaw = 0] = origin.attributes.has('rpy')
-    ? numbers(origin, 'rpy', 3, MOST_TURN)
-    : [];
-  return { position: { x, y, z }, orientation: turned(roll, pitch, yaw) };
+  const given = (key: string, count: number) =>
+    origin.attributes.has(key) ? numbers(origin, key, count) : [];
+  const [x = 0, y = 0, z = 0] = given('xyz', 3);
+  const position = { x, y, z };
+  const [qx = 0, qy = 0, qz = 0, qw = 0] = given('quat_xyzw', 4);
+  const length = Math.hypot(qx, qy, qz, qw);
+  if (length > 0 && Number.isFinite(length))
+    return { position, orientation: { x: qx / length, y: qy / length, z: qz / length, w: qw / length } };
+  const [roll = 0, pitch = 0, yaw = 0] = given('rpy', 3);
+  return { position, orientation: turned(roll, pitch, yaw) };
 }
 
-/** The unit vector of a joint's `axis`; without one, x. @throws {UrdfFault} */
-export function axisOf(joint: XmlElement): Vector3 {
+/** The unit vector of a joint's `axis`; without one, x; `null` if it has no direction. @throws {UrdfFault} */
+export function axisOf(joint: XmlElement): Vector3 | null {
   const axis = childOf(joint, 'axis');
-  if (axis === undefined) return { x: 1, y: 0, z: 0 };
+  if (axis?.attributes.has('xyz') !== true) return { x: 1, y: 0, z: 0 };
   const [x = 0, y = 0, z = 0] = numbers(axis, 'xyz', 3);
   const length = Math.hypot(x, y, z);
-  if (!(length > 1e-9)) throw faultAt(axis, 'the axis has no direction');
-  return { x: x / length, y: y / length, z: z / length };
+  return length > 1e-9 && Number.isFinite(length) ? { x: x / length, y: y / length, z: z / length } : null;
 }
 
 /** 24 bits, of an element with `rgba`; `null` if it cannot be seen at all. @throws {UrdfFault} */

@@ -1,20 +1,22 @@
 /**
  * Reads the elements and attributes of an XML document, as far as robot descriptions need them. Text between the
- * elements is passed over. There are no document types, so nothing can define or load an entity. Its time and its memory
- * are bounded by the length of the document.
+ * elements is passed over. A document type has no definitions, so nothing can define or load an entity. Its time and its
+ * memory are bounded by the length of the document. What common readers of URDF let pass is read as they read it: an
+ * unknown reference and a `<` in a value are text.
  */
 import { UrdfFault, type UrdfFaultCode } from './urdf-fault.ts';
 
 /** Characters. */
 export const MAX_XML_LENGTH = 1 << 20;
 const MAX_ELEMENTS = 20_000;
-const MAX_DEPTH = 64;
-const MAX_ATTRIBUTES = 32;
+const MAX_DEPTH = 500;
+const MAX_ATTRIBUTES = 256;
 const ENTITIES: Readonly<Record<string, string>> = { lt: '<', gt: '>', amp: '&', quot: '"', apos: "'" };
 
-const NAME = /[A-Za-z_][\w:.-]{0,127}/y;
-const SPACE = /[ \t\r\n]*/y;
-const REFERENCE = /&(?:#(\d{1,7})|#x([0-9A-Fa-f]{1,6})|([a-z]{2,4}));|&/g;
+const NAME = /[\p{L}_:][\p{L}\p{M}\p{N}_:.·-]{0,127}/uy;
+const SPACE = /\s*/y;
+const DOCUMENT_TYPE = /!DOCTYPE\b[^<>[\]]*>/iy;
+const REFERENCE = /&(?:#(\d{1,7})|#x([0-9A-Fa-f]{1,6})|([a-z]{2,4}));/g;
 
 export interface XmlElement {
   readonly name: string;
@@ -78,7 +80,7 @@ class Reader {
       if (text.startsWith('!--', this.#at)) this.#skip('-->');
       else if (text.startsWith('![CDATA[', this.#at)) this.#skip(']]>');
       else if (text[this.#at] === '?') this.#skip('?>');
-      else if (text[this.#at] === '!') throw this.#fault('it has a document type', 'doctype');
+      else if (text[this.#at] === '!') this.#documentType();
       else return true;
     }
   }
@@ -89,16 +91,21 @@ class Reader {
     this.#at = at + end.length;
   }
 
+  #documentType(): void {
+    if (this.#match(DOCUMENT_TYPE) === '')
+      throw this.#fault('its document type defines something', 'doctype');
+  }
+
   #element(): [element: XmlElement, isEmpty: boolean] {
     const name = this.#name();
     const line = this.#lineAt();
     const attributes = new Map<string, string>();
     for (;;) {
-      const spaced = this.#match(SPACE) !== '';
+      this.#match(SPACE);
       if (this.#take('>')) return [{ name, attributes, children: [], line }, false];
       if (this.#take('/>')) return [{ name, attributes, children: [], line }, true];
-      if (!spaced) throw this.#fault(`the tag <${name} is not well-formed`);
-      const key = this.#name();
+      const key = this.#match(NAME);
+      if (key === '') throw this.#fault(`the tag <${name} is not well-formed`);
       this.#match(SPACE);
       if (!this.#take('=')) throw this.#fault(`the attribute ${key} has no value`);
       this.#match(SPACE);
@@ -115,19 +122,8 @@ class Reader {
     const end = this.#text.indexOf(quote, this.#at + 1);
     if (end < 0) throw this.#fault(`the value of ${key} does not end`);
     const raw = this.#text.slice(this.#at + 1, end);
-    if (raw.includes('<')) throw this.#fault(`the value of ${key} has a <`);
     this.#at = end + 1;
-    return raw.includes('&') ? this.#unescaped(raw) : raw;
-  }
-
-  #unescaped(raw: string): string {
-    return raw.replace(REFERENCE, (whole, decimal?: string, hex?: string, named?: string) => {
-      const code = decimal !== undefined ? Number(decimal) : Number.parseInt(hex ?? '', 16);
-      const known = named !== undefined && Object.hasOwn(ENTITIES, named) ? ENTITIES[named] : undefined;
-      if (known !== undefined) return known;
-      if (code > 0 && code <= 0x10ffff) return String.fromCodePoint(code);
-      throw this.#fault(`${whole} is no reference that XML itself has`);
-    });
+    return raw.includes('&') ? unescaped(raw) : raw;
   }
 
   #close(open: XmlElement | undefined): void {
@@ -168,4 +164,12 @@ class Reader {
   #fault(detail: string, code: UrdfFaultCode = 'not-xml'): UrdfFault {
     return new UrdfFault(code, detail, this.#lineAt());
   }
+}
+
+function unescaped(raw: string): string {
+  return raw.replace(REFERENCE, (whole, decimal?: string, hex?: string, named?: string) => {
+    const code = decimal !== undefined ? Number(decimal) : Number.parseInt(hex ?? '', 16);
+    const known = named !== undefined && Object.hasOwn(ENTITIES, named) ? ENTITIES[named] : undefined;
+    return known ?? (code > 0 && code <= 0x10ffff ? String.fromCodePoint(code) : whole);
+  });
 }
