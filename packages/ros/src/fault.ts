@@ -1,3 +1,5 @@
+import * as z from 'zod';
+
 export type RosFaultCode =
   | 'unavailable' // something needed to reach the graph is missing: a library, a master, an interface
   | 'lost' // it was available, and is gone
@@ -50,7 +52,18 @@ export class RosFault extends Error {
         ...(remedy === undefined ? {} : { remedy }),
       });
     }
-    const what = error instanceof Error ? error.message : String(error);
-    return new RosFault('bad-message', what, { topic, cause: error });
+    return new RosFault('bad-message', messageFault(error), { topic, cause: error });
   }
+}
+
+/** What is wrong with a message, in one sentence: where a schema refuses it, the place of the first value that is wrong. */
+export function messageFault(error: unknown): string {
+  if (!(error instanceof z.ZodError)) return error instanceof Error ? error.message : String(error);
+  const [first] = error.issues;
+  if (first === undefined) return 'the message is not of its type';
+  const path = first.path
+    .map((step) => (typeof step === 'number' ? `[${step}]` : `.${String(step)}`))
+    .join('');
+  const more = error.issues.length > 1 ? `, and ${error.issues.length - 1} more` : '';
+  return `${path === '' ? 'the message' : path.replace(/^\./, '')}: ${first.message}${more}`;
 }

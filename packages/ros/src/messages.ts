@@ -26,7 +26,8 @@ const twist = z.object({ linear: vector3, angular: vector3 });
 export const pointFieldSchema = z.object({
   name: z.string().max(128),
   offset: z.int().min(0),
-  datatype: z.int().min(1).max(8),
+  /** Types that nobody knows do no harm in fields that nobody reads. */
+  datatype: z.int().min(0).max(255),
   count: z.int().min(0),
 });
 export type PointField = z.infer<typeof pointFieldSchema>;
@@ -86,7 +87,11 @@ export const tfMessageSchema = z.object({
       z.object({
         header,
         child_frame_id: frameId,
-        transform: z.object({ translation: vector3, rotation: quaternion }),
+        // One that is none, as of a gripper whose driver does not know, must not cost the others.
+        transform: z.object({
+          translation: z.object({ x: number, y: number, z: number }),
+          rotation: z.object({ x: number, y: number, z: number, w: number }),
+        }),
       }),
     )
     .max(4096),

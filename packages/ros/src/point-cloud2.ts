@@ -1,8 +1,9 @@
 import { intensityColour, intensityScale } from '@farpoint/cloud-formats';
+import { type Channels, ColourChannels } from './colour-channels.ts';
 import { RosFault } from './fault.ts';
 import { GREY } from './image.ts';
 import type { PointCloud2, PointField } from './messages.ts';
-import { FLOAT32, fieldReader, requireFit, TYPES, typeOf, UINT8 } from './point-field.ts';
+import { FLOAT32, fieldReader, readableField, requireFit, rowBytesOf, typeOf } from './point-field.ts';
 import {
   alignedWords,
   type CloudAxes,
@@ -21,6 +22,7 @@ export class PointCloud2Decoder {
   readonly #palette = Uint32Array.from({ length: LEVELS }, (_, i) => intensityColour(i / (LEVELS - 1)));
   /** Taken from the first cloud with intensities: a changing scale would make everything flicker. */
   #intensityScale: number | null = null;
+  readonly #channels = new ColourChannels();
   readonly #rings = new RingFinder();
 
   /** Elevations of the LiDAR's rings, radians, ascending; `null` until clouds have told them. */
@@ -30,7 +32,7 @@ export class PointCloud2Decoder {
 
   /**
    * Accepts fields of any layout, type and endianness: x, y and z; colour from `rgb`, `rgba`, or `r`, `g`, `b`; else
-   * from `intensity`; else grey.
+   * from `intensity`; else grey. Fields that are not read, and colours that cannot be, do no harm.
    *
    * @param into four words per point: x, y, z in metres in the optical frame, then the bytes R, G, B, A
    * @returns the number of points
@@ -48,7 +50,7 @@ export class PointCloud2Decoder {
       PointField,
       PointField,
     ];
-    const rowBytes = height > 1 ? cloud.row_step : width * cloud.point_step;
+    const rowBytes = rowBytesOf(cloud);
     const rows: Rows = { width, height, rowBytes, step: cloud.point_step };
     if (isPlain(cloud, [x, y, z], rowBytes))
       copyPoints(alignedWords(cloud.data), rows, [x, y, z], axes, into);
@@ -74,7 +76,7 @@ export class PointCloud2Decoder {
     }
     if (count === 0) return 0;
     const { width, height } = cloud;
-    const rowBytes = height > 1 ? cloud.row_step : width * cloud.point_step;
+    const rowBytes = rowBytesOf(cloud);
     const rows: Rows = { width, height, rowBytes, step: cloud.point_step };
     const z = fieldOf(cloud, 'z');
     const { data } = cloud;
@@ -94,14 +96,12 @@ export class PointCloud2Decoder {
 
   /** @param stride words from one point's colour to the next, the first at `first` */
   #colour(cloud: PointCloud2, rows: Rows, words: Uint32Array, stride: number, first: number): void {
-    const { fields, data } = cloud;
+    const { data } = cloud;
     const little = !cloud.is_bigendian;
     const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
-    const named = (...names: string[]) =>
-      fields.find((field) => names.includes(field.name) && field.count !== 0);
+    const named = (...names: string[]) => readableField(cloud, ...names);
     const packed = named('rgb', 'rgba');
-    if (packed !== undefined) {
-      requireFit(cloud, packed, 4);
+    if (packed !== undefined && packed.offset + 4 <= cloud.point_step) {
       // Read as words: the bits are the same, whatever the field's type says.
       const plain = { ...packed, datatype: FLOAT32 };
       if (data.byteOffset % 4 === 0 && isPlain(cloud, [plain], rows.rowBytes)) {
@@ -116,17 +116,9 @@ export class PointCloud2Decoder {
       });
       return;
     }
-    const [red, green, blue] = [named('r', 'red'), named('g', 'green'), named('b', 'blue')];
-    if ([red, green, blue].every((field) => field?.datatype === UINT8)) {
-      const [r, g, b] = [red, green, blue].map((field) => (field as PointField).offset) as [
-        number,
-        number,
-        number,
-      ];
-      forEachPoint(rows, (at, i) => {
-        words[i * stride + first] =
-          view.getUint8(at + r) | (view.getUint8(at + g) << 8) | (view.getUint8(at + b) << 16) | 0xff00_0000;
-      });
+    const channels = [named('r', 'red'), named('g', 'green'), named('b', 'blue')];
+    if (channels.every((field) => field !== undefined)) {
+      this.#channels.paint(cloud, rows, channels as unknown as Channels, words, stride, first);
       return;
     }
     const intensity = named('intensity', 'intensities', 'reflectivity');
@@ -136,7 +128,6 @@ export class PointCloud2Decoder {
       });
       return;
     }
-    requireFit(cloud, intensity, typeOf(intensity).bytes);
     const { read } = typeOf(intensity);
     const intensityAt = fieldReader(cloud, intensity);
     this.#intensityScale ??= intensityScale(intensityAt, rows.width * rows.height);
@@ -151,20 +142,18 @@ export class PointCloud2Decoder {
   }
 }
 
-/** Checks that the data is as long as the cloud's size requires. @returns width × height */
-export function checkedCount({ width, height, point_step, row_step, data, fields }: PointCloud2): number {
+/** Checks that the points can be read, and that the data is as long as they require. @returns width × height */
+export function checkedCount(cloud: PointCloud2): number {
+  const { width, height, point_step, row_step, data } = cloud;
   const count = width * height;
   if (count === 0) return 0;
-  const wrong = (detail: string) => new RosFault('bad-cloud', detail);
-  for (const { name, offset, datatype } of fields) {
-    if (offset + (TYPES[datatype - 1]?.bytes ?? 0) > point_step) {
-      throw wrong(`field ${name} at ${offset} is outside its point of ${point_step} bytes`);
-    }
+  for (const name of ['x', 'y', 'z']) {
+    const field = cloud.fields.find((each) => each.name === name);
+    if (field !== undefined) requireFit(cloud, field, typeOf(field).bytes);
   }
-  if (height > 1 && row_step < width * point_step) {
-    throw wrong(`a row of ${row_step} bytes for ${width} points of ${point_step}`);
-  }
-  const needed = (height > 1 ? (height - 1) * row_step : 0) + width * point_step;
+  if (height > 1 && row_step > 0 && row_step < width * point_step)
+    throw new RosFault('bad-cloud', `a row of ${row_step} bytes for ${width} points of ${point_step}`);
+  const needed = (height - 1) * rowBytesOf(cloud) + width * point_step;
   if (data.length < needed) {
     throw new RosFault('bad-cloud', `the data ends, ${needed} bytes expected`, { offset: data.length });
   }

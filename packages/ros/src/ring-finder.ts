@@ -3,7 +3,7 @@
  * Velodyne's and Ouster's drivers), or by rows. A few clouds are enough, and then no more are looked at.
  */
 import type { PointCloud2 } from './messages.ts';
-import { fieldReader } from './point-field.ts';
+import { fieldReader, readableField } from './point-field.ts';
 
 /** Clouds that are looked at, and points of each. */
 const MOST_CLOUDS = 20;
@@ -24,7 +24,7 @@ const LEAST_GAP = 0.0005;
 const MOST_DEVIATION = 0.4;
 
 /** Of Velodyne's, Ouster's, Hesai's and RoboSense's drivers. */
-const RING_FIELDS: ReadonlySet<string> = new Set(['ring', 'channel']);
+const RING_FIELDS = ['ring', 'channel'];
 
 export class RingFinder {
   readonly #count = new Uint32Array(MOST_RINGS);
@@ -83,8 +83,8 @@ export class RingFinder {
 
 /** Which ring measured a point, by the point's index; `null` if the cloud does not say so. */
 function ringReader(cloud: PointCloud2): ((point: number) => number) | null {
-  const { fields, width, height } = cloud;
-  const field = fields.find(({ name, count }) => RING_FIELDS.has(name) && count !== 0);
+  const { width, height } = cloud;
+  const field = readableField(cloud, ...RING_FIELDS);
   if (field !== undefined) return fieldReader(cloud, field);
   return height >= LEAST_RINGS && height <= MOST_RINGS ? (point) => Math.floor(point / width) : null;
 }
