@@ -10,7 +10,27 @@ describe('tokens', () => {
   test.each([
     ['lines', 'abc\n# a comment\ndef\n', free('abc', 'def')],
     ['one line', 'abc', free('abc')],
+    ['numbers', '00123\n1e10\n0x1F\n', free('00123', '1e10', '0x1F')],
     ['a number', '0123456789\n', free('0123456789')],
+    ['a number below a comment', '# of the kitchen\n\n00123\n', free('00123')],
+    [
+      'a list of what is no text in YAML',
+      '- 00123\n- 1e10\n- 0x1F\n- 1.50\n- true\n',
+      free('00123', '1e10', '0x1F', '1.50', 'true'),
+    ],
+    ['more digits than a number has', '[12345678901234567890123]', free('12345678901234567890123')],
+    ['aliases', '- &a 007\n- *a\n', free('007', '007')],
+    [
+      'a mapping to numbers',
+      'r1: 00123\n7: [+5]\n',
+      {
+        bound: new Map([
+          ['r1', ['00123']],
+          ['7', ['+5']],
+        ]),
+        free: [],
+      },
+    ],
     ['a YAML list', '- abc\n- "d e"\n', free('abc', 'd e')],
     ['a JSON list', '["abc"]', free('abc')],
     [
@@ -37,6 +57,13 @@ describe('tokens', () => {
     ['', 'has no tokens'],
     ['# only\n# comments', 'has no tokens'],
     ['{}', 'has no tokens'],
+    ['r1:', 'r1: a token is text of 1–4096 characters'],
+    ['r1: null', 'r1: a token is text of 1–4096 characters'],
+    ['- ~', 'entry 1: a token is text of 1–4096 characters'],
+    ['- ""', 'entry 1: a token is text of 1–4096 characters'],
+    ['r1: a\nr1: secret', 'is neither YAML nor JSON nor one token a line'],
+    ['r1: *secret', 'r1: a token is text of 1–4096 characters'],
+    ['&a [*a]', 'entry 1: a token is text of 1–4096 characters'],
     ['R 1: secret', '"R 1" is not a robot id'],
     ['r1: {a: secret}', 'r1: a token is text of 1–4096 characters'],
     ['- secret\n- [x]', 'entry 2: a token is text of 1–4096 characters'],

@@ -11,6 +11,8 @@ export interface ConfigFile {
   readonly path: string;
   /** Values by dotted key within the section. */
   readonly values: ReadonlyMap<string, unknown>;
+  /** The same, with each number and word as text, as it is written: YAML reads 00123 as 123. */
+  readonly written: ReadonlyMap<string, unknown>;
   /** Location of a key, or of something inside its value, for error messages. */
   place(key: string, inside?: Path): { where: string; file: string; line: number; key: string };
 }
@@ -44,9 +46,9 @@ export function readConfigFile(
   }
   const source = parseYaml(path, content);
   const values = new Map<string, unknown>();
+  const written = new Map<string, unknown>();
   const file: ConfigFile = {
-    path,
-    values,
+    ...{ path, values, written },
     place: (key, inside = []) => source.place([expected.section, ...key.split('.'), ...inside]),
   };
   const { root } = source;
@@ -60,10 +62,10 @@ export function readConfigFile(
     const detail = `is not a section${closest(name, configSections)}; the sections are ${configSections.join(', ')}`;
     mistakes.push({ ...source.place([name]), detail });
   }
-  collect(root[expected.section], '');
+  collect(root[expected.section], source.written(expected.section), '');
   return file;
 
-  function collect(node: unknown, group: string): void {
+  function collect(node: unknown, asText: unknown, group: string): void {
     if (node === null || node === undefined) return;
     if (!isMapping(node)) {
       const path = group === '' ? [expected.section] : [expected.section, ...group.split('.')];
@@ -72,8 +74,11 @@ export function readConfigFile(
     }
     for (const [name, value] of Object.entries(node)) {
       const key = group === '' ? name : `${group}.${name}`;
-      if (expected.keys.includes(key)) values.set(key, value);
-      else if (expected.keys.some((known) => known.startsWith(`${key}.`))) collect(value, key);
+      const text = isMapping(asText) ? asText[name] : undefined;
+      if (expected.keys.includes(key)) {
+        values.set(key, value);
+        written.set(key, text);
+      } else if (expected.keys.some((known) => known.startsWith(`${key}.`))) collect(value, text, key);
       else {
         const place = source.place([expected.section, ...(group === '' ? [] : group.split('.')), name]);
         const hint = closestKey(group, name, expected.keys).replace('mean ', `mean ${expected.section}.`);
@@ -85,6 +90,8 @@ export function readConfigFile(
 
 interface ParsedYaml {
   readonly root: unknown;
+  /** A section of the root, with all scalars as text. */
+  written(section: string): unknown;
   place(path: Path): { where: string; file: string; line: number; key: string };
 }
 
@@ -105,6 +112,10 @@ function parseYaml(file: string, content: string): ParsedYaml {
   }
   return {
     root,
+    written(section) {
+      const all: unknown = parseDocument(content, { prettyErrors: false, schema: 'failsafe' }).toJS();
+      return isMapping(all) ? all[section] : undefined;
+    },
     place(path) {
       const { line } = lines.linePos(offsetOf(document, path));
       const key = path.join('.');

@@ -323,3 +323,29 @@ test('--help shows every flag with its default and its variable, secrets without
   expect(text).toContain('token (env: FARPOINT_TOKEN)');
   expect(resolve({ argv: ['--version'] })).toEqual({ action: 'print', text: 'farpoint-robot 1.2.3\n' });
 });
+
+describe('text in the file is taken as it is written', () => {
+  const of = (lines: string) => run({ files: { 'farpoint.yaml': `robot:\n${lines}` } }).values;
+
+  test.each(['00123456', '12345678901234567890123', '1e0000010', '0x1F1F1F1F', '1.50000000', '+12345678'])(
+    '%s',
+    (token) => {
+      expect(of(`  token: ${token}\n`).token).toBe(token);
+      expect(of(`  token: &a ${token}\n`).token).toBe(token);
+      expect(of(`  token: "${token}"\n`).token).toBe(token);
+    },
+  );
+
+  test('in lists, too; numbers and switches are numbers and switches', () => {
+    const values = of(
+      '  cameras: [007, 1.0, true, a]\n  port: 0x1F\n  maxSpeed: 1.50\n  record: true\n  limits:\n    turn: 1e0\n',
+    );
+    expect(values).toMatchObject({
+      cameras: ['007', '1.0', 'true', 'a'],
+      port: 31,
+      maxSpeed: 1.5,
+      record: true,
+      turn: 1,
+    });
+  });
+});

@@ -68,7 +68,7 @@ export function resolveOptions<Table extends OptionTable>(
       values[key] = spec.default;
       return;
     }
-    const parsed = z.safeParse(spec.schema, given.raw);
+    const parsed = parseValue(spec.schema, given);
     if (parsed.success) values[key] = parsed.data;
     else mistakes.push(...valueMistakes(place, given, parsed.error, file));
   };
@@ -106,6 +106,8 @@ export function resolveOptions<Table extends OptionTable>(
 interface GivenValue {
   source: Exclude<OptionSource, 'default'>;
   raw: unknown;
+  /** Of the file: the same with all numbers as text. */
+  written?: unknown;
 }
 
 function findValue(
@@ -118,8 +120,26 @@ function findValue(
   const variable = place.env === null ? undefined : environment[place.env];
   if (variable !== undefined && variable !== '') return { source: 'environment', raw: variable };
   if (place.file !== null && file?.values.has(place.file))
-    return { source: 'config', raw: file.values.get(place.file) };
+    return {
+      ...{ source: 'config', raw: file.values.get(place.file), written: file.written.get(place.file) },
+    };
   return null;
+}
+
+/** Where text is meant, a number counts as it is written: the token 00123 is not 123. */
+function parseValue(schema: z.core.$ZodType, { raw, written }: GivenValue): z.ZodSafeParseResult<unknown> {
+  const parsed = z.safeParse(schema, raw);
+  if (written === undefined) return parsed;
+  const text = z.safeParse(schema, withTexts(raw, written, parsed.success ? parsed.data : ''));
+  return text.success ? text : parsed;
+}
+
+/** The value with the texts that are written in place of numbers that were read as texts. */
+function withTexts(raw: unknown, written: unknown, read: unknown): unknown {
+  if (Array.isArray(raw) && Array.isArray(written))
+    return raw.map((each, i) => withTexts(each, written[i], Array.isArray(read) ? read[i] : read));
+  const isWord = typeof raw === 'number' || typeof raw === 'bigint' || typeof raw === 'boolean';
+  return isWord && typeof read === 'string' && typeof written === 'string' ? written : raw;
 }
 
 function valueMistakes(
