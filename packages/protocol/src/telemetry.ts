@@ -30,12 +30,12 @@ export const driveStates = [
  */
 export type DriveState = (typeof driveStates)[number];
 
-/** State of the robot's battery. */
+/** State of the robot's battery: what of it is known. */
 export interface Battery {
-  /** Volts. */
-  voltage: number;
-  /** 0–1, as in sensor_msgs/BatteryState. */
-  percentage: number;
+  /** Volts. Absent if unknown. */
+  voltage?: number | undefined;
+  /** 0–1, as in sensor_msgs/BatteryState. Absent if unknown. */
+  percentage?: number | undefined;
 }
 
 /** Mean time that a frame spent in each stage during the last telemetry interval, ms. */
@@ -119,7 +119,10 @@ const telemetrySchema = z.strictObject({
   pose: poseSchema,
   twist: twistSchema,
   battery: z.optional(
-    z.strictObject({ voltage: nonNegative, percentage: z.number().check(z.minimum(0), z.maximum(1)) }),
+    z.strictObject({
+      voltage: z.optional(nonNegative),
+      percentage: z.optional(z.number().check(z.minimum(0), z.maximum(1))),
+    }),
   ),
   drive: z.enum(driveStates),
   motion: z.optional(motionStateSchema),

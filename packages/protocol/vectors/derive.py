@@ -731,6 +731,8 @@ state = telemetry.good({
                "targetBitsPerSecond": 8e7, "droppedFrames": 0},
     "operators": 2})
 telemetry.good(changed(state, "battery", ABSENT), "telemetry without a battery")
+telemetry.good(changed(state, "battery.percentage", ABSENT), "telemetry: the battery's charge is unknown")
+telemetry.good(changed(state, "battery.voltage", ABSENT), "telemetry: the battery's voltage is unknown")
 telemetry.good({**state, "ageMs": 12.5}, "telemetry: pose and twist were measured earlier")
 motion = {"factor": 0.25, "reasons": ["view-late", "blind-travel"], "mostLinear": 0.75, "viewAgeMs": 310}
 telemetry.good({**state, "motion": motion}, "telemetry: the motion is bounded")

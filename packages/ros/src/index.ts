@@ -1,3 +1,4 @@
+export { BatteryGauge, type GaugeReading } from './battery-gauge.ts';
 export { compressedPicture } from './compressed-picture.ts';
 export { definitionsOf } from './definitions.ts';
 export { DiagnosticBoard } from './diagnostic-board.ts';

@@ -1,5 +1,6 @@
 /** Formats a topic's message as short text for people, with limited length whatever it contains. */
 import { type DiagnosticReport, READING_LIMITS, type Reading, type ReadingLevel } from '@farpoint/protocol';
+import { BatteryGauge } from './battery-gauge.ts';
 import { levelOf } from './diagnostic-board.ts';
 import { batteryDetailsSchema, diagnosticArraySchema, navSatFixSchema, stampNs } from './messages.ts';
 import type { NavigationNews } from './navigation-news.ts';
@@ -55,11 +56,15 @@ const LABELS: Partial<Record<TopicRole, string>> = {
   diagnostics: 'Diagnostics',
 };
 
-/** @throws {Error} if the message does not match its type */
-export function readingOf({ topic, as, label }: TopicEntry, message: unknown): TopicReading {
+/** @param gauge of the topic's battery @throws {Error} if the message does not match its type */
+export function readingOf(
+  { topic, as, label }: TopicEntry,
+  message: unknown,
+  gauge = new BatteryGauge(),
+): TopicReading {
   const { level, values } =
     as === 'battery'
-      ? battery(message)
+      ? battery(message, gauge)
       : as === 'fix'
         ? fix(message)
         : as === 'diagnostics'
@@ -77,19 +82,19 @@ export function readingOf({ topic, as, label }: TopicEntry, message: unknown): T
 
 type Body = Pick<Reading, 'level' | 'values'>;
 
-function battery(message: unknown): Body {
-  const { voltage, percentage, current, power_supply_status, power_supply_health } =
-    batteryDetailsSchema.parse(message);
+function battery(message: unknown, gauge: BatteryGauge): Body {
+  const { voltage, share } = gauge.read(message);
+  const { current, power_supply_status, power_supply_health } = batteryDetailsSchema.parse(message);
   const health = HEALTH[power_supply_health ?? 0] ?? '';
   const values: [string, string][] = [];
-  if (percentage >= 0) values.push(['', `${Math.round(percentage * 100)} %`]);
-  if (voltage >= 0) values.push(['', `${voltage.toFixed(1)} V`]);
+  if (share !== null) values.push(['', `${Math.round(share * 100)} %`]);
+  if (voltage !== null) values.push(['', `${voltage.toFixed(1)} V`]);
   if (current !== undefined && Number.isFinite(current)) values.push(['', `${current.toFixed(1)} A`]);
   const supply = SUPPLY[power_supply_status ?? 0] ?? '';
   if (supply !== '') values.push(['', supply]);
   if (health !== '') values.push(['', health]);
-  const level =
-    health !== '' || percentage < EMPTY_CHARGE ? 'error' : percentage < LOW_CHARGE ? 'warn' : 'ok';
+  const charge = share ?? 1;
+  const level = health !== '' || charge < EMPTY_CHARGE ? 'error' : charge < LOW_CHARGE ? 'warn' : 'ok';
   return { level, values };
 }
 

@@ -1,6 +1,7 @@
 /** Reads the numbers of a topic's messages that are shown over time. */
 import { MAX_QUANTITIES, QUANTITY_LIMITS, READING_LIMITS } from '@farpoint/protocol';
 import * as z from 'zod';
+import { BatteryGauge } from './battery-gauge.ts';
 import { batteryDetailsSchema, navSatFixSchema } from './messages.ts';
 
 /** A number in a topic's messages. */
@@ -82,13 +83,18 @@ export function tooManyQuantities(entries: readonly QuantityTopic[]): boolean {
 /**
  * The values of a message's quantities; `null` for those that it does not have, or that are not finite.
  *
+ * @param gauge of the topic's battery
  * @throws {Error} if the message does not match its type
  */
-export function numbersOf(entry: QuantityTopic, message: unknown): (number | null)[] {
+export function numbersOf(
+  entry: QuantityTopic,
+  message: unknown,
+  gauge = new BatteryGauge(),
+): (number | null)[] {
   if (entry.as === 'battery') {
-    const { percentage, voltage, current } = batteryDetailsSchema.parse(message);
-    // Negative or NaN: not measured.
-    return [percentage >= 0 ? percentage * 100 : null, voltage >= 0 ? voltage : null, finite(current)];
+    const { share, voltage } = gauge.read(message);
+    const { current } = batteryDetailsSchema.parse(message);
+    return [share === null ? null : share * 100, voltage, finite(current)];
   }
   if (entry.as === 'fix') {
     const { status, latitude, longitude, altitude } = navSatFixSchema.parse(message);

@@ -1,5 +1,6 @@
 /** A topic whose messages are shown to people, live or recorded. */
 import {
+  BatteryGauge,
   DiagnosticBoard,
   numbersOf,
   RateLimit,
@@ -15,6 +16,7 @@ export class ReadingTopic {
   readonly #entry: TopicEntry;
   readonly #board: DiagnosticBoard | null;
   readonly #limit: RateLimit;
+  readonly #gauge = new BatteryGauge();
 
   constructor(entry: TopicEntry) {
     this.#entry = entry;
@@ -46,8 +48,8 @@ export class ReadingTopic {
   take(message: unknown, nowMs: number): TopicReading | null {
     const entry = this.#entry;
     if (this.#board === null) {
-      const numbers = numbersOf(entry, message);
-      return { ...readingOf(entry, message), ...(numbers.length === 0 ? {} : { numbers }) };
+      const numbers = numbersOf(entry, message, this.#gauge);
+      return { ...readingOf(entry, message, this.#gauge), ...(numbers.length === 0 ? {} : { numbers }) };
     }
     const told = this.#board.take(message, nowMs);
     if (!this.#limit.admits(nowMs)) return null;

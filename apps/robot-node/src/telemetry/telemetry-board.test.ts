@@ -57,6 +57,21 @@ describe('TelemetryBoard', () => {
     ]);
   });
 
+  it('judges what is known of the battery, and nothing else', () => {
+    const rules = ['charge', 'voltage'].map((watches) => ({
+      ...{ watches, label: watches, unit: '', low: { warn: 20 }, hysteresis: 0 },
+    }));
+    const judge = new TelemetryBoard([], rules, { quantities: [], alarms: [] });
+    const zero = { x: 0, y: 0, z: 0 };
+    const state = (battery: object | null, timeMs: number) =>
+      judge.state({ timeMs, twist: { linear: zero, angular: zero }, battery } as never);
+    state(null, 100);
+    state({ voltage: 19 }, 110);
+    expect(judge.alarmChanges(150)).toMatchObject([{ number: 1, level: 'warn', value: 19 }]);
+    state({ percentage: 0.1 }, 160);
+    expect(judge.alarmChanges(200)).toMatchObject([{ number: 0, level: 'warn', value: 10 }]);
+  });
+
   it('passes on what navigators say, and tells it to people', () => {
     const navigation = {
       kind: 'path' as const,

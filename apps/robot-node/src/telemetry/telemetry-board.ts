@@ -91,9 +91,9 @@ export class TelemetryBoard {
   /** Takes the base's state. */
   state({ timeMs, twist, battery }: TimedBaseState): void {
     if (twist !== null) this.alarms.take('speed', Math.hypot(twist.linear.x, twist.linear.y), timeMs);
-    if (battery === null) return;
-    this.alarms.take('charge', battery.percentage * 100, timeMs);
-    this.alarms.take('voltage', battery.voltage, timeMs);
+    const { percentage, voltage } = battery ?? {};
+    if (percentage !== undefined) this.alarms.take('charge', percentage * 100, timeMs);
+    if (voltage !== undefined) this.alarms.take('voltage', voltage, timeMs);
   }
 
   /** Takes what the played recording tells at its time. It is shown, but not judged again. */

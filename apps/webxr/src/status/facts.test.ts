@@ -91,6 +91,16 @@ describe('the table of figures', () => {
     expect(state('driving')).toBe('Driving');
   });
 
+  test('what the battery does not know is not 0', () => {
+    const battery = (known: Telemetry['battery']) =>
+      sessionFacts({ ...session, telemetry: { ...telemetry, battery: known } }).find(
+        ({ name }) => name === 'Battery',
+      );
+    expect(battery({ voltage: 24.04 })).toMatchObject({ value: 'charge unknown  24.0 V', tone: 'neutral' });
+    expect(battery({ percentage: 0.05 })).toMatchObject({ value: '5 %', tone: 'bad' });
+    expect(battery(undefined)).toBeUndefined();
+  });
+
   test('a reading replaces the battery row and no other', () => {
     const reading = (label: string) => ({ topic: `/${label}`, label, text: 'read', tone: 'bad' }) as const;
     const facts = sessionFacts({ ...session, readings: [reading('Battery'), reading('Speed')] });

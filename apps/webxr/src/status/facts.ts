@@ -1,5 +1,5 @@
 /** The contents of the table of figures over the picture. */
-import type { EstopState, Telemetry } from '@farpoint/operator';
+import type { Battery, EstopState, Telemetry } from '@farpoint/operator';
 import { BitRate } from '@farpoint/timing';
 import { motionWords, speedLimitWords } from './motion-words.ts';
 import type { PageStats } from './page-stats.ts';
@@ -55,15 +55,18 @@ function telemetryFacts(telemetry: Telemetry, estop: EstopState, maxLinear: numb
   ];
   const limit = speedLimitWords(telemetry, maxLinear);
   if (limit !== null) facts.push({ name: 'Speed limit', value: limit.text, tone: limit.tone });
-  if (telemetry.battery !== undefined) {
-    const share = telemetry.battery.percentage;
-    facts.push({
-      name: 'Battery',
-      value: `${Math.round(share * 100)} %  ${telemetry.battery.voltage.toFixed(1)} V`,
-      tone: share < 0.1 ? 'bad' : share < 0.25 ? 'warning' : 'neutral',
-    });
-  }
+  if (telemetry.battery !== undefined) facts.push(batteryFact(telemetry.battery));
   return facts;
+}
+
+/** What is unknown is not 0. */
+function batteryFact({ percentage: share, voltage }: Battery): Fact {
+  const known = [
+    share === undefined ? 'charge unknown' : `${Math.round(share * 100)} %`,
+    ...(voltage === undefined ? [] : [`${voltage.toFixed(1)} V`]),
+  ];
+  const tone = share === undefined || share >= 0.25 ? 'neutral' : share < 0.1 ? 'bad' : 'warning';
+  return { name: 'Battery', value: known.join('  '), tone };
 }
 
 /**

@@ -51,12 +51,10 @@ export function wristLines({
 }: WristFacts): Words[] {
   const { pointsPerFrame, framesPerSecond, minRttMs, viewAgeMs, lossRate } = figures;
   const thousands = (pointsPerFrame / 1000).toFixed(1);
-  const battery = telemetry?.battery;
+  const charge = telemetry?.battery?.percentage;
   const hints = [
     ...[view, hazards].filter((hint) => hint !== null),
-    battery === undefined
-      ? `Squeeze ${driveHand}: drive  B: stop`
-      : `Battery ${Math.round(battery.percentage * 100)} %`,
+    charge === undefined ? `Squeeze ${driveHand}: drive  B: stop` : `Battery ${Math.round(charge * 100)} %`,
     ...(nextRobot === null ? [] : [`press ${driveHand} stick: ${nextRobot.name}`]),
   ];
   return [

@@ -134,3 +134,12 @@ test('keeps a bounded number of series', () => {
   for (let i = 0; i < 1000; i++) bench.describe(i % 64, `field ${i}`, '');
   expect(bench.recorder.series.size).toBe(128);
 });
+
+test('what the battery does not know is not recorded as 0', () => {
+  const bench = new Bench();
+  bench.state(1000, { battery: { voltage: 23 } });
+  expect(bench.newest(OWN.charge.key)).toBeUndefined();
+  expect(bench.newest(OWN.voltage.key)).toBe(23);
+  bench.state(1050, { battery: { percentage: 0.4 } });
+  expect(bench.newest(OWN.charge.key)).toBe(40);
+});

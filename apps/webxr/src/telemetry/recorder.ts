@@ -121,8 +121,9 @@ export class TelemetryRecorder {
     this.#add(OWN.y, measuredMs, pose.position.y);
     this.track.add(pose.position.x, pose.position.y);
     if (battery === undefined || this.ofField('percentage', '%') !== null) return;
-    this.#add(OWN.charge, timeMs, battery.percentage * 100);
-    this.#add(OWN.voltage, timeMs, battery.voltage);
+    const { percentage, voltage } = battery;
+    if (percentage !== undefined) this.#add(OWN.charge, timeMs, percentage * 100);
+    if (voltage !== undefined) this.#add(OWN.voltage, timeMs, voltage);
   }
 
   #sample({ timeMs, samples }: Samples): void {
