@@ -37,9 +37,79 @@ describe('a fence in metres', () => {
     });
   });
 
+  test('may be of a map’s editor: empty cells are null, areas have several parts, and a byte order mark is first', () => {
+    const empty = { fid: 1, maxMps: null, radiusM: null, note: null };
+    const other = ring.map(([x, y]) => [(x ?? 0) + 10, y]);
+    const several = (type: string, properties: Json, coordinates: unknown) => ({
+      ...{ type: 'Feature', properties, geometry: { type, coordinates } },
+    });
+    const text = file(
+      [
+        polygon({ ...empty, kind: 'allowed' }),
+        several('MultiPolygon', { ...empty, kind: 'slow', maxMps: 0.5 }, [[ring], [other]]),
+        several('MultiPoint', { ...empty, kind: 'forbidden', radiusM: 1 }, [
+          [1, 2],
+          [3, 4, 5],
+        ]),
+      ],
+      { name: 'yard', crs: { type: 'name' }, frame: 'world' },
+    );
+    const { fence } = parseFence(`\uFEFF${text}`, null);
+    const [first, second] = [ring, other].map((each) => ({ shape: 'polygon', rings: [each.slice(0, 3)] }));
+    expect(fence).toEqual({
+      ...{ allowed: [first], radiusM: null },
+      slow: [
+        { area: first, maxMps: 0.5 },
+        { area: second, maxMps: 0.5 },
+      ],
+      forbidden: [
+        { shape: 'circle', centre: [1, 2], radiusM: 1 },
+        { shape: 'circle', centre: [3, 4], radiusM: 1 },
+      ],
+    });
+    const earthly = file(
+      [
+        several('MultiPolygon', { kind: 'allowed' }, [
+          [ring.map(([x, y]) => [(x ?? 0) / 1e3, (y ?? 0) / 1e3])],
+        ]),
+      ],
+      {},
+    );
+    expect(parseFence(earthly, 'first').earth?.origin).toEqual({ latitude: 0, longitude: 0, turnDeg: 0 });
+  });
+
+  const geometry = (type: unknown, coordinates: unknown = []) =>
+    file([{ type: 'Feature', properties: { kind: 'allowed' }, geometry: { type, coordinates } }]);
+
   test.each([
     ['{', 'is not JSON'],
-    ['[]', /expected object/],
+    ['[]', 'is not a FeatureCollection'],
+    [
+      geometry('LineString'),
+      /^features\[0\]\.geometry[.a-z]*: must be a Polygon, MultiPolygon, Point or MultiPoint$/,
+    ],
+    [file([{ ...polygon(), geometry: null }]), /^features\[0\]\.geometry: must be a Polygon, MultiPolygon/],
+    [file([{ ...polygon(), properties: null }]), 'features[0].properties: must have a kind'],
+    [file([polygon({ kind: null })]), 'features[0].properties.kind: must be allowed, slow or forbidden'],
+    [
+      file([polygon({ kind: 'slow', maxMps: null })]),
+      'features[0].properties.maxMps: is needed for a slow area',
+    ],
+    [file([polygon({ kind: 'slow', maxMps: '0.5' })]), 'features[0].properties.maxMps: must be a number'],
+    [geometry('MultiPolygon', []), 'features[0].geometry.coordinates: must have a polygon'],
+    [geometry('MultiPolygon', [ring]), /^features\[0\]\.geometry\.coordinates\[0\]\[0\]/],
+    [
+      geometry('MultiPolygon', [[ring], [[...ring.slice(0, 3), [0, 1]]]]),
+      'features[0].geometry.coordinates[1][0]: the last position must be the first',
+    ],
+    [
+      geometry(
+        'MultiPolygon',
+        Array.from({ length: 101 }, () => [ring]),
+      ),
+      'corners; at most 300',
+    ],
+    [geometry('MultiPoint', [[0, 0]]), 'features[0].properties.radiusM: is needed for a MultiPoint'],
     [file([]), 'features: must have an area'],
     [file([polygon({ kind: 'allow' })]), 'features[0].properties.kind: must be allowed, slow or forbidden'],
     [file([polygon({ kind: 'slow' })]), 'features[0].properties.maxMps: is needed for a slow area'],

@@ -21,28 +21,48 @@ const position = z
   .min(2, 'must be a position of two numbers')
   .max(3, 'must be a position of two numbers');
 const ring = z.array(position).min(4, 'must be a ring of four or more positions');
-const properties = z.object({
-  kind: z.enum(['allowed', 'slow', 'forbidden'], 'must be allowed, slow or forbidden'),
-  maxMps: z.number().min(0.01, 'must be 0.01 m/s or more').max(10).optional(),
-  radiusM: z.number().positive('must be above zero').max(FARTHEST_M).optional(),
-});
-const feature = z.object({
-  type: z.literal('Feature'),
-  properties,
-  geometry: z.discriminatedUnion('type', [
-    z.object({ type: z.literal('Polygon'), coordinates: z.array(ring).min(1) }),
+const rings = z.array(ring, 'must be a list of rings').min(1, 'must have a ring');
+/** What is left empty in a table, as of a map's editor, is `null` in the file: as if it were not there. */
+const properties = z.object(
+  {
+    kind: z.enum(['allowed', 'slow', 'forbidden'], 'must be allowed, slow or forbidden'),
+    maxMps: number.min(0.01, 'must be 0.01 m/s or more').max(10, 'must be 10 m/s or less').nullish(),
+    radiusM: number.positive('must be above zero').max(FARTHEST_M, `must be ${FARTHEST_M} or less`).nullish(),
+  },
+  'must have a kind',
+);
+const geometry = z.discriminatedUnion(
+  'type',
+  [
+    z.object({ type: z.literal('Polygon'), coordinates: rings }),
+    z.object({
+      type: z.literal('MultiPolygon'),
+      coordinates: z.array(rings, 'must be a list of polygons').min(1, 'must have a polygon'),
+    }),
     z.object({ type: z.literal('Point'), coordinates: position }),
-  ]),
-});
-const collection = z.object({
-  type: z.literal('FeatureCollection', 'must be FeatureCollection'),
-  /** Not of GeoJSON, whose positions are degrees. */
-  frame: z.enum(['wgs84', 'world'], 'must be wgs84 or world').default('wgs84'),
-  features: z
-    .array(feature)
-    .min(1, 'must have an area')
-    .max(MOST_AREAS, `must be at most ${MOST_AREAS} areas`),
-});
+    z.object({
+      type: z.literal('MultiPoint'),
+      coordinates: z.array(position, 'must be a list of positions').min(1, 'must have a position'),
+    }),
+  ],
+  'must be a Polygon, MultiPolygon, Point or MultiPoint',
+);
+const feature = z.object(
+  { type: z.literal('Feature', 'must be Feature'), properties, geometry },
+  'must be a Feature',
+);
+const collection = z.object(
+  {
+    type: z.literal('FeatureCollection', 'must be FeatureCollection'),
+    /** Not of GeoJSON, whose positions are degrees. */
+    frame: z.enum(['wgs84', 'world'], 'must be wgs84 or world').nullish(),
+    features: z
+      .array(feature, 'must be a list of areas')
+      .min(1, 'must have an area')
+      .max(MOST_AREAS, `must be at most ${MOST_AREAS} areas`),
+  },
+  'is not a FeatureCollection',
+);
 
 export interface ParsedFence {
   fence: Fence;
@@ -58,40 +78,61 @@ export interface ParsedFence {
  */
 export function parseFence(text: string, origin: EarthOrigin | 'first' | null): ParsedFence {
   const file = read(text);
-  const isEarth = file.frame === 'wgs84';
+  const isEarth = file.frame !== 'world';
   const earth = isEarth ? new EarthFrame(originOf(file, origin)) : null;
   const fence = { allowed: [] as Area[], forbidden: [] as Area[], slow: [] as SlowArea[], radiusM: null };
-  let corners = 0;
-  file.features.forEach(({ geometry, properties: { kind, maxMps, radiusM } }, i) => {
+  let [corners, areas] = [0, 0];
+  for (const [i, { geometry, properties }] of file.features.entries()) {
+    const { kind, maxMps, radiusM } = properties;
     const where = `features[${i}]`;
-    const place = (at: readonly number[], path: string) => toPlace(at, earth, `${where}.${path}`);
-    let area: Area;
-    if (geometry.type === 'Point') {
-      if (radiusM === undefined) throw new FenceError(`${where}.properties.radiusM: is needed for a Point`);
-      area = { shape: 'circle', centre: place(geometry.coordinates, 'geometry.coordinates'), radiusM };
-    } else {
-      if (radiusM !== undefined) throw new FenceError(`${where}.properties.radiusM: is for a Point only`);
-      const rings = geometry.coordinates.map((positions, r) => {
-        const path = `geometry.coordinates[${r}]`;
-        const [first, last] = [positions[0], positions.at(-1)];
-        if (first?.[0] !== last?.[0] || first?.[1] !== last?.[1])
-          throw new FenceError(`${where}.${path}: the last position must be the first`);
-        return positions.slice(0, -1).map((each, p) => place(each, `${path}[${p}]`));
-      });
-      corners += rings.reduce((sum, { length }) => sum + length, 0);
-      area = { shape: 'polygon', rings };
-    }
+    const place: PlaceOf = (at, path) => toPlace(at, earth, `${where}.geometry.${path}`);
+    const drawn = areasOf(geometry, radiusM ?? null, where, place);
+    areas += drawn.length;
+    for (const area of drawn)
+      if (area.shape === 'polygon') corners += area.rings.reduce((sum, { length }) => sum + length, 0);
     if (kind === 'slow') {
-      if (maxMps === undefined) throw new FenceError(`${where}.properties.maxMps: is needed for a slow area`);
-      fence.slow.push({ area, maxMps });
+      if (typeof maxMps !== 'number')
+        throw new FenceError(`${where}.properties.maxMps: is needed for a slow area`);
+      fence.slow.push(...drawn.map((area) => ({ area, maxMps })));
     } else {
-      if (maxMps !== undefined) throw new FenceError(`${where}.properties.maxMps: is for a slow area only`);
-      fence[kind].push(area);
+      if (typeof maxMps === 'number')
+        throw new FenceError(`${where}.properties.maxMps: is for a slow area only`);
+      fence[kind].push(...drawn);
     }
-  });
+  }
   if (corners > MOST_CORNERS)
     throw new FenceError(`has ${corners} corners; at most ${MOST_CORNERS} are allowed`);
+  if (areas > MOST_AREAS) throw new FenceError(`has ${areas} areas; at most ${MOST_AREAS} are allowed`);
   return { fence, earth };
+}
+
+type Geometry = z.infer<typeof geometry>;
+/** Where a position is in the robot's frame. @param path of the position in its geometry */
+type PlaceOf = (at: readonly number[], path: string) => Place;
+
+/** A geometry of several parts is as many areas. */
+function areasOf(geometry: Geometry, radiusM: number | null, where: string, place: PlaceOf): Area[] {
+  const { type, coordinates } = geometry;
+  if (type === 'Point' || type === 'MultiPoint') {
+    if (radiusM === null) throw new FenceError(`${where}.properties.radiusM: is needed for a ${type}`);
+    if (type === 'Point') return [{ shape: 'circle', centre: place(coordinates, 'coordinates'), radiusM }];
+    return coordinates.map((at, i) => ({ shape: 'circle', centre: place(at, `coordinates[${i}]`), radiusM }));
+  }
+  if (radiusM !== null) throw new FenceError(`${where}.properties.radiusM: is for a Point only`);
+  if (type === 'Polygon') return [polygonOf(coordinates, 'coordinates', where, place)];
+  return coordinates.map((each, i) => polygonOf(each, `coordinates[${i}]`, where, place));
+}
+
+function polygonOf(rings: readonly number[][][], path: string, where: string, place: PlaceOf): Area {
+  return {
+    shape: 'polygon',
+    rings: rings.map((positions, r) => {
+      const [first, last] = [positions[0], positions.at(-1)];
+      if (first?.[0] !== last?.[0] || first?.[1] !== last?.[1])
+        throw new FenceError(`${where}.geometry.${path}[${r}]: the last position must be the first`);
+      return positions.slice(0, -1).map((each, p) => place(each, `${path}[${r}][${p}]`));
+    }),
+  };
 }
 
 type File = z.infer<typeof collection>;
@@ -99,7 +140,7 @@ type File = z.infer<typeof collection>;
 function read(text: string): File {
   let json: unknown;
   try {
-    json = JSON.parse(text);
+    json = JSON.parse(text.replace(/^\uFEFF/, ''));
   } catch {
     throw new FenceError('is not JSON');
   }
@@ -120,8 +161,10 @@ function originOf(file: File, origin: EarthOrigin | 'first' | null): EarthOrigin
     );
   if (origin !== 'first') return origin;
   const geometry = file.features[0]?.geometry;
-  const at = geometry?.type === 'Point' ? geometry.coordinates : geometry?.coordinates[0]?.[0];
-  const [longitude, latitude] = checked(at ?? [], 'features[0].geometry');
+  // A position is the innermost list of any geometry's coordinates.
+  let at: unknown = geometry?.coordinates;
+  while (Array.isArray(at) && Array.isArray(at[0])) at = at[0];
+  const [longitude, latitude] = checked(at as number[], 'features[0].geometry');
   return { latitude, longitude, turnDeg: 0 };
 }
 
