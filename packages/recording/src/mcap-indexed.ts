@@ -49,10 +49,8 @@ export class IndexedMcap implements Recording {
         decompressHandlers: mcapDecompressors,
         messageIndexCacheSizeBytes: INDEX_CACHE_BYTES,
       });
-      const { chunkIndexes, statistics } = reader;
-      if (chunkIndexes.length === 0 && statistics?.messageCount !== 0n) {
-        throw new RecordingError('not-indexed', 'no index of chunks', { file: bytes.path });
-      }
+      const missing = missingOf(reader);
+      if (missing !== null) throw new RecordingError('not-indexed', missing, { file: bytes.path });
       return new IndexedMcap(bytes, reader);
     } catch (error) {
       throw asRecordingError(error, bytes);
@@ -96,6 +94,28 @@ export class IndexedMcap implements Recording {
   close(): Promise<void> {
     return this.#bytes.close();
   }
+}
+
+/**
+ * What the summary lacks for reading by it: everything in it but the footer is optional, and some recorders leave parts
+ * out. `null` if nothing.
+ */
+function missingOf({
+  chunkIndexes,
+  statistics,
+  channelsById,
+  schemasById,
+}: McapIndexedReader): string | null {
+  if (chunkIndexes.length === 0) return statistics?.messageCount === 0n ? null : 'no index of chunks';
+  for (const { messageIndexOffsets, messageEndTime } of chunkIndexes) {
+    // A chunk without messages needs no index of them.
+    if (messageIndexOffsets.size === 0 && messageEndTime > 0n) return 'no index of messages';
+    for (const id of messageIndexOffsets.keys())
+      if (!channelsById.has(id)) return `nothing about channel ${id}`;
+  }
+  for (const { schemaId } of channelsById.values())
+    if (schemaId !== 0 && !schemasById.has(schemaId)) return `nothing about schema ${schemaId}`;
+  return null;
 }
 
 /** An error of a library, with the position in the file. */

@@ -18,8 +18,8 @@ interface Place {
 }
 
 /**
- * An MCAP file without an index, as left by a recorder that was killed: read from front to back, up to its last
- * complete chunk.
+ * An MCAP file without an index, or with half of one, as left by a recorder that was killed or that writes none: read
+ * from front to back, up to its last complete chunk. Of the file, only one chunk is in memory.
  */
 export class ScannedMcap implements Recording {
   readonly file: string;

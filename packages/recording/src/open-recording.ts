@@ -9,8 +9,8 @@ import type { Recording } from './recording.ts';
 const BAG_MAGIC = new TextEncoder().encode('#ROSBAG V2.0\n');
 
 /**
- * Opens an MCAP file or a ROS 1 bag, identified by the first bytes. An MCAP file without its index, as left by a killed
- * recorder, is read once from front to back.
+ * Opens an MCAP file or a ROS 1 bag, identified by the first bytes. An MCAP file without its index, or with half of
+ * one, as left by a killed recorder or by one that writes none, is read once from front to back.
  *
  * @throws {RecordingError} stating what cannot be read, and where
  */

@@ -33,8 +33,17 @@ export interface TestTopic {
   messages: readonly { logNs: bigint; data: Uint8Array }[];
 }
 
+/** What a writer may leave out of its summary. */
+export type Summary = Partial<
+  Record<'useMessageIndex' | 'useChunkIndex' | 'useStatistics' | 'repeatChannels' | 'repeatSchemas', boolean>
+>;
+
 /** Messages of several topics, in order of time. */
-export async function mcapOfTopics(topics: readonly TestTopic[], chunkSize = 4096): Promise<Uint8Array> {
+export async function mcapOfTopics(
+  topics: readonly TestTopic[],
+  chunkSize = 4096,
+  summary: Summary & { useChunks?: boolean } = {},
+): Promise<Uint8Array> {
   const pieces: Uint8Array[] = [];
   let position = 0;
   const mcap = new McapWriter({
@@ -45,7 +54,7 @@ export async function mcapOfTopics(topics: readonly TestTopic[], chunkSize = 409
         position += bytes.length;
       },
     },
-    chunkSize,
+    ...{ chunkSize, ...summary },
   });
   await mcap.start({ profile: 'ros2', library: 'test' });
   const all: { channelId: number; sequence: number; logTime: bigint; data: Uint8Array }[] = [];
@@ -73,13 +82,21 @@ export const START_NS = 1_000_000_000n;
 export function mcapOf(
   clouds: number,
   message: (k: number) => Uint8Array,
-  { type = 'sensor_msgs/msg/PointCloud2', chunkSize = 4096 } = {},
+  {
+    type = 'sensor_msgs/msg/PointCloud2',
+    chunkSize = 4096,
+    ...summary
+  }: { type?: string; chunkSize?: number; useChunks?: boolean } & Summary = {},
 ): Promise<Uint8Array> {
   const messages = Array.from({ length: clouds }, (_, k) => ({
     logNs: START_NS + BigInt(k) * 100_000_000n,
     data: message(k),
   }));
-  return mcapOfTopics([{ topic: '/points', type, schema: POINT_CLOUD2_SCHEMA, messages }], chunkSize);
+  return mcapOfTopics(
+    [{ topic: '/points', type, schema: POINT_CLOUD2_SCHEMA, messages }],
+    chunkSize,
+    summary,
+  );
 }
 
 export function writeFile(path: string, bytes: Uint8Array): string {

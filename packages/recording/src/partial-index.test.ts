@@ -1,0 +1,67 @@
+/** MCAP files whose writers left out what is optional. */
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { afterAll, describe, expect, it } from 'vitest';
+import { CloudPlayer } from './cloud-player.ts';
+import { openRecording } from './open-recording.ts';
+import { FakeClock } from './testing/fake-clock.ts';
+import { cloudMessage, mcapOf, START_NS, type Summary, writeFile } from './testing/files.ts';
+
+const CLOUDS = 20;
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-partial-'));
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+
+const left: [string, Summary & { useChunks?: boolean }][] = [
+  ['an index of messages', { useMessageIndex: false }],
+  ['an index of chunks', { useChunkIndex: false }],
+  ['statistics', { useStatistics: false }],
+  ['channels', { repeatChannels: false }],
+  ['schemas', { repeatSchemas: false }],
+  ['channels and schemas', { repeatChannels: false, repeatSchemas: false }],
+  [
+    'anything',
+    {
+      ...{ useMessageIndex: false, useChunkIndex: false, useStatistics: false },
+      ...{ repeatChannels: false, repeatSchemas: false },
+    },
+  ],
+  ['chunks', { useChunks: false }],
+];
+
+describe.each(left)('a recording without %s', (_, summary) => {
+  const make = async () =>
+    writeFile(join(folder, 'partial.mcap'), await mcapOf(CLOUDS, (k) => cloudMessage(k, 100), summary));
+
+  it('has its topics, its length, and all of its messages from any time on', async () => {
+    const recording = await openRecording(await make());
+    expect(recording.warning).toBeNull();
+    expect(recording.topics.map(({ name, type }) => [name, type])).toEqual([
+      ['/points', 'sensor_msgs/msg/PointCloud2'],
+    ]);
+    const at = (k: number) => START_NS + BigInt(k) * 100_000_000n;
+    expect([recording.startNs, recording.endNs]).toEqual([at(0), at(CLOUDS - 1)]);
+    for (const from of [0, 1, 7, CLOUDS - 1]) {
+      const times: bigint[] = [];
+      for await (const { logNs } of recording.messages(['/points'], at(from))) times.push(logNs);
+      expect(times).toEqual(Array.from({ length: CLOUDS - from }, (_, k) => at(from + k)));
+    }
+    await recording.close();
+  });
+
+  it('is played', async () => {
+    const path = await make();
+    const player = await CloudPlayer.open(
+      { path, topic: null, rate: 1, fromS: 0, atEnd: 'stop', axes: 'auto' },
+      new FakeClock(),
+    );
+    const into = new Float32Array(player.stream.capacity * 4);
+    let shown = 0;
+    player.onCloud = () => {
+      if (player.take(into) !== null) shown++;
+    };
+    await player.run();
+    await player.close();
+    expect(shown).toBe(CLOUDS);
+  });
+});
