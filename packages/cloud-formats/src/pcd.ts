@@ -1,6 +1,7 @@
 /** Decodes PCD files to frames: positions and colours, from fields in any order, type and size. */
 import { intensityColour, intensityScale } from './intensity.ts';
 import { decompressLzf, LzfError } from './lzf.ts';
+import { packedColour } from './packed-colour.ts';
 import { PcdError, type PcdField, type PcdHeader, parsePcdHeader } from './pcd-header.ts';
 
 export { PcdError, type PcdErrorCode, type PcdHeader, parsePcdHeader } from './pcd-header.ts';
@@ -165,8 +166,6 @@ function elementReader(
   }
 }
 
-const floatBits = new DataView(new ArrayBuffer(4));
-
 function asciiReader(file: Uint8Array, header: PcdHeader): (field: PcdField, asBits: boolean) => Reader {
   const { points, fields, dataOffset, dataLine } = header;
   const columns = fields.reduce((sum, field) => sum + field.count, 0);
@@ -210,10 +209,7 @@ function asciiReader(file: Uint8Array, header: PcdHeader): (field: PcdField, asB
     if (!asBits) return (i) => values[i * columns + column] as number;
     return (i) => {
       const value = values[i * columns + column] as number;
-      if (field.type !== 'F') return value >>> 0;
-      // A colour stored as a float is the float with those bits.
-      floatBits.setFloat32(0, value);
-      return floatBits.getUint32(0);
+      return packedColour(value, field.type === 'F') ?? NO_COLOUR;
     };
   };
 }

@@ -3,6 +3,7 @@
  * metres (REP-103), `rgb` as 24 bits, and `age`, the seconds since a point was last seen when the file was written. Read
  * back by name; other fields are skipped. The viewpoint is not applied, as other programs do not.
  */
+import { packedColour } from '@farpoint/cloud-formats/packed-colour';
 import { TICKS_PER_S } from './memory-layout.ts';
 import {
   eachKeptPoint,
@@ -222,7 +223,7 @@ function readText(bytes: Uint8Array, header: Header): FilePoints {
     addPoint(
       file,
       ...([wordOf(x), wordOf(y), wordOf(z)] as const),
-      colour === undefined ? NO_COLOURS : bitsOf(wordOf(colour), colour.type),
+      (colour === undefined ? null : packedColour(wordOf(colour), colour.type === 'F4')) ?? NO_COLOURS,
       age === undefined ? Number.NaN : wordOf(age),
     );
     point++;
@@ -232,16 +233,6 @@ function readText(bytes: Uint8Array, header: Header): FilePoints {
 
 function addPoint(file: FilePoints, x: number, y: number, z: number, rgb: number, ageS: number): void {
   file.add(x, y, z, (rgb >> 16) & 255, (rgb >> 8) & 255, rgb & 255, ageS);
-}
-
-const BITS = new DataView(new ArrayBuffer(4));
-
-/** The bits of a colour that is written as a number: of a float, its own, unless it is plainly a whole number. */
-function bitsOf(value: number, type: PcdType): number {
-  if (!Number.isFinite(value)) return NO_COLOURS;
-  if (type !== 'F4' || (value >= 1 && Number.isInteger(value) && value < 2 ** 32)) return value >>> 0;
-  BITS.setFloat32(0, value);
-  return BITS.getUint32(0);
 }
 
 function numberAt(view: DataView, from: number, { type, at }: Field): number {
