@@ -5,6 +5,7 @@ export * from './health.ts';
 export * from './json-lines-file.ts';
 export * from './listen.ts';
 export * from './logger.ts';
+export * from './make-folder.ts';
 export * from './niceness.ts';
 export * from './option-errors.ts';
 export * as schema from './option-schemas.ts';

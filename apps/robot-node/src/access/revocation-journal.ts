@@ -2,10 +2,10 @@
  * Remembers revoked and blocked grants across restarts of the robot, so that neither a restart nor a signaling service
  * that no longer sends a list gives anybody back what was taken.
  */
-import { mkdirSync, readFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { RevocationsRefusedError, readRevocations } from '@farpoint/grants';
-import { replaceFile } from '@farpoint/service';
+import { makeFolder, replaceFile } from '@farpoint/service';
 import { z } from 'zod';
 
 /** A grant that a supervisor has blocked at this robot. */
@@ -51,7 +51,7 @@ export class RevocationJournal {
 
   /** @throws {Error} of the system; what was written before is then still there */
   write({ lists, blocked }: RevocationState): void {
-    mkdirSync(dirname(this.#path), { recursive: true, mode: 0o750 });
+    makeFolder(dirname(this.#path), 0o750);
     replaceFile(this.#path, `${JSON.stringify({ version: 1, lists, blocked })}\n`, 0o640);
   }
 }

@@ -1,4 +1,4 @@
-import { chmodSync, mkdirSync, statSync, writeFileSync } from 'node:fs';
+import { chmodSync, statSync, writeFileSync } from 'node:fs';
 import { dirname } from 'node:path';
 import {
   exportOperatorKey,
@@ -10,7 +10,7 @@ import {
   operatorSecretJwkSchema,
   soleFingerprint,
 } from '@farpoint/grants';
-import { fileFault, type Logger, readTextFile, TextFileError } from '@farpoint/service';
+import { fileFault, type Logger, makeFolder, readTextFile, TextFileError } from '@farpoint/service';
 
 /** The robot's key can be neither read nor made. The message says what to do, for people. */
 export class RobotKeyError extends Error {
@@ -71,7 +71,7 @@ export class RobotKey {
     const key = await makeOperatorKey(true);
     const text = `${JSON.stringify(await exportOperatorKey(key))}\n`;
     try {
-      mkdirSync(dirname(path), { recursive: true, mode: 0o750 });
+      makeFolder(dirname(path), 0o750);
       // Two robots that start at once must not both believe in their own.
       writeFileSync(path, text, { mode: 0o600, flag: 'wx', flush: true });
     } catch (error) {

@@ -3,10 +3,10 @@
  * start the machine (ISO 13850, 4.1.4), and a crash does not release the stop. After either, the robot starts with
  * its emergency stop latched.
  */
-import { mkdirSync, readFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { type EstopSource, type RobotStop, robotStops } from '@farpoint/safety';
-import { replaceFile } from '@farpoint/service';
+import { makeFolder, replaceFile } from '@farpoint/service';
 import { z } from 'zod';
 
 const runSchema = z.strictObject({
@@ -59,7 +59,7 @@ export class EstopJournal {
     this.#heldBy = heldBy;
     this.#latchedBy = latched?.by ?? null;
     try {
-      mkdirSync(folder, { recursive: true, mode: 0o750 });
+      makeFolder(folder, 0o750);
       this.#write(true);
     } catch (error) {
       latched ??= { by: 'robot', reason: 'unwritable', detail: (error as Error).message };

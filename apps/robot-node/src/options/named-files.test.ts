@@ -124,3 +124,13 @@ test.each([
   expect(message).toContain(path);
   expect(message).toContain(words);
 });
+
+test('a folder for the state that can hold nothing is refused, in one sentence', () => {
+  const [file] = useless.filter(({ what }) => what === 'empty');
+  const path = join(file?.path ?? '', 'state');
+  expect(refusal('--state-dir', path)).toBe(
+    `--state-dir must be a folder that can be written: ${path} is below a file: ${file?.path}`,
+  );
+  expect(refusal('--state-dir', file?.path ?? '')).toContain('is a file, not a folder');
+  expect(robot('--state-dir', join(folder, 'new', 'state')).stateFolder).toBe(join(folder, 'new', 'state'));
+});

@@ -21,7 +21,7 @@ import { toMotion } from './motion.ts';
 import { readCertificates } from './read-text.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { rosKindOf } from './ros-kind.ts';
-import { stateFolder } from './state.ts';
+import { toStateFolder } from './state.ts';
 import { toFence } from './to-fence.ts';
 import { toGraph } from './to-graph.ts';
 import { toModel } from './to-model.ts';
@@ -53,8 +53,8 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   const fence = toFence(values, refuse);
   const model = toModel(values, refuse);
   const returns = toReturn(values, refuse, (kind) => toGraph(values, kind));
+  const folder = toStateFolder(values, process.env, refuse);
   if (mistakes.length > 0) throw new OptionsError(mistakes);
-  const folder = stateFolder(values.stateDir, process.env);
   const recorded = (kind: 'captured' | 'sent') => [kind, 'both'].includes(values.recordClouds);
   return {
     id: values.id,
