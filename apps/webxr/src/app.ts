@@ -117,7 +117,7 @@ export class App {
       onTalk: (control, held) => this.#sound.hold(control, held),
       mayDrive: () => this.state.link.live.value,
     } satisfies InputPort;
-    this.#inputs = new OperatorInputs(inputPort, settings.headset.driveHand);
+    this.#inputs = new OperatorInputs(inputPort, settings.headset.driveHand, notices);
     const { signalingUrl, name, token, icePolicy, bridge, mode } = settings;
     const receiver = videoReceiver(settings.videoReceiver);
     const origin = tokenOrigin(signalingUrl);

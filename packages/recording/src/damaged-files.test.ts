@@ -219,6 +219,6 @@ describe('damaged files', () => {
 
   it('reports a missing file, and a folder', async () => {
     await expect(openRecording(join(folder, 'nothing.mcap'))).rejects.toMatchObject({ code: 'unreadable' });
-    await expect(openRecording(folder)).rejects.toMatchObject({ code: 'unreadable' });
+    await expect(openRecording(folder)).rejects.toMatchObject({ code: 'not-a-recording' });
   });
 });

@@ -1,4 +1,4 @@
-import { RosFault } from '@farpoint/ros';
+import { messageFault, RosFault } from '@farpoint/ros';
 
 export type RecordingErrorCode =
   | 'not-a-recording' // neither MCAP nor a ROS 1 bag of version 2.0
@@ -41,9 +41,9 @@ export class RecordingError extends Error {
   }
 }
 
-/** The message of anything thrown. */
+/** The message of anything thrown, in one sentence. */
 export function detailOf(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
+  return messageFault(error);
 }
 
 const OF_MESSAGES: readonly string[] = [

@@ -2,6 +2,7 @@ import { McapConstants } from '@mcap/core';
 import { BagRecording } from './bag-recording.ts';
 import { RecordingError } from './errors.ts';
 import { FileBytes } from './file-bytes.ts';
+import { foreignFile, foreignFolder, MARK_BYTES } from './foreign-file.ts';
 import { IndexedMcap } from './mcap-indexed.ts';
 import { ScannedMcap } from './mcap-scanned.ts';
 import type { Recording } from './recording.ts';
@@ -15,15 +16,14 @@ const BAG_MAGIC = new TextEncoder().encode('#ROSBAG V2.0\n');
  * @throws {RecordingError} stating what cannot be read, and where
  */
 export async function openRecording(path: string): Promise<Recording> {
+  const folder = foreignFolder(path);
+  if (folder !== null) throw folder;
   const bytes = await FileBytes.open(path);
   try {
-    const head = await bytes.read(0, Math.min(bytes.size, BAG_MAGIC.length));
+    const head = await bytes.read(0, Math.min(bytes.size, MARK_BYTES));
     if (startsWith(head, BAG_MAGIC)) return await BagRecording.open(bytes);
     if (!startsWith(head, Uint8Array.from(McapConstants.MCAP_MAGIC))) {
-      throw new RecordingError('not-a-recording', 'neither MCAP nor a ROS 1 bag of version 2.0', {
-        file: path,
-        offset: 0,
-      });
+      throw foreignFile(path, head);
     }
     try {
       return await IndexedMcap.open(bytes);

@@ -2,7 +2,7 @@ export { BatteryGauge, type GaugeReading } from './battery-gauge.ts';
 export { compressedPicture } from './compressed-picture.ts';
 export { definitionsOf } from './definitions.ts';
 export { DiagnosticBoard } from './diagnostic-board.ts';
-export { RosFault, type RosFaultCode } from './fault.ts';
+export { messageFault, RosFault, type RosFaultCode } from './fault.ts';
 export {
   type AdvertiseAs,
   type GraphTopic,

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { RosFault } from './fault.ts';
-import { decoderOf } from './message-decoder.ts';
+import { decoderOf, lazyDecoder } from './message-decoder.ts';
 import { messageBytes } from './testing/memory-graph.ts';
 
 const IMAGE = 'sensor_msgs/msg/Image';
@@ -51,5 +51,24 @@ describe('found by fuzzing', () => {
   it('refuses a definition that refers to nothing, in a message of its own', () => {
     expect(() => decoderOf(1, 'own/Type', 'uint3eader header')).toThrow(RosFault);
     expect(() => decoderOf(1, 'own/Type', 'not a definition at all')).toThrow(/definition is unreadable/);
+  });
+});
+
+describe('a recording without definitions', () => {
+  const of = (name: string, messageEncoding: 'cdr' | 'ros1', text = '') =>
+    lazyDecoder({ name, messageEncoding, schemaEncoding: '', schema: new TextEncoder().encode(text) });
+
+  it.each(['cdr', 'ros1'] as const)('is read if ROS has its types, in %s', (encoding) => {
+    const bytes = messageBytes(encoding === 'cdr' ? 2 : 1, IMAGE, image);
+    expect(of(IMAGE, encoding)(bytes)).toMatchObject({ width: 3, data: image.data });
+    expect(of(IMAGE, encoding, ' \n')(bytes)).toMatchObject({ width: 3 });
+  });
+
+  it('says so if it has not', () => {
+    const read = (name: string) => () => of(name, 'cdr')(new Uint8Array(8));
+    expect(read('own/msg/Type')).toThrow(
+      'the schema is empty: there is no definition of own/msg/Type with them',
+    );
+    expect(read('')).toThrow('the schema is empty: its messages have no type');
   });
 });

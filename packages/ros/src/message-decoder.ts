@@ -34,6 +34,8 @@ function makeDecoder({ name, messageEncoding, schemaEncoding, schema }: MessageS
   const image = messageEncoding === 'protobuf' ? imageFromProtobuf(name) : null;
   if (image !== null) return image;
   const text = new TextDecoder().decode(schema);
+  if (text.trim() === '' && (messageEncoding === 'cdr' || messageEncoding === 'ros1'))
+    return ofKnownType(messageEncoding, name);
   if (messageEncoding === 'cdr' && schemaEncoding === 'ros2msg') {
     return checkedReader('cdr', parsed(text, { ros2: true }));
   }
@@ -44,6 +46,14 @@ function makeDecoder({ name, messageEncoding, schemaEncoding, schema }: MessageS
     'unsupported',
     `${name || 'messages'} in ${messageEncoding} with a ${schemaEncoding || 'missing'} schema`,
   );
+}
+
+/** For recordings that leave out the definitions. @throws {RosFault} `unsupported` for types that are not part of ROS */
+function ofKnownType(layout: WireLayout, name: string): (bytes: Uint8Array) => unknown {
+  const definitions = definitionsOf(layout === 'ros1' ? 1 : 2, name);
+  if (definitions !== null) return checkedReader(layout, definitions);
+  const what = name === '' ? 'its messages have no type' : `there is no definition of ${name} with them`;
+  throw new RosFault('unsupported', `the schema is empty: ${what}`);
 }
 
 /**

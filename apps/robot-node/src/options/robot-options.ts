@@ -32,7 +32,7 @@ import { toStops } from './to-stops.ts';
 /** How messages say where an option's value comes from. */
 export type Where = (key: RobotOptionKey) => string;
 
-/** @throws {OptionsError} with all faults that only show when options are combined, and files that cannot be read */
+/** @throws {OptionsError} with all faults that only show when options are combined, or in files */
 export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOptions {
   const mistakes: OptionMistake[] = [];
   const refuse = (key: RobotOptionKey, detail: string) => mistakes.push({ where: where(key), detail });

@@ -1,7 +1,9 @@
 /** The robot as a node of a ROS graph, for its source, its sink, or both. */
 import { interfaceSchema, MOST_DOMAIN, machineSchema } from '@farpoint/dds';
-import { defineOption, optionGroup, schema } from '@farpoint/service';
+import { defineOption, OptionsError, optionGroup, schema } from '@farpoint/service';
 import * as z from 'zod';
+
+const masterSchema = z.url({ protocol: /^http$/, error: 'must be an http:// address' });
 
 export const rosOptions = optionGroup('ros', {
   rosName: defineOption({
@@ -23,7 +25,7 @@ export const rosOptions = optionGroup('ros', {
     help: 'ros2: dds (needs no ROS), rclnodejs (uses the sourced ROS installation and its middleware), or auto: rclnodejs if both are available, else dds',
   }),
   rosMaster: defineOption({
-    schema: schema.optional(z.url({ protocol: /^http$/, error: 'must be an http:// address' })),
+    schema: schema.optional(masterSchema),
     default: null,
     argument: 'URL',
     file: 'master',
@@ -86,3 +88,11 @@ export const rosOptions = optionGroup('ros', {
     help: 'ros1, ros2: how long to wait for the first cloud at startup',
   }),
 });
+
+/** The address of the ROS 1 master. @throws {OptionsError} if the variable is none */
+export function rosMasterUrl(rosMaster: string | null, env: NodeJS.ProcessEnv): string {
+  const url = rosMaster ?? (env.ROS_MASTER_URI || 'http://localhost:11311');
+  if (masterSchema.safeParse(url).success) return url;
+  const detail = `must be an http:// address, as in http://localhost:11311, not ${JSON.stringify(url)}`;
+  throw new OptionsError('ROS_MASTER_URI', detail);
+}

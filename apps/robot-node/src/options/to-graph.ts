@@ -1,6 +1,7 @@
 import { ros1Hostname } from '@farpoint/ros';
 import type { GraphOptions } from '../ros/open-graph.ts';
 import type { RobotOptionValues } from './robot-program.ts';
+import { rosMasterUrl } from './ros.ts';
 
 /** The robot's graph of this kind. */
 export function toGraph(values: RobotOptionValues, kind: GraphOptions['kind']): GraphOptions {
@@ -18,8 +19,7 @@ export function toGraph(values: RobotOptionValues, kind: GraphOptions['kind']): 
     };
   }
   return {
-    ...{ kind, name },
-    masterUrl: values.rosMaster ?? (env.ROS_MASTER_URI || 'http://localhost:11311'),
+    ...{ kind, name, masterUrl: rosMasterUrl(values.rosMaster, env) },
     hostname: values.rosHostname ?? ros1Hostname(env),
   };
 }

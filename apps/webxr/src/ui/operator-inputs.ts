@@ -3,10 +3,12 @@ import type { DriveInput, PressedButtons } from '@farpoint/operator';
 import { GamepadInput } from '../drive/gamepad-input.ts';
 import { HeadsetInput, type Tracks, type XrController } from '../drive/headset-input.ts';
 import { KeyboardInput } from '../drive/keyboard-input.ts';
+import { PickGamepad, unknownGamepadWords } from '../drive/pick-gamepad.ts';
 import type { ReleaseControl } from '../drive/release-hold.ts';
 import { TouchJoystick } from '../drive/touch-joystick.ts';
 import type { Hand } from '../headset/headset-settings.ts';
 import type { TalkControl } from '../sound/talk-hold.ts';
+import type { Notices } from '../state/notices.ts';
 import { elements } from './elements.ts';
 
 export type Action =
@@ -60,10 +62,13 @@ export class OperatorInputs {
   readonly #headset: HeadsetInput;
   readonly #touch: TouchJoystick;
   readonly #port: InputPort;
+  readonly #notices: Pick<Notices, 'tell'>;
+  readonly #pick = new PickGamepad();
 
   /** @param driveHand the hand that drives in the headset */
-  constructor(port: InputPort, driveHand: Hand) {
+  constructor(port: InputPort, driveHand: Hand, notices: Pick<Notices, 'tell'>) {
     this.#port = port;
+    this.#notices = notices;
     this.#headset = new HeadsetInput(driveHand);
     this.#touch = new TouchJoystick(elements.joystick, elements.knob, () => port.onChange());
     this.all = [this.#headset, this.#touch, this.#gamepad, this.#keyboard];
@@ -94,8 +99,9 @@ export class OperatorInputs {
   poll(nowMs: number): void {
     this.#keyboard.runs(nowMs);
     this.#touch.runs(nowMs);
-    const pads = navigator.getGamepads?.() ?? [];
-    const pad = pads.find((candidate) => candidate?.mapping === 'standard') ?? null;
+    const pad = this.#pick.pick(navigator.getGamepads?.() ?? [], (name) =>
+      this.#notices.tell(unknownGamepadWords(name), 'warning'),
+    );
     this.#buttons(this.#gamepad.read(pad, nowMs), 'gamepad');
   }
 
