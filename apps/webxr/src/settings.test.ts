@@ -25,7 +25,7 @@ describe('readSettings', () => {
       name: 'Stored',
     });
     expect(read('signaling=wss://asked.org/p&token=a&name=Asked', stored)).toMatchObject({
-      signalingUrl: 'wss://asked.org/p',
+      signalingUrl: 'wss://asked.org/p/operator',
       token: 'a',
       name: 'Asked',
     });

@@ -113,7 +113,8 @@ export class SignalingInterposer {
     const { peers } = this.#options;
     if (peers !== 'farpoint') return peers === 'reference-robots' ? 'robot' : 'operator';
     const { pathname } = new URL(path, 'ws://peer.invalid');
-    return pathname === '/robot' ? 'robot' : pathname === '/operator' ? 'operator' : null;
+    // The service may be below a path.
+    return pathname.endsWith('/robot') ? 'robot' : pathname.endsWith('/operator') ? 'operator' : null;
   }
 
   /** Keeps messages in order although placing candidates takes time; then forwards the close. */

@@ -82,6 +82,7 @@ export * from './sign-in.ts';
 export * from './signaling/farpoint.ts';
 export * from './signaling/reference.ts';
 export * from './signaling/robot-list.ts';
+export * from './signaling/signaling-endpoint.ts';
 export * from './sound-media.ts';
 export * from './stream-switch.ts';
 export * from './telemetry.ts';

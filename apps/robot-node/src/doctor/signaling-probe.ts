@@ -12,6 +12,7 @@ import {
   robotToServiceCodec,
   type SignalingErrorCode,
   serviceToRobotCodec,
+  signalingEndpoint,
 } from '@farpoint/protocol';
 import { WebSocket } from 'ws';
 import type { SignalingOptions } from '../signaling/signaling-client.ts';
@@ -50,7 +51,7 @@ export function probeSignaling(
   const { url, id, name, token, ca } = target;
   const begin = now();
   let certificateUntilMs: number | null = null;
-  const socket = new WebSocket(new URL('/robot', url), {
+  const socket = new WebSocket(signalingEndpoint(url, 'robot'), {
     handshakeTimeout: withinMs,
     maxPayload: MAX_SIGNALING_BYTES,
     perMessageDeflate: false,
@@ -105,7 +106,7 @@ export function askTime(
   withinMs: number,
   nowMs: () => number,
 ): Promise<ServerTime | null> {
-  const url = new URL('/healthz', target.url.replace(/^ws/, 'http'));
+  const url = signalingEndpoint(target.url.replace(/^ws/, 'http'), 'healthz');
   const request = url.protocol === 'https:' ? httpsRequest : httpRequest;
   return new Promise((resolve) => {
     const askedMs = nowMs();

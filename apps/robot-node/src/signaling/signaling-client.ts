@@ -8,6 +8,7 @@ import {
   robotToServiceCodec,
   type ServiceToRobot,
   serviceToRobotCodec,
+  signalingEndpoint,
 } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
 import { Reconnect } from '@farpoint/timing';
@@ -111,7 +112,7 @@ export class SignalingClient {
 
   #connect(): void {
     const { url, ca } = this.#options;
-    const socket = new WebSocket(new URL('/robot', url), {
+    const socket = new WebSocket(signalingEndpoint(url, 'robot'), {
       handshakeTimeout: this.#reconnect.timeoutMs,
       maxPayload: MAX_SIGNALING_BYTES,
       perMessageDeflate: false,

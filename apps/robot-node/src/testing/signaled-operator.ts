@@ -7,6 +7,7 @@ import {
   PROTOCOL_VERSION,
   type ServiceToOperator,
   serviceToOperatorCodec,
+  signalingEndpoint,
 } from '@farpoint/protocol';
 import { WebSocket } from 'ws';
 import { OperatorClient, type OperatorClientOptions } from './operator-client.ts';
@@ -139,7 +140,7 @@ export class SignaledOperator {
   }
 
   #openSocket(): WebSocket {
-    const socket = new WebSocket(new URL('/operator', this.#url));
+    const socket = new WebSocket(signalingEndpoint(this.#url, 'operator'));
     this.#sockets.push(socket);
     socket.on('open', () =>
       socket.send(

@@ -7,6 +7,8 @@ describe('parseSignalingUrl', () => {
     expect(parseSignalingUrl('x.org', true)).toEqual({ url: 'wss://x.org/operator' });
     expect(parseSignalingUrl('x.org:3000', false)).toEqual({ url: 'ws://x.org:3000/operator' });
     expect(parseSignalingUrl('https://x.org/', true)).toEqual({ url: 'wss://x.org/operator' });
+    expect(parseSignalingUrl('x.org/base/', true)).toEqual({ url: 'wss://x.org/base/operator' });
+    expect(parseSignalingUrl('x.org/base/operator', true)).toEqual({ url: 'wss://x.org/base/operator' });
     expect(parseSignalingUrl('ws://127.0.0.1:3000', true)).toEqual({ url: 'ws://127.0.0.1:3000/operator' });
   });
 

@@ -1,3 +1,5 @@
+import { signalingEndpoint } from '@farpoint/protocol';
+
 /** The WebSocket address of a signaling service's endpoint for operators, or why a text is not one. */
 export type SignalingAddress =
   | {
@@ -11,7 +13,7 @@ export type SignalingAddress =
 
 /**
  * Reads the address of a signaling service: accepts `host`, `host:port`, http, https, ws and wss addresses, and adds
- * what is missing.
+ * what is missing. A path is where the service is, behind a proxy: /teleop has its operators at /teleop/operator.
  *
  * @param text as a person wrote it
  * @param securePage whether the page was served by https: it may use `wss:` only, except on the loopback interface
@@ -29,9 +31,7 @@ export function parseSignalingUrl(text: string, securePage: boolean): SignalingA
   if (securePage && url.protocol === 'ws:' && !isLoopback(url.hostname)) {
     return { fault: 'a page served by https can only use a wss: signaling address' };
   }
-  if (url.pathname === '' || url.pathname === '/') url.pathname = '/operator';
-  url.hash = '';
-  return { url: url.href };
+  return { url: signalingEndpoint(url.href, 'operator').href };
 }
 
 /**
