@@ -33,8 +33,8 @@ async function service(port = 0) {
   return { port: (server.address() as AddressInfo).port, nextRobot, stop };
 }
 
-function client(port: number, token: string | null = null, log = silentLogger()) {
-  const url = `ws://127.0.0.1:${port}`;
+function client(port: number, token: string | null = null, log = silentLogger(), base = '') {
+  const url = `ws://127.0.0.1:${port}${base}`;
   const options = { url, id: 'r1', name: 'Robot', key: 'k1', token, ca: null };
   const made = new SignalingClient(options, log);
   cleanups.push(() => made.close());
@@ -44,6 +44,13 @@ function client(port: number, token: string | null = null, log = silentLogger())
 const welcome = JSON.stringify({ type: 'robot.welcome', id: 'r1', iceServers: [] } satisfies ServiceToRobot);
 
 describe('SignalingClient', () => {
+  it('finds the service below a path', async () => {
+    const { port, nextRobot } = await service();
+    const called = nextRobot();
+    client(port, null, silentLogger(), '/base/').start();
+    expect((await called).path).toBe('/base/robot');
+  });
+
   it('introduces itself, and is registered once welcomed', async () => {
     const { port, nextRobot } = await service();
     const robot = client(port, 'secret');
