@@ -104,7 +104,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
     also: FREE_BRIDGE,
   },
   'node signaling.mjs --host 0.0.0.0 --port 443 --tls-cert fullchain.pem --tls-key privkey.pem': {
-    refused: /--tls-cert names a file that cannot be read: fullchain\.pem does not exist/,
+    refused: /--tls-cert cannot be read: fullchain\.pem does not exist/,
     also: ['--host', '127.0.0.1', '--port', '0', '--no-reference'],
   },
   'farpoint-robot audit verify /var/lib/farpoint/audit.jsonl*': { help: true },
