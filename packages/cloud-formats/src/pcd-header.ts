@@ -74,16 +74,21 @@ interface Line {
   words: string[];
 }
 
-/** @throws {PcdError} */
-export function parsePcdHeader(file: Uint8Array): PcdHeader {
+/**
+ * Some programs leave out VERSION, COUNT, VIEWPOINT, or one of WIDTH, HEIGHT and POINTS that follows from the others.
+ *
+ * @param mostPoints a file with more is refused
+ * @throws {PcdError}
+ */
+export function parsePcdHeader(file: Uint8Array, mostPoints = MAX_POINTS_PER_FRAME): PcdHeader {
   const { lines, dataOffset, dataLine } = headerLines(file);
   const take = (keyword: string): Line => {
     const line = lines.get(keyword);
     if (line === undefined) throw new PcdError('bad-header', 'header', `no ${keyword} line`);
     return line;
   };
-  const version = take('VERSION');
-  if (!['.7', '0.7'].includes(version.words[0] ?? '')) {
+  const version = lines.get('VERSION');
+  if (version !== undefined && !['.7', '0.7'].includes(version.words[0] ?? '')) {
     throw new PcdError(
       'unsupported',
       `line ${version.number}`,
@@ -91,10 +96,11 @@ export function parsePcdHeader(file: Uint8Array): PcdHeader {
     );
   }
   const fields = parseFields(take, lines.get('COUNT'));
-  const width = wholeNumber(take('WIDTH'));
-  const height = wholeNumber(take('HEIGHT'));
-  const pointsLine = take('POINTS');
-  const points = wholeNumber(pointsLine);
+  const pointsLine = lines.get('POINTS') ?? take('WIDTH');
+  const lengthOf = (line: Line | undefined) => (line === undefined ? null : wholeNumber(line));
+  const height = lengthOf(lines.get('HEIGHT')) ?? 1;
+  const width = lengthOf(lines.get('WIDTH')) ?? wholeNumber(pointsLine) / Math.max(height, 1);
+  const points = lengthOf(lines.get('POINTS')) ?? width * height;
   if (points !== width * height) {
     throw new PcdError(
       'bad-header',
@@ -102,12 +108,8 @@ export function parsePcdHeader(file: Uint8Array): PcdHeader {
       `${points} points, but ${width} × ${height} is ${width * height}`,
     );
   }
-  if (points > MAX_POINTS_PER_FRAME) {
-    throw new PcdError(
-      'too-large',
-      `line ${pointsLine.number}`,
-      `${points} points, at most ${MAX_POINTS_PER_FRAME}`,
-    );
+  if (points > mostPoints) {
+    throw new PcdError('too-large', `line ${pointsLine.number}`, `${points} points, at most ${mostPoints}`);
   }
   const dataLineWords = take('DATA');
   const data = DATA_KINDS.find((kind) => kind === dataLineWords.words[0]);

@@ -200,6 +200,13 @@ describe('decodePcd', () => {
     'WIDTH 1',
     'HEIGHT 1',
   ];
+  it('reads files that leave out what follows from the rest', () => {
+    const rest = [...good.slice(1, 4), 'POINTS 2', 'DATA ascii', '1 2 3', '4 5 6'];
+    expect(decodePcd(text(...rest))).toMatchObject({ header: { width: 2, height: 1, points: 2 } });
+    const grid = [...good.slice(1, 4), 'WIDTH 1', 'HEIGHT 2', 'DATA ascii', '1 2 3', '4 5 6'];
+    expect(decodePcd(text(...grid)).points[4]).toBe(4);
+  });
+
   it.each<[string, Uint8Array, string, string]>([
     ['no header', text('hello world', ''), 'not-pcd', 'line 1'],
     ['nothing at all', new Uint8Array(0), 'not-pcd', 'line 1'],

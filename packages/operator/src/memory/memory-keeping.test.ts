@@ -99,7 +99,7 @@ describe('MemoryKeeping', () => {
     };
     expect(refusal('solid')).toEqual([{ type: 'refused', ticket: 9, message: 'this is no PLY file' }]);
     expect(refusal('VERSION 0.7\n')).toEqual([
-      { type: 'refused', ticket: 9, message: 'the header does not end within 4096 bytes' },
+      { type: 'refused', ticket: 9, message: 'PCD, line 2: the header does not end with a DATA line' },
     ]);
   });
 });

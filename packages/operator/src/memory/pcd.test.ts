@@ -47,24 +47,37 @@ describe('readPcd', () => {
     expect([...file.agesS.subarray(0, 3)]).toEqual([0, 0, 0]);
   });
 
+  test('reads compressed files', () => {
+    const point = new Uint8Array(Float32Array.of(1, -2, 3.5).buffer);
+    // The lengths, packed and not, then a run of 12 bytes as they are.
+    const data = Uint8Array.of(13, 0, 0, 0, 12, 0, 0, 0, 11, ...point);
+    const file = readPcd(pcd(`${XYZ}POINTS 1\nDATA binary_compressed\n`, data));
+    expect([file.count, ...file.places]).toEqual([1, 1, -2, 3.5]);
+  });
+
   test.each([
     ['no PCD', 'ply\n', /no PCD/],
     ['no end', `VERSION 0.7\n${XYZ}POINTS 1\n`, /header does not end/],
-    ['compressed data', `${XYZ}POINTS 1\nDATA binary_compressed\n`, /binary_compressed; only/],
-    ['too short', `${XYZ}POINTS 9\nDATA binary\n1234`, /ends before its 9/],
-    ['text that is too short', `${XYZ}POINTS 9\nDATA ascii\n1 2 3\n`, /ends before its 9/],
+    ['compressed data that are none', `${XYZ}POINTS 1\nDATA binary_compressed\n`, /no compressed sizes/],
+    ['too short', `${XYZ}POINTS 9\nDATA binary\n1234`, /9 points need 108 bytes/],
     [
-      'text with too few lines',
-      `${XYZ}POINTS 2\nDATA ascii\n1.000000 2.000000 3.000000\n`,
-      /after 1 of its 2/,
+      'text that is too short',
+      `${XYZ}POINTS 99\nDATA ascii\n1 2 3\n`,
+      /99 points of 3 values cannot be here/,
     ],
-    ['a line that is too short', `${XYZ}POINTS 1\nDATA ascii\n1.0000 2.000\n`, /point 1 has 2 of 3/],
-    ['too many', `${XYZ}POINTS 1e15\nDATA ascii\n`, /number of points/],
-    ['no number of points', `${XYZ}DATA ascii\n`, /NaN is no number/],
+    ['text with too few lines', `${XYZ}POINTS 2\nDATA ascii\n1.000000 2.000000 3.000000\n`, /1 of 2 points/],
+    ['a line that is too short', `${XYZ}POINTS 1\nDATA ascii\n1.0000 2.000\n`, /line 7: 2 values, 3 needed/],
+    ['too many', `${XYZ}POINTS 1e15\nDATA ascii\n`, /is not a whole number/],
+    ['more than can be kept', `${XYZ}POINTS 16777217\nDATA binary\n`, /at most 16777216/],
+    ['no number of points', `${XYZ}DATA ascii\n`, /no WIDTH line/],
     ['no z', 'FIELDS x y\nSIZE 4 4\nTYPE F F\nPOINTS 0\nDATA ascii\n', /no z/],
-    ['a type', `FIELDS x y z\nSIZE 4 4 3\nTYPE F F F\nPOINTS 0\nDATA ascii\n`, /z has the type F of 3/],
-    ['a count', `${XYZ}COUNT 1 0 1\nPOINTS 0\nDATA ascii\n`, /0 is no count of y/],
-    ['fewer types', 'FIELDS x y z\nSIZE 4 4 4\nTYPE F F\nPOINTS 0\nDATA ascii\n', /do not fit/],
+    [
+      'a type',
+      `FIELDS x y z\nSIZE 4 4 3\nTYPE F F F\nPOINTS 0\nDATA ascii\n`,
+      /field 'z' of type F has size '3'/,
+    ],
+    ['a count', `${XYZ.replace('1 1 1', '1 0 1')}POINTS 0\nDATA ascii\n`, /field 'y' has count '0'/],
+    ['fewer types', 'FIELDS x y z\nSIZE 4 4 4\nTYPE F F\nPOINTS 0\nDATA ascii\n', /2 values for 3 fields/],
   ])('refuses %s', (_, text, message) => {
     expect(() => readPcd(pcd(text))).toThrow(message);
   });

@@ -3,7 +3,13 @@
  * metres (REP-103), `rgb` as 24 bits, and `age`, the seconds since a point was last seen when the file was written. Read
  * back by name; other fields are skipped. The viewpoint is not applied, as other programs do not.
  */
-import { packedColour } from '@farpoint/cloud-formats/packed-colour';
+import {
+  type PcdColumn,
+  PcdError,
+  type PcdHeader,
+  parsePcdHeader,
+  pcdPointReader,
+} from '@farpoint/cloud-formats/pcd';
 import { TICKS_PER_S } from './memory-layout.ts';
 import {
   eachKeptPoint,
@@ -21,6 +27,8 @@ import type { SurfelStore } from './surfel-store.ts';
 const POINT_BYTES = 5 * 4;
 /** Text is encoded in pieces of so many points. */
 const POINTS_AT_ONCE = 10_000;
+/** When a memory was saved, in a comment. */
+const SAVED_LINE = new RegExp(`^#[ \\t]+${SAVED}[ \\t]+(\\S+)`, 'm');
 const NO_COLOURS = (NO_COLOUR << 16) | (NO_COLOUR << 8) | NO_COLOUR;
 
 /** @param ticks now, on the memory's clock @param savedAt now, ISO 8601 */
@@ -79,28 +87,6 @@ function joined(pieces: readonly Uint8Array[]): ArrayBuffer {
   return whole.buffer;
 }
 
-const TYPES = ['F4', 'F8', 'I1', 'I2', 'I4', 'I8', 'U1', 'U2', 'U4', 'U8'] as const;
-type PcdType = (typeof TYPES)[number];
-
-/** One of a point's values. */
-interface Field {
-  readonly type: PcdType;
-  /** Bytes from the beginning of the point's, and values before it. */
-  readonly at: number;
-  readonly column: number;
-}
-
-interface Header {
-  readonly points: number;
-  readonly fields: ReadonlyMap<string, Field>;
-  /** Bytes of a point, and its values. */
-  readonly stride: number;
-  readonly columns: number;
-  readonly data: string;
-  readonly dataAt: number;
-  readonly savedAt: string | null;
-}
-
 /** Whether a file looks like PCD. */
 export function isPcd(bytes: Uint8Array): boolean {
   return /^(?:#.*\r?\n)*(?:VERSION|FIELDS)\s/.test(headOf(bytes));
@@ -108,14 +94,12 @@ export function isPcd(bytes: Uint8Array): boolean {
 
 /** @throws {PointFileError} says what is wrong */
 export function readPcd(bytes: Uint8Array): FilePoints {
-  const header = readHeader(bytes);
-  switch (header.data) {
-    case 'ascii':
-      return readText(bytes, header);
-    case 'binary':
-      return readBinary(bytes, header);
-    default:
-      throw new PointFileError(`the data are ${header.data}; only ascii and binary can be read`);
+  if (!isPcd(bytes)) throw new PointFileError('this is no PCD file');
+  try {
+    return readPoints(bytes, parsePcdHeader(bytes, MAX_POINTS));
+  } catch (error) {
+    if (error instanceof PcdError) throw new PointFileError(error.message, { cause: error });
+    throw error;
   }
 }
 
@@ -123,140 +107,27 @@ function headOf(bytes: Uint8Array): string {
   return new TextDecoder('latin1').decode(bytes.subarray(0, MAX_HEADER));
 }
 
-function readHeader(bytes: Uint8Array): Header {
-  const text = headOf(bytes);
-  if (!isPcd(bytes)) throw new PointFileError('this is no PCD file');
-  const end = /^DATA[ \t]+(\S+)[ \t]*\r?\n/m.exec(text);
-  if (end === null) throw new PointFileError(`the header does not end within ${MAX_HEADER} bytes`);
-  const values = new Map<string, string[]>();
-  let savedAt: string | null = null;
-  for (const line of text.slice(0, end.index).split(/\r?\n/)) {
-    const [word, ...rest] = line.trim().split(/\s+/) as [string, ...string[]];
-    if (word === '#' && rest[0] === SAVED) savedAt = rest[1] ?? null;
-    if (!word.startsWith('#')) values.set(word, rest);
-  }
-  const numberOf = (name: string) => {
-    const [value] = values.get(name) ?? [];
-    return value === undefined ? null : Number(value);
-  };
-  const points = numberOf('POINTS') ?? (numberOf('WIDTH') ?? Number.NaN) * (numberOf('HEIGHT') ?? 1);
-  if (!(Number.isInteger(points) && points >= 0 && points <= MAX_POINTS))
-    throw new PointFileError(`${points} is no number of points from 0 to ${MAX_POINTS}`);
-  return {
-    ...{ points, savedAt, data: end[1] as string, dataAt: end.index + end[0].length },
-    ...readFields(values),
-  };
-}
-
-function readFields(values: ReadonlyMap<string, string[]>): Pick<Header, 'fields' | 'stride' | 'columns'> {
-  const names = values.get('FIELDS') ?? [];
-  const [sizes, types] = [values.get('SIZE') ?? [], values.get('TYPE') ?? []];
-  const counts = values.get('COUNT') ?? names.map(() => '1');
-  if ([sizes, types, counts].some(({ length }) => length !== names.length))
-    throw new PointFileError('SIZE, TYPE and COUNT do not fit FIELDS');
-  const fields = new Map<string, Field>();
-  let [stride, columns] = [0, 0];
-  for (const [i, name] of names.entries()) {
-    const wanted = `${types[i]}${sizes[i]}`;
-    const type = TYPES.find((each) => each === wanted);
-    const count = Number(counts[i]);
-    if (type === undefined) throw new PointFileError(`${name} has the type ${types[i]} of ${sizes[i]} bytes`);
-    if (!(Number.isInteger(count) && count >= 1 && count <= MAX_HEADER))
-      throw new PointFileError(`${counts[i]} is no count of ${name}`);
-    if (!fields.has(name)) fields.set(name, { type, at: stride, column: columns });
-    stride += Number(sizes[i]) * count;
-    columns += count;
-  }
-  for (const name of ['x', 'y', 'z']) {
-    if (!fields.has(name)) throw new PointFileError(`a point has no ${name}`);
-  }
-  return { fields, stride, columns };
-}
-
-/** What is read of each point. */
-function knownFields({ fields }: Header) {
-  const colour = fields.get('rgb') ?? fields.get('rgba');
-  const [x, y, z] = ['x', 'y', 'z'].map((name) => fields.get(name)) as [Field, Field, Field];
-  return { x, y, z, age: fields.get('age'), colour: colour?.type.endsWith('4') ? colour : undefined };
-}
-
-function readBinary(bytes: Uint8Array, header: Header): FilePoints {
-  const { points, stride, dataAt, savedAt } = header;
-  if (bytes.length - dataAt < points * stride)
-    throw new PointFileError(`the file ends before its ${points} points do`);
-  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const { x, y, z, age, colour } = knownFields(header);
-  const file = new FilePoints(points, savedAt);
-  for (let point = 0; point < points; point++) {
-    const from = dataAt + point * stride;
-    addPoint(
-      file,
-      ...([numberAt(view, from, x), numberAt(view, from, y), numberAt(view, from, z)] as const),
-      // A float of these bits, too, stands for the bits.
-      colour === undefined ? NO_COLOURS : view.getUint32(from + colour.at, true),
-      age === undefined ? Number.NaN : numberAt(view, from, age),
-    );
-  }
+/** @throws {PcdError} */
+function readPoints(bytes: Uint8Array, header: PcdHeader): FilePoints {
+  const find = (name: string) => header.fields.find((field) => field.name === name);
+  const [x, y, z] = [find('x'), find('y'), find('z')];
+  if (x === undefined || y === undefined || z === undefined)
+    throw new PointFileError(`a point has no ${x === undefined ? 'x' : y === undefined ? 'y' : 'z'}`);
+  const colour = find('rgb') ?? find('rgba');
+  const age = find('age');
+  const isKnown = colour?.size === 4;
+  const columns: PcdColumn[] = [{ field: x }, { field: y }, { field: z }];
+  if (colour !== undefined && isKnown) columns.push({ field: colour, isColour: true });
+  if (age !== undefined) columns.push({ field: age });
+  const read = pcdPointReader(bytes, header);
+  const [, savedAt = null] = SAVED_LINE.exec(headOf(bytes)) ?? [];
+  const file = new FilePoints(header.points, savedAt);
+  read(columns, (values) => {
+    const [px = Number.NaN, py = Number.NaN, pz = Number.NaN] = values;
+    const bits = isKnown ? (values[3] as number) : Number.NaN;
+    const rgb = Number.isNaN(bits) ? NO_COLOURS : bits;
+    const ageS = age === undefined ? Number.NaN : (values.at(-1) as number);
+    file.add(px, py, pz, (rgb >>> 16) & 255, (rgb >>> 8) & 255, rgb & 255, ageS);
+  });
   return file;
-}
-
-function readText(bytes: Uint8Array, header: Header): FilePoints {
-  const { points, columns, dataAt, savedAt } = header;
-  // A digit, and a space or the end of the line.
-  if (bytes.length - dataAt < points * columns * 2 - 1)
-    throw new PointFileError(`the file ends before its ${points} points do`);
-  const { x, y, z, age, colour } = knownFields(header);
-  const file = new FilePoints(points, savedAt);
-  const decoder = new TextDecoder('latin1');
-  let at = dataAt;
-  for (let point = 0; point < points; ) {
-    if (at >= bytes.length) throw new PointFileError(`the file ends after ${point} of its ${points} points`);
-    const found = bytes.indexOf(10, at);
-    const end = found < 0 ? bytes.length : found;
-    const line = decoder.decode(bytes.subarray(at, end)).trim();
-    at = end + 1;
-    if (line === '') continue;
-    const words = line.split(/\s+/);
-    if (words.length < columns)
-      throw new PointFileError(`point ${point + 1} has ${words.length} of ${columns} values`);
-    const wordOf = ({ column }: Field) => Number(words[column]);
-    addPoint(
-      file,
-      ...([wordOf(x), wordOf(y), wordOf(z)] as const),
-      (colour === undefined ? null : packedColour(wordOf(colour), colour.type === 'F4')) ?? NO_COLOURS,
-      age === undefined ? Number.NaN : wordOf(age),
-    );
-    point++;
-  }
-  return file;
-}
-
-function addPoint(file: FilePoints, x: number, y: number, z: number, rgb: number, ageS: number): void {
-  file.add(x, y, z, (rgb >> 16) & 255, (rgb >> 8) & 255, rgb & 255, ageS);
-}
-
-function numberAt(view: DataView, from: number, { type, at }: Field): number {
-  const place = from + at;
-  switch (type) {
-    case 'F4':
-      return view.getFloat32(place, true);
-    case 'F8':
-      return view.getFloat64(place, true);
-    case 'I1':
-      return view.getInt8(place);
-    case 'I2':
-      return view.getInt16(place, true);
-    case 'I4':
-      return view.getInt32(place, true);
-    case 'I8':
-      return Number(view.getBigInt64(place, true));
-    case 'U1':
-      return view.getUint8(place);
-    case 'U2':
-      return view.getUint16(place, true);
-    case 'U4':
-      return view.getUint32(place, true);
-    case 'U8':
-      return Number(view.getBigUint64(place, true));
-  }
 }
