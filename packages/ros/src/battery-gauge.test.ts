@@ -38,6 +38,8 @@ describe('a battery gauge', () => {
     expect(gauge.battery(state(Number.NaN, 24))).toEqual({ voltage: 24 });
     expect(gauge.battery(state(0.5, Number.NaN))).toEqual({ percentage: 0.5 });
     expect(gauge.battery(state(-0.01, -1))).toBeNull();
+    // JSON has no NaN.
+    expect(gauge.battery({ percentage: null, voltage: 24 })).toEqual({ voltage: 24 });
   });
 });
 

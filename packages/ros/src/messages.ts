@@ -158,15 +158,13 @@ export const cameraInfoSchema = z
   .transform(({ K, P, k, p, ...rest }) => ({ ...rest, k: k ?? K, p: p ?? P }));
 export type CameraInfo = z.infer<typeof cameraInfoSchema>;
 
-/** Voltage and charge may be NaN for unknown. */
-export const batteryStateSchema = z.object({
-  voltage: number,
-  percentage: number,
-});
+/** NaN for unknown; JSON, which has no NaN, has null. */
+const perhaps = z.union([number, z.null().transform(() => Number.NaN)]);
+export const batteryStateSchema = z.object({ voltage: perhaps, percentage: perhaps });
 
 /** For display; a battery in an abnormal state counts as a fault. */
 export const batteryDetailsSchema = batteryStateSchema.extend({
-  current: number.optional(),
+  current: perhaps.optional(),
   power_supply_status: z.int().optional(),
   power_supply_health: z.int().optional(),
 });

@@ -1,4 +1,5 @@
 /** Who is admitted, and what is sent to whom: faults that only show when options are combined. */
+import { existsSync } from 'node:fs';
 import { GrantKeysError, readJwkSet } from '@farpoint/grants';
 import { isLoopbackHost } from '@farpoint/protocol';
 import { readText } from './read-text.ts';
@@ -21,6 +22,9 @@ export function checkAccess(
   if (grantKeys === null) return;
   if (referenceSignaling !== null)
     refuse('referenceSignaling', 'cannot be combined with --grant-keys: its operators have no grants');
+  // One that is not there yet will be made when somebody's grant is revoked; an empty one revokes nobody's.
+  for (const path of revocations)
+    if (existsSync(path)) readText(path, (detail) => refuse('revocations', detail));
   const text = readText(grantKeys, (detail) => refuse('grantKeys', detail));
   if (text === null) return;
   try {

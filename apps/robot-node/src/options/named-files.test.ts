@@ -25,6 +25,8 @@ PDXUAiEAvN0Oi55KTbVJM87BWybxzRRzkWMSHhdwWhELOj5EgQw=
 -----END CERTIFICATE-----
 `;
 
+const JWK = { kty: 'OKP', crv: 'Ed25519', kid: 'k', x: 'A'.repeat(43) };
+
 const useless = uselessFiles();
 const folder = join(useless[0]?.path ?? '', '..');
 
@@ -56,6 +58,25 @@ describe.each(['--fence', '--urdf', '--tls-ca', '--grant-keys'])('%s', (option) 
     expect(message.startsWith(`${option} `)).toBe(true);
     expect(message).toContain(path);
     expect(message).toContain(words);
+  });
+});
+
+describe('--revocations', () => {
+  const keys = marked('own-keys', JSON.stringify({ keys: [JWK] }));
+
+  it.each(useless.filter(({ what }) => what !== 'missing'))(
+    'refuses a file that is $what',
+    ({ path, words }) => {
+      const message = refusal('--grant-keys', keys, '--revocations', path);
+      expect(message.startsWith('--revocations ')).toBe(true);
+      expect(message).toContain(path);
+      expect(message).toContain(words);
+    },
+  );
+
+  it('may name one that will be made', () => {
+    const path = join(folder, 'later');
+    expect(robot('--grant-keys', keys, '--revocations', path).revocations).toEqual([path]);
   });
 });
 
@@ -96,10 +117,9 @@ describe('a byte order mark', () => {
     const fence = JSON.stringify({ type: 'FeatureCollection', features: [feature] });
     const shape = '<visual><geometry><sphere radius="1"/></geometry></visual>';
     const urdf = `<?xml version="1.0"?><robot name="r"><link name="base_link">${shape}</link></robot>`;
-    const jwk = { kty: 'OKP', crv: 'Ed25519', kid: 'k', x: 'A'.repeat(43) };
     const options = robot(
       ...['--fence', marked('fence', fence), '--fence-origin', '0,0'],
-      ...['--urdf', marked('urdf', urdf), '--grant-keys', marked('keys', JSON.stringify({ keys: [jwk] }))],
+      ...['--urdf', marked('urdf', urdf), '--grant-keys', marked('keys', JSON.stringify({ keys: [JWK] }))],
       ...['--tls-ca', marked('ca', CERTIFICATE)],
     );
     expect(options.fence?.fence.allowed).toHaveLength(1);
