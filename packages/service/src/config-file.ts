@@ -1,3 +1,4 @@
+import { devNull } from 'node:os';
 import { type Document, isAlias, isMap, isScalar, LineCounter, type Node, parseDocument } from 'yaml';
 import { closest, closestKey } from './closest.ts';
 import { type OptionMistake, OptionsError } from './option-errors.ts';
@@ -150,6 +151,8 @@ function firstLine(error: unknown): string {
 }
 
 function readFromDisk(path: string): string | null {
+  // By it, people say that there is to be none.
+  if (path === devNull) return '';
   try {
     return readTextFile(path);
   } catch (error) {

@@ -1,4 +1,5 @@
 import { writeFileSync } from 'node:fs';
+import { devNull } from 'node:os';
 import { join } from 'node:path';
 import { expect, it } from 'vitest';
 import { OptionsError } from './option-errors.ts';
@@ -50,4 +51,8 @@ it.each(useless)('a configuration file that is $what is refused', ({ path, words
   expect(error).toBeInstanceOf(OptionsError);
   expect(error.message).toContain(path);
   expect(error.message).toContain(words.replace('does not exist', 'that does not exist'));
+});
+
+it('a configuration from /dev/null is none', () => {
+  expect(resolveOptions(program, { argv: ['--config', devNull], env: {} }).action).toBe('run');
 });
