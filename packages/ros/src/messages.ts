@@ -14,6 +14,9 @@ const number = z.union([
 ]);
 const vector3 = z.object({ x: finite, y: finite, z: finite });
 const quaternion = z.object({ x: finite, y: finite, z: finite, w: finite });
+/** What is none is left to whoever reads it: it must not cost what else the message says. */
+const measured = z.object({ x: number, y: number, z: number });
+const measuredTurn = z.object({ x: number, y: number, z: number, w: number });
 /** The field is `nanosec` in ROS 2 and `nsec` in ROS 1. */
 const stamp = z.union([
   z.object({ sec: z.number(), nanosec: z.number() }),
@@ -21,7 +24,6 @@ const stamp = z.union([
 ]);
 const frameId = z.string().max(512);
 const header = z.object({ stamp, frame_id: frameId });
-const twist = z.object({ linear: vector3, angular: vector3 });
 
 export const pointFieldSchema = z.object({
   name: z.string().max(128),
@@ -87,26 +89,27 @@ export const tfMessageSchema = z.object({
       z.object({
         header,
         child_frame_id: frameId,
-        // One that is none, as of a gripper whose driver does not know, must not cost the others.
-        transform: z.object({
-          translation: z.object({ x: number, y: number, z: number }),
-          rotation: z.object({ x: number, y: number, z: number, w: number }),
-        }),
+        transform: z.object({ translation: measured, rotation: measuredTurn }),
       }),
     )
     .max(4096),
 });
 
+const pose = z.object({ position: vector3, orientation: quaternion });
+const measuredPose = z.object({ position: measured, orientation: measuredTurn });
+
 export const odometrySchema = z.object({
   header,
   child_frame_id: frameId,
-  pose: z.object({ pose: z.object({ position: vector3, orientation: quaternion }) }),
-  twist: z.object({ twist }),
+  pose: z.object({ pose: measuredPose }),
+  twist: z.object({ twist: z.object({ linear: measured, angular: measured }) }),
 });
 
-const pose = z.object({ position: vector3, orientation: quaternion });
 /** PoseStamped, or PoseWithCovarianceStamped. */
-export const poseStampedSchema = z.object({ header, pose: z.union([pose, z.object({ pose })]) });
+export const poseStampedSchema = z.object({
+  header,
+  pose: z.union([measuredPose, z.object({ pose: measuredPose })]),
+});
 
 export const imageSchema = z.object({
   header,

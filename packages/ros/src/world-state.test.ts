@@ -76,6 +76,24 @@ describe('pose, velocity and time', () => {
   });
 });
 
+test('a velocity that is none does not cost the pose, nor a pose that is none what came before', () => {
+  const world = new WorldState();
+  const message = odometry(1000, 1);
+  message.twist.twist.linear.y = Number.NaN;
+  expect(world.take(ODOM, message)).toBeNull();
+  expect(world.base).toMatchObject({ pose: { position: { x: 1 } }, twist: null, timeMs: 1000 });
+  expect(world.take(ODOM, odometry(1100, Number.NaN))).toBe('the transform of base_link is none');
+  expect(world.base).toMatchObject({ pose: { position: { x: 1 } }, timeMs: 1000 });
+});
+
+test('a battery that tells its charge in percent is read as percent, and that is said once', () => {
+  const world = new WorldState();
+  const battery = { name: '/battery', type: 'sensor_msgs/msg/BatteryState' };
+  const charge = (percentage: number) => world.take(battery, { voltage: 24.5, percentage });
+  expect(charge(85)).toMatch('the battery tells its charge from 0 to 100');
+  expect([world.battery, charge(80)]).toEqual([{ voltage: 24.5, percentage: 0.85 }, null]);
+});
+
 describe('odometry whose frames', () => {
   test('are empty is that of base_link in odom', () => {
     const world = new WorldState();

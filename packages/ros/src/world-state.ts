@@ -1,7 +1,7 @@
 import { type Battery, compose, inverse, type Pose, type Quaternion, type Twist } from '@farpoint/protocol';
+import { BatteryGauge } from './battery-gauge.ts';
 import {
   BATTERY_TYPES,
-  batteryStateSchema,
   frameName,
   isFiniteVector,
   ODOMETRY_TYPES,
@@ -76,6 +76,7 @@ export interface PlacedSensor {
 /** Collects poses and state, live or from a recording: from tf, odometry and the battery. */
 export class WorldState {
   battery: Battery | null = null;
+  readonly #gauge = new BatteryGauge();
   readonly #times: StampTimes;
   readonly #tree = new TransformTree();
   /** Frames that odometry positions, as long as tf does not. */
@@ -102,15 +103,15 @@ export class WorldState {
   /**
    * Takes a message, or what of it can be taken.
    *
-   * @returns why something of it was left out; `null` if nothing was
+   * @returns what people should know: why something of it was left out, for example; `null` if there is nothing
    * @throws {Error} if the message does not match its type
    */
   take({ name, type }: TypedTopic, message: unknown): string | null {
     if (TF_TYPES.includes(type)) return this.#takeTransforms(message, name.endsWith(STATIC_SUFFIX));
     if (ODOMETRY_TYPES.includes(type)) return this.#takeOdometry(name, message);
     if (!BATTERY_TYPES.includes(type)) return this.#takePose(name, message);
-    this.#takeBattery(message);
-    return null;
+    this.battery = this.#gauge.battery(message);
+    return this.#gauge.warning;
   }
 
   /** The same as {@link place} by the stamp of a recording, where all stamps are believed. */
@@ -215,7 +216,9 @@ export class WorldState {
     const timeMs = this.#times.of(topic, stampNs(header.stamp), false);
     if (typeof timeMs === 'string') return timeMs;
     this.#base = child;
-    this.#twist = { twist: twist.twist, timeMs };
+    const { linear, angular } = twist.twist;
+    const isMeasured = isFiniteVector(linear) && isFiniteVector(angular);
+    this.#twist = isMeasured ? { twist: twist.twist, timeMs } : null;
     if (this.#tree.has(child) && !this.#byOdometry.has(child)) return null;
     this.#byOdometry.add(child);
     return this.#place(parent, child, timeMs, pose.pose.position, pose.pose.orientation, false);
@@ -251,11 +254,5 @@ export class WorldState {
     if (verdict === 'loop') return `${child} cannot be above itself: its transform is not kept`;
     if (!fixed) this.#newestMs = Math.max(this.#newestMs, timeMs);
     return null;
-  }
-
-  #takeBattery(message: unknown): void {
-    const { voltage, percentage } = batteryStateSchema.parse(message);
-    if (!(voltage >= 0)) return;
-    this.battery = { voltage, percentage: percentage >= 0 ? Math.min(percentage, 1) : 0 };
   }
 }
