@@ -100,6 +100,7 @@ class DrivenRobot {
         ? { letGoAfter: { 'view-lost': { why: 'what you saw was too old', lastsMs: RESUME_WITHIN_MS } } }
         : {}),
     });
+    this.guard.onOpenHand('driver');
     const granted = this.guard.requestLease('driver', false, START_MS);
     this.lease = granted.granted ? granted.lease : '';
   }
@@ -169,6 +170,7 @@ export function stoppingRun(settings: StoppingSettings, ramps: RampLimits = RAMP
       if (stop) robot.guard.latchEstop('operator', 'driver');
       const twist = { ...zeroTwist(), linear: { x: askedMps, y: 0, z: 0 } };
       const seen = seenMs === null ? {} : { seenUs: stampUsOf(seenMs) };
+      if (seenMs !== null) robot.guard.sentViews.sent('driver', seenMs);
       const { lease } = robot;
       robot.guard.onCommand(
         'driver',

@@ -59,6 +59,7 @@ export function supervised(times: number[]): (obstacles: MotionGuard) => MotionG
       guards: [heard, fence()],
       driverGuards: [new ViewAge(view, VIEW), new BlindTravel(view, VIEW)],
     });
+    guard.onOpenHand('driver');
     const granted = guard.requestLease('driver', false, START_MS);
     const lease = granted.granted ? granted.lease : '';
     let sequence = 0;
@@ -81,6 +82,7 @@ export function supervised(times: number[]): (obstacles: MotionGuard) => MotionG
         const seenUs = stampUsOf(nowMs - SEEN_MS);
         const begin = performance.now();
         view.sent(nowMs);
+        guard.sentViews.sent('driver', nowMs - SEEN_MS);
         guard.onCommand('driver', { ...command, seenUs }, nowMs);
         motion.velocityAt(nowMs);
         times.push(performance.now() - begin);

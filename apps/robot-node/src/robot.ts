@@ -97,6 +97,7 @@ export class Robot {
       sensors: () => this.sensors,
       videos: () => this.cameras.videos,
       now: monotonicMs,
+      driverLeft: () => this.driving.returns?.drive.left(monotonicMs()),
     });
     this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
     this.sessions = new OperatorSessions(
@@ -129,7 +130,7 @@ export class Robot {
         cloudFormats: (operator) => this.sensors.announceTo(operator),
         needsKeyFrame: (video) => this.cameras.videos.requestKeyFrame(video),
         latencyFrameLost: () => capture.requestLatencyTest(),
-        ended: ({ id }) => this.#host.operatorGone(id),
+        ended: ({ id }, end) => this.#host.operatorGone(id, end),
       },
     );
     const [stages, board] = [new StageTimer(), this.#board];

@@ -8,6 +8,12 @@ import { type Twist, twistSchema } from './geometry.ts';
 import { handleSchema, uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
 
+/**
+ * The lease of commands by which an operator who does not drive says that its hand is open. They are not answered. A robot lets
+ * no hand drive of which it does not know that it has been open before.
+ */
+export const NO_LEASE = 'none';
+
 /** A requested velocity. It is valid only for the robot's watchdog time; without a valid command, the robot stops. */
 export interface Command {
   type: 'command';
@@ -15,7 +21,7 @@ export interface Command {
   sequence: number;
   /** The operator's monotonic clock when the input was read, ms. A held stick or key is read anew each time. */
   timeMs: number;
-  /** The lease under which the command is given (session-messages.ts). */
+  /** The lease under which the command is given (session-messages.ts), or {@link NO_LEASE}. */
   lease: string;
   /** True while the dead-man grip is held; without it, only a zero twist is accepted. */
   deadMan: boolean;

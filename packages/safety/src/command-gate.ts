@@ -1,6 +1,5 @@
 import {
   type Command,
-  type CommandRejection,
   type DriveLimits,
   isZeroTwist,
   MOST_RESUME_MS,
@@ -9,15 +8,11 @@ import {
   zeroTwist,
 } from '@farpoint/protocol';
 import { TokenBucket } from '@farpoint/timing';
+import { cutTo, outOfRange, type RejectedCommand, rejected } from './command-range.ts';
 import type { EstopAnswer } from './estop.ts';
 import { QueueingDelay } from './queueing-delay.ts';
 
-export interface RejectedCommand {
-  accepted: false;
-  reason: CommandRejection;
-  /** For people: what is wrong and where, under 200 characters. */
-  detail: string;
-}
+export type { RejectedCommand } from './command-range.ts';
 
 export type CommandVerdict =
   | {
@@ -60,6 +55,10 @@ interface OperatorState {
   movedMs: number | null;
   /** During what the hand held on, and has not let go since; `null` if it has. */
   mustLetGo: string | null;
+  /** Whether the hand is known to be open: the latest that it said was zero, or an open grip. */
+  isOpen: boolean;
+  /** Of the latest command without the lease. */
+  handSequence: number | null;
 }
 
 /**
@@ -67,8 +66,6 @@ interface OperatorState {
  * longest is forgotten.
  */
 const MAX_OPERATORS = 64;
-/** Relative tolerance: what a float32 or a decimal round trip may add to a limit. The excess is cut off. */
-const TOLERANCE = 1e-6;
 /** So much longer than usual any command may take, ms: what was read longer ago is valid for less. */
 const JITTER_MS = 30;
 /** What a hand may have held through. */
@@ -98,8 +95,13 @@ export class CommandGate {
     if (!operator.bucket.take(nowMs)) return this.#rateLimited();
     // Refused commands also teach the transit time; otherwise a path that became longer would never be learnt.
     const waitedMs = operator.delay.observe(command.timeMs, nowMs);
-    if (!context.holdsLease) return rejected('not-lease-holder', 'the command names no lease that you hold');
     const { lastSequence } = operator;
+    const motion = !isZeroTwist(command.twist);
+    const isNeutral = command.unread !== true && (!motion || !command.deadMan);
+    if (!context.holdsLease) {
+      this.#noteHand(operator, command.sequence, isNeutral, waitedMs);
+      return rejected('not-lease-holder', 'the command names no lease that you hold');
+    }
     if (lastSequence !== null && sequenceDelta32(command.sequence, lastSequence) <= 0) {
       return rejected('repeated', `sequence ${command.sequence} is not after ${lastSequence}`);
     }
@@ -111,19 +113,19 @@ export class CommandGate {
     operator.lastSequence = command.sequence;
     const spentMs = Math.max(0, waitedMs - JITTER_MS);
     if (command.unread === true) return { accepted: true, spentMs, unread: true, twist: zeroTwist() };
-    const motion = !isZeroTwist(command.twist);
-    if (!motion || !command.deadMan) {
+    operator.isOpen = isNeutral;
+    if (isNeutral) {
       operator.movedMs = null;
       operator.mustLetGo = null;
     }
-    const estop = context.meetEstop(motion);
+    const estop = context.meetEstop(!isNeutral);
     if (motion) {
       const refusal =
         estopRefusal(estop) ??
         (command.deadMan ? null : rejected('dead-man-released', 'motion without the dead-man grip')) ??
         withoutWheels(operator, context.wheelsFault ?? null) ??
         this.#heldThroughSilence(operator, nowMs) ??
-        this.#outOfRange(command.twist);
+        outOfRange(command.twist, this.#limits);
       if (refusal !== null) return refusal;
       operator.movedMs = nowMs - spentMs;
     }
@@ -148,6 +150,28 @@ export class CommandGate {
   /** Learns the transit time from another timestamped message of the same channel: a clock probe. */
   observeClock(operatorId: string, sentMs: number, nowMs: number): void {
     this.#operator(operatorId).delay.observe(sentMs, nowMs);
+  }
+
+  /**
+   * The operator drives from now on. A hand that is not known to be open must let go first: it may have held on since
+   * another robot, session or driver.
+   */
+  takesOver(operatorId: string): void {
+    const operator = this.#operator(operatorId);
+    if (!operator.isOpen) operator.mustLetGo ??= 'you did not drive';
+  }
+
+  /** The operator's grip has closed, but it may not drive: it must open before it does. */
+  asksInVain(operatorId: string): void {
+    this.#operator(operatorId).isOpen = false;
+  }
+
+  /** The operator's hand is open, by what its protocol says without a command. */
+  opens(operatorId: string): void {
+    const operator = this.#operator(operatorId);
+    operator.isOpen = true;
+    operator.movedMs = null;
+    operator.mustLetGo = null;
   }
 
   /** Whoever is moving the robot now must let go before it moves again. @param why completes "held while …" */
@@ -183,6 +207,8 @@ export class CommandGate {
         lastSequence: null,
         movedMs: null,
         mustLetGo: null,
+        isOpen: false,
+        handSequence: null,
       };
     } else {
       this.#operators.delete(operatorId);
@@ -190,6 +216,15 @@ export class CommandGate {
     // Moved to the end of the map: the operator heard from most recently.
     this.#operators.set(operatorId, operator);
     return operator;
+  }
+
+  /** What the hand of one who does not drive says of itself. */
+  #noteHand(operator: OperatorState, sequence: number, isNeutral: boolean, waitedMs: number): void {
+    for (const last of [operator.lastSequence, operator.handSequence])
+      if (last !== null && sequenceDelta32(sequence, last) <= 0) return;
+    if (!(waitedMs <= this.#maxAgeMs)) return;
+    operator.handSequence = sequence;
+    operator.isOpen = isNeutral;
   }
 
   #rateLimited(): RejectedCommand {
@@ -206,30 +241,6 @@ export class CommandGate {
 
   #heldTooLong({ movedMs }: OperatorState, nowMs: number): boolean {
     return movedMs !== null && !(nowMs - movedMs < this.#letGoAfterMs);
-  }
-
-  #outOfRange(twist: Twist): RejectedCommand | null {
-    const { maxLinear, maxAngular } = this.#limits;
-    const axes: [name: string, value: number, limit: number, unit: string][] = [
-      ['linear.x', twist.linear.x, maxLinear, 'm/s'],
-      ['linear.y', twist.linear.y, 0, 'm/s'],
-      ['linear.z', twist.linear.z, 0, 'm/s'],
-      ['angular.x', twist.angular.x, 0, 'rad/s'],
-      ['angular.y', twist.angular.y, 0, 'rad/s'],
-      ['angular.z', twist.angular.z, maxAngular, 'rad/s'],
-    ];
-    for (const [name, value, limit, unit] of axes) {
-      // Written so that NaN is out of range.
-      if (Math.abs(value) <= limit * (1 + TOLERANCE)) continue;
-      const shown = Number(value.toPrecision(4));
-      return rejected(
-        'out-of-range',
-        limit === 0
-          ? `twist.${name} ${shown} ${unit}: the robot has no such axis`
-          : `twist.${name} ${shown} ${unit} is beyond ±${limit} ${unit}`,
-      );
-    }
-    return null;
   }
 }
 
@@ -251,13 +262,4 @@ function withoutWheels(operator: OperatorState, fault: string | null): RejectedC
   }
   if (operator.mustLetGo === null) return null;
   return rejected('let-go-first', `held while ${operator.mustLetGo}: let go of it once`);
-}
-
-function rejected(reason: CommandRejection, detail: string): RejectedCommand {
-  return { accepted: false, reason, detail };
-}
-
-/** −limit … limit; never −0. */
-function cutTo(limit: number, value: number): number {
-  return Math.min(Math.max(value, -limit), limit) + 0;
 }

@@ -15,7 +15,7 @@ const mostly = (usual: number, others: fc.Arbitrary<number>) =>
 
 const step = fc.oneof(
   {
-    weight: 12,
+    weight: 16,
     arbitrary: fc.record({
       kind: fc.constant('command' as const),
       by: operator,
@@ -29,7 +29,7 @@ const step = fc.oneof(
     }),
   },
   {
-    weight: 3,
+    weight: 5,
     arbitrary: fc.record({ kind: fc.constant('request' as const), by: operator, take: fc.boolean() }),
   },
   {
@@ -41,6 +41,7 @@ const step = fc.oneof(
     arbitrary: fc.record({ kind: fc.constant('latch' as const), by: fc.constantFrom('operator', 'robot') }),
   },
   { weight: 2, arbitrary: fc.record({ kind: fc.constant('unlatch' as const), by: operator }) },
+  { weight: 10, arbitrary: fc.record({ kind: fc.constant('open' as const), by: operator }) },
 );
 const timedStep = fc.record({
   waitMs: fc.constantFrom(0, 1, 5, 10, 20, 20, 20, 50, 149, 150, 151, 1000, 6000, 20_000),
@@ -77,6 +78,10 @@ function checkAnything(letGoAfterMs: number | undefined): void {
       const sequences = new Map<string, number>();
       /** When a hand that has not let go since was last obeyed. */
       const held = new Map<string, number>();
+      /** Whose hand said last that it is open. */
+      const open = new Set<string>();
+      /** Who has been seen with an open hand since it drives, or when it began to; and since the emergency stop was released. */
+      const mayMove = new Set<string>();
 
       const check = (atMs: number) => {
         checked++;
@@ -115,6 +120,14 @@ function checkAnything(letGoAfterMs: number | undefined): void {
             twist: { linear: { x: step.x, y: step.y, z: 0 }, angular: { x: 0, y: 0, z: step.yaw } },
           };
           const verdict = guard.onCommand(by, command, nowMs);
+          const isNeutral = isZeroTwist(command.twist) || !step.deadMan;
+          const unheard = ['rate-limited', 'repeated', 'stale'];
+          const isHeard = verdict.accepted || !unheard.includes(verdict.reason);
+          const drives = isHeard && (verdict.accepted || verdict.reason !== 'not-lease-holder');
+          if (drives && isNeutral) mayMove.add(by);
+          if (drives) open.delete(by);
+          // Of those who do not drive, too.
+          if (isHeard && isNeutral) open.add(by);
           if (verdict.accepted) {
             expect(by).toBe(holder);
             expect(step.y).toBe(0);
@@ -122,6 +135,7 @@ function checkAnything(letGoAfterMs: number | undefined): void {
             if (isZeroTwist(command.twist)) held.delete(by);
             else {
               expect(step.deadMan && !latched).toBe(true);
+              expect(mayMove.has(by)).toBe(true);
               expect(nowMs - (held.get(by) ?? nowMs)).toBeLessThan(letGoAfterMs ?? 1000);
               held.set(by, nowMs - verdict.spentMs);
             }
@@ -138,23 +152,36 @@ function checkAnything(letGoAfterMs: number | undefined): void {
           const outcome = guard.requestLease(by, step.take, nowMs);
           if (outcome.granted) {
             if (holder !== by) last = null;
+            if (holder !== by && !open.has(by)) mayMove.delete(by);
+            if (holder !== by && open.has(by)) mayMove.add(by);
             holder = by;
             leases.set(by, outcome.lease);
-          }
+          } else open.delete(by);
         } else if (step.kind === 'release' || step.kind === 'gone') {
           const free = step.kind === 'release' ? guard.releaseLease(by) : guard.operatorGone(by);
           expect(free).toBe(holder === by);
           if (free) holder = null;
           if (free) last = null;
-          if (step.kind === 'gone') held.delete(by);
+          if (step.kind === 'gone') {
+            held.delete(by);
+            open.delete(by);
+          }
+        } else if (step.kind === 'open') {
+          guard.onOpenHand(by);
+          held.delete(by);
+          open.add(by);
+          if (holder === by) mayMove.add(by);
         } else if (step.kind === 'latch') {
           guard.latchEstop(by === 'robot' ? 'robot' : 'operator');
           latched = true;
           last = null;
         } else if (step.kind === 'unlatch') {
-          const outcome = guard.releaseEstop(by, nowMs);
+          const outcome = guard.releaseEstop(by);
           expect(outcome.released).toBe(latched && holder === by);
-          if (outcome.released) latched = false;
+          if (outcome.released) {
+            latched = false;
+            mayMove.delete(by);
+          }
         } else {
           guard.onMalformed(by, 'not valid JSON', nowMs);
         }

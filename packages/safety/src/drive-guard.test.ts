@@ -23,6 +23,7 @@ function guardWith(options: Partial<DriveGuardOptions> = {}): DriveGuard {
 /** A guard whose lease operator `a` holds, and a function that sends a's commands. */
 function driven() {
   const guard = guardWith();
+  guard.onOpenHand('a');
   const outcome = guard.requestLease('a', false, 0);
   if (!outcome.granted) throw new Error('no lease');
   let sequence = 0;
@@ -121,9 +122,9 @@ describe('emergency stop', () => {
     expect(isZeroTwist(guard.velocityAt(0))).toBe(true);
     expect(guard.state(0)).toBe('estop');
     expect(guard.estopState()).toEqual({ type: 'estop', latched: true, by: 'operator', latch: 1 });
-    expect(guard.releaseEstop('b', 10)).toEqual({ released: false, reason: 'not-lease-holder' });
-    expect(guard.releaseEstop('a', 10)).toEqual({ released: true });
-    expect(guard.releaseEstop('a', 10)).toEqual({ released: false, reason: 'not-latched' });
+    expect(guard.releaseEstop('b')).toEqual({ released: false, reason: 'not-lease-holder' });
+    expect(guard.releaseEstop('a')).toEqual({ released: true });
+    expect(guard.releaseEstop('a')).toEqual({ released: false, reason: 'not-latched' });
     expect(guard.estopState()).toEqual({ type: 'estop', latched: false, latch: 1 });
   });
 
@@ -131,14 +132,14 @@ describe('emergency stop', () => {
     const { guard, send } = driven();
     send(0, 0.5);
     guard.latchEstop('robot');
-    guard.releaseEstop('a', 1);
+    guard.releaseEstop('a');
     expect(isZeroTwist(guard.velocityAt(2))).toBe(true);
   });
 
   test('a stick held through the release starts nothing until it is let go', () => {
     const { guard, send } = driven();
     guard.latchEstop('operator');
-    guard.releaseEstop('a', 0);
+    guard.releaseEstop('a');
     expect(send(10, 0.5)).toMatchObject({ reason: 'estop-latched' });
     expect(send(20, 0)).toMatchObject({ accepted: true });
     expect(send(30, 0.5)).toMatchObject({ accepted: true });
@@ -149,9 +150,10 @@ describe('emergency stop', () => {
     const { guard } = driven();
     guard.latchEstop('operator');
     guard.operatorGone('a');
-    expect(guard.releaseEstop('a', 0).released).toBe(false);
+    expect(guard.releaseEstop('a').released).toBe(false);
+    guard.onOpenHand('b');
     guard.requestLease('b', false, 0);
-    expect(guard.releaseEstop('b', 0).released).toBe(true);
+    expect(guard.releaseEstop('b').released).toBe(true);
   });
 });
 
@@ -187,6 +189,7 @@ describe('lease', () => {
   test('each operator gets its own view of it', () => {
     const guard = guardWith();
     expect(guard.leaseState('a')).toEqual({ type: 'lease', holder: 'nobody' });
+    guard.onOpenHand('a');
     guard.requestLease('a', false, 0);
     expect(guard.leaseState('a')).toEqual({ type: 'lease', holder: 'you', lease: '01'.repeat(16) });
     expect(guard.leaseState('b')).toEqual({ type: 'lease', holder: 'other' });
@@ -200,6 +203,7 @@ test('an operator that returns under the same name restarts its sequence', () =>
   const { guard, send } = driven();
   send(0, 0.5, { sequence: 900 });
   guard.operatorGone('a');
+  guard.onOpenHand('a');
   const outcome = guard.requestLease('a', false, 10);
   const lease = outcome.granted ? outcome.lease : '';
   expect(send(20, 0.5, { sequence: 0, lease })).toMatchObject({ accepted: true });
@@ -245,6 +249,7 @@ describe('a supervisor', () => {
   test('takes the lease from an operator who is moving, but only when it asks to take it', () => {
     for (const takePolicy of ['never', 'idle', 'always'] as const) {
       const guard = guardWith({ takePolicy });
+      guard.onOpenHand('a');
       guard.requestLease('a', false, 0);
       expect(guard.requestLease('s', false, 1, true)).toMatchObject({ granted: false, reason: 'held' });
       expect(guard.requestLease('s', true, 1, true)).toMatchObject({ granted: true, takenFrom: 'a' });
@@ -263,7 +268,7 @@ describe('a supervisor', () => {
   test('releases the emergency stop of another, whose held stick still starts nothing', () => {
     const { guard, send } = driven();
     guard.latchEstop('operator');
-    expect(guard.releaseEstop('s', 0, true)).toEqual({ released: true });
+    expect(guard.releaseEstop('s', true)).toEqual({ released: true });
     expect(guard.leaseHolder).toBe('a');
     expect(send(10, 0.5)).toMatchObject({ reason: 'estop-latched' });
     expect(send(20, 0)).toMatchObject({ accepted: true });
@@ -290,6 +295,7 @@ test('stops at once when nothing takes its velocities any more, and moves again 
 
 test('what was read a while ago moves the robot for so much less', () => {
   const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: randomBytes() });
+  guard.onOpenHand('a');
   const outcome = guard.requestLease('a', false, 0);
   const command = (sequence: number, timeMs: number): Command => ({
     type: 'command',

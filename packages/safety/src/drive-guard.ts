@@ -1,12 +1,10 @@
 import {
-  ageOfStampMs,
   type Command,
   type DriveLimits,
   type DriveState,
   type EstopState,
   isZeroTwist,
   type LeaseState,
-  MOST_RESUME_MS,
   type Twist,
   zeroTwist,
 } from '@farpoint/protocol';
@@ -16,6 +14,7 @@ import { EstopLatch, type EstopSource } from './estop.ts';
 import { type EstopReleaseOutcome, type EstopReleasePolicy, releaseEstop } from './estop-release.ts';
 import { type LeaseOutcome, LeaseTable } from './lease.ts';
 import { OperatorView } from './motion/operator-view.ts';
+import { SentViews } from './motion/sent-views.ts';
 import type { RobotStop } from './robot-stop.ts';
 import { Watchdog } from './watchdog.ts';
 
@@ -28,12 +27,16 @@ import { Watchdog } from './watchdog.ts';
  *   holds the lease;
  * - it follows the commands of the lease holder and of nobody else;
  * - it is zero while nothing takes it ({@link DriveGuard.watchWheels});
+ * - a hand that is not known to have been open since it began to drive, or since the emergency stop was released, moves
+ *   nothing;
  * - a request from before an emergency stop, a change of the lease, a fault of the wheels or a released grip never
  *   takes effect again.
  */
 export class DriveGuard {
   /** How old what the driver sees is. */
   readonly view: OperatorView;
+  /** What each operator was sent, which its commands may name as seen. */
+  readonly sentViews = new SentViews();
   readonly #limits: Readonly<DriveLimits>;
   readonly #gate: CommandGate;
   readonly #leases: LeaseTable;
@@ -50,7 +53,7 @@ export class DriveGuard {
     this.#limits = Object.freeze({ ...options.limits });
     this.#gate = new CommandGate(this.#limits, options);
     this.#leases = new LeaseTable(options);
-    this.#estop = new EstopLatch(this.#limits.watchdogMs, options.letGoAfterMs ?? MOST_RESUME_MS);
+    this.#estop = new EstopLatch();
     this.#estopRelease = options.estopRelease ?? 'driver';
     this.#watchdog = new Watchdog(this.#limits.watchdogMs);
     this.view = new OperatorView(this.#limits.watchdogMs);
@@ -69,12 +72,11 @@ export class DriveGuard {
     const wheelsFault = this.#lookAtWheels();
     const verdict = this.#gate.check(operatorId, command, nowMs, {
       holdsLease: this.#leases.holds(operatorId, command.lease),
-      meetEstop: (motion) => this.#estop.meet(motion, nowMs),
+      meetEstop: (motion) => this.#estop.meet(motion),
       wheelsFault,
     });
     if (verdict.accepted) {
-      const { seenUs } = command;
-      this.view.note(seenUs === undefined ? null : ageOfStampMs(seenUs, nowMs), nowMs);
+      this.view.note(this.sentViews.ageMs(operatorId, command.seenUs, nowMs), nowMs);
       if (verdict.unread) {
         this.#halt();
         return verdict;
@@ -92,15 +94,18 @@ export class DriveGuard {
     return verdict;
   }
 
+  /** An operator's hand is open, by what its protocol says without a command for zero or with an open grip. */
+  onOpenHand(operatorId: string): void {
+    this.#gate.opens(operatorId);
+    if (this.#leases.holder === operatorId) this.#estop.meet(false);
+  }
+
   /** A message that should have been a command but could not be decoded. It counts against the operator's rate. */
   onMalformed(operatorId: string, detail: string, nowMs: number): RejectedCommand {
     return this.#gate.malformed(operatorId, detail, nowMs);
   }
 
-  /**
-   * Optional, for each clock probe of an operator: teaches the gate the transit time on this path, so that it can tell
-   * stale from fresh at the very first command.
-   */
+  /** For each clock probe: teaches the gate this path's transit time, so that it can tell stale from fresh at once. */
   onClockProbe(operatorId: string, sentMs: number, nowMs: number): void {
     this.#gate.observeClock(operatorId, sentMs, nowMs);
   }
@@ -187,7 +192,10 @@ export class DriveGuard {
   requestLease(operatorId: string, take: boolean, nowMs: number, supervises = false): LeaseOutcome {
     const before = this.#leases.holder;
     const outcome = this.#leases.request(operatorId, take, nowMs, supervises);
-    if (this.#leases.holder !== before) this.#changeDriver();
+    if (!outcome.granted) this.#gate.asksInVain(operatorId);
+    if (this.#leases.holder === before) return outcome;
+    this.#changeDriver();
+    this.#gate.takesOver(operatorId);
     return outcome;
   }
 
@@ -201,6 +209,7 @@ export class DriveGuard {
   /** The operator's connection has ended. @returns whether this freed the lease */
   operatorGone(operatorId: string): boolean {
     this.#gate.forget(operatorId);
+    this.sentViews.forget(operatorId);
     this.#estop.withdraw(operatorId);
     return this.releaseLease(operatorId);
   }
@@ -215,8 +224,7 @@ export class DriveGuard {
   /**
    * Stops at once, whoever asks and however often. Then send every operator the `estopState`: its `latch` has changed.
    *
-   * @param operatorId the operator who asks, if it is one
-   * @returns false if it was already latched
+   * @param operatorId who asks, if it is an operator @returns false if it was already latched
    */
   latchEstop(by: EstopSource, operatorId?: string): boolean {
     this.#halt();
@@ -229,29 +237,23 @@ export class DriveGuard {
    *
    * @param of number of the latch that is meant; left out, it is the present one
    */
-  releaseEstop(operatorId: string, nowMs: number, supervises = false, of?: number): EstopReleaseOutcome {
+  releaseEstop(operatorId: string, supervises = false, of?: number): EstopReleaseOutcome {
     const holdsLease = this.#leases.holder === operatorId;
-    return releaseEstop(this.#estop, this.#estopRelease, { operatorId, holdsLease, supervises, of }, nowMs);
+    return releaseEstop(this.#estop, this.#estopRelease, { operatorId, holdsLease, supervises, of });
   }
 
   /**
    * Stops at once, for a stop at the robot itself. Only {@link letGoEstop} with the same name takes that back. Then send
-   * every operator the `estopState`.
-   *
-   * @returns false if it held the emergency stop already
+   * every operator the `estopState`. @returns false if it held the emergency stop already
    */
   holdEstop(stop: RobotStop): boolean {
     this.#halt();
     return this.#estop.hold(stop);
   }
 
-  /**
-   * The stop at the robot was released. The emergency stop stays latched if anything else has latched it.
-   *
-   * @returns false if it did not hold the emergency stop
-   */
-  letGoEstop(stop: RobotStop, nowMs: number): boolean {
-    return this.#estop.letGo(stop, nowMs);
+  /** The stop at the robot was released; others may keep it latched. @returns false if it did not hold the emergency stop */
+  letGoEstop(stop: RobotStop): boolean {
+    return this.#estop.letGo(stop);
   }
 
   /** The stops at the robot that hold the emergency stop. */

@@ -11,6 +11,7 @@ const makeGuard = () =>
 describe('a stop at the robot', () => {
   test('is released by nobody else, and tells every operator so', () => {
     const guard = makeGuard();
+    guard.onOpenHand('a');
     guard.requestLease('a', false, 0);
     expect(guard.holdEstop('gpio')).toBe(true);
     expect(guard.holdEstop('gpio')).toBe(false);
@@ -18,12 +19,12 @@ describe('a stop at the robot', () => {
       ...{ type: 'estop', latched: true, by: 'robot', latch: 1, releasedAt: 'robot' },
     });
     for (const supervises of [false, true])
-      expect(guard.releaseEstop('a', 10, supervises, 1)).toEqual({
+      expect(guard.releaseEstop('a', supervises, 1)).toEqual({
         released: false,
         reason: 'held-at-robot',
       });
-    expect(guard.letGoEstop('key', 20)).toBe(false);
-    expect(guard.letGoEstop('gpio', 20)).toBe(true);
+    expect(guard.letGoEstop('key')).toBe(false);
+    expect(guard.letGoEstop('gpio')).toBe(true);
     expect(guard.estopState()).toEqual({ type: 'estop', latched: false, latch: 1 });
   });
 
@@ -31,9 +32,9 @@ describe('a stop at the robot', () => {
     const guard = makeGuard();
     guard.holdEstop('gpio');
     guard.holdEstop('topic');
-    guard.letGoEstop('gpio', 0);
+    guard.letGoEstop('gpio');
     expect(guard.estopState().releasedAt).toBe('robot');
-    guard.letGoEstop('topic', 0);
+    guard.letGoEstop('topic');
     expect(guard.estopState().latched).toBe(false);
   });
 
@@ -42,14 +43,15 @@ describe('a stop at the robot', () => {
     ['robot', 'robot'],
   ] as const)('leaves a latch by the %s, which is released as ever', (by, left) => {
     const guard = makeGuard();
+    guard.onOpenHand('a');
     guard.requestLease('a', false, 0);
     guard.holdEstop('shm');
     guard.latchEstop(by, 'a');
     expect(guard.estopKeptFor).toBe(left);
-    guard.letGoEstop('shm', 5);
+    guard.letGoEstop('shm');
     expect(guard.estopState()).toMatchObject({ latched: true, by: left });
     expect(guard.estopState().releasedAt).toBeUndefined();
-    expect(guard.releaseEstop('a', 6)).toEqual({ released: true });
+    expect(guard.releaseEstop('a')).toEqual({ released: true });
   });
 
   test('leaves a latch that was there before', () => {
@@ -57,7 +59,7 @@ describe('a stop at the robot', () => {
     guard.latchEstop('operator', 'a');
     guard.holdEstop('key');
     expect(guard.estopState()).toMatchObject({ by: 'operator', releasedAt: 'robot' });
-    guard.letGoEstop('key', 5);
+    guard.letGoEstop('key');
     expect(guard.estopState()).toMatchObject({ latched: true, by: 'operator' });
   });
 
@@ -92,7 +94,7 @@ test('whatever is pressed and asked: latched while anything holds it, and until 
           expect(guard.holdEstop(stop)).toBe(!held.has(stop));
           held.add(stop);
         } else if (kind === 'let-go') {
-          expect(guard.letGoEstop(stop, nowMs)).toBe(held.delete(stop));
+          expect(guard.letGoEstop(stop)).toBe(held.delete(stop));
         } else if (kind === 'latch' || kind === 'latch-by-robot') {
           if (kind === 'latch') guard.latchEstop('operator', by);
           else guard.latchEstop('robot');
@@ -100,7 +102,7 @@ test('whatever is pressed and asked: latched while anything holds it, and until 
         } else if (kind === 'lease') guard.requestLease(by, true, nowMs, true);
         else if (kind === 'gone') guard.operatorGone(by);
         else {
-          const outcome = guard.releaseEstop(by, nowMs, kind === 'supervise');
+          const outcome = guard.releaseEstop(by, kind === 'supervise');
           if (held.size > 0) expect(outcome.released).toBe(false);
           if (kind === 'supervise') expect(outcome.released).toBe(asked && held.size === 0);
           if (outcome.released) asked = false;

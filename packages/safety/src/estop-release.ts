@@ -37,7 +37,6 @@ export function releaseEstop(
   estop: EstopLatch,
   policy: EstopReleasePolicy,
   { operatorId, holdsLease, supervises, of }: EstopRelease,
-  nowMs: number,
 ): EstopReleaseOutcome {
   if (!supervises && !holdsLease) return refused('not-lease-holder');
   if (!estop.latched) return refused('not-latched');
@@ -49,7 +48,7 @@ export function releaseEstop(
     estop.withdraw(operatorId);
     if (estop.latchers.size > 0) return refused('others-latched');
   }
-  estop.release(nowMs);
+  estop.release();
   return { released: true };
 }
 

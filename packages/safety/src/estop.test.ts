@@ -1,57 +1,52 @@
 import { expect, test } from 'vitest';
 import { EstopLatch } from './estop.ts';
 
-test('is clear at first', () => {
-  expect(new EstopLatch(150).meet(true, 0)).toBe('clear');
+test('is clear at the start', () => {
+  expect(new EstopLatch().meet(true)).toBe('clear');
 });
 
-test('remembers who latched it first', () => {
-  const estop = new EstopLatch(150);
-  expect(estop.latch('robot')).toBe(true);
-  expect(estop.latch('operator')).toBe(false);
-  expect(estop.by).toBe('robot');
-  expect(estop.meet(false, 1e6)).toBe('latched');
+test('stays latched, whatever is asked', () => {
+  const estop = new EstopLatch();
+  expect(estop.latch('operator')).toBe(true);
+  expect(estop.latch('robot')).toBe(false);
+  expect(estop.by).toBe('operator');
+  expect(estop.meet(false)).toBe('latched');
 });
 
-test('once it is released, a second release does nothing', () => {
-  const estop = new EstopLatch(150);
-  expect(estop.release(0)).toBe(false);
-  estop.latch('operator');
-  expect(estop.release(0)).toBe(true);
+test('only a release ends it', () => {
+  const estop = new EstopLatch();
+  expect(estop.release()).toBe(false);
+  estop.latch('robot');
+  expect(estop.release()).toBe(true);
   expect(estop.latched).toBe(false);
-  expect(estop.release(0)).toBe(false);
+  expect(estop.release()).toBe(false);
 });
 
-test('a stick that is held through the release does not start the robot', () => {
-  const estop = new EstopLatch(150);
+test('a hand that holds on is refused until it says that it has let go', () => {
+  const estop = new EstopLatch();
   estop.latch('operator');
-  estop.release(1000);
-  for (let t = 1010; t < 5000; t += 10) expect(estop.meet(true, t)).toBe('let-go');
+  estop.release();
+  for (let i = 0; i < 1000; i++) expect(estop.meet(true)).toBe('let-go');
+  expect(estop.meet(false)).toBe('clear');
+  expect(estop.meet(true)).toBe('clear');
 });
 
-test('a command for zero is letting go', () => {
-  const estop = new EstopLatch(150);
+test('what the hand did before the release does not count', () => {
+  const estop = new EstopLatch();
   estop.latch('operator');
-  estop.release(1000);
-  expect(estop.meet(false, 1010)).toBe('clear');
-  expect(estop.meet(true, 1020)).toBe('clear');
+  expect(estop.meet(false)).toBe('latched');
+  estop.release();
+  expect(estop.meet(true)).toBe('let-go');
 });
 
-test('so is no request for motion for the given time', () => {
-  const estop = new EstopLatch(150);
+test('a new latch begins anew, and another hand is asked by itself', () => {
+  const estop = new EstopLatch();
   estop.latch('operator');
-  estop.release(1000);
-  expect(estop.meet(true, 1149)).toBe('let-go');
-  expect(estop.meet(true, 1298)).toBe('let-go');
-  expect(estop.meet(true, 1448)).toBe('clear');
-});
-
-test('a second stop requires the hand to let go again', () => {
-  const estop = new EstopLatch(150);
+  estop.release();
+  estop.meet(false);
   estop.latch('operator');
-  estop.release(0);
-  estop.meet(false, 10);
-  estop.latch('operator');
-  estop.release(20);
-  expect(estop.meet(true, 30)).toBe('let-go');
+  estop.release();
+  expect(estop.meet(true)).toBe('let-go');
+  estop.changeHand();
+  expect(estop.meet(true)).toBe('clear');
 });

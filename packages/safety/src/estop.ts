@@ -11,14 +11,12 @@ const MOST_LATCHERS = 64;
 
 /**
  * The emergency stop: anyone can latch it, and only a deliberate action releases it. After the release, motion stays
- * refused until the hand has let go of the stick once (a command for zero, or no request for motion for `letGoMs`),
- * because a reset must not by itself start the machine (ISO 13850, 4.1.4). Of a hand that asked for motion shortly before the
- * release or since, only a longer silence (`heldGapMs`) counts: it may have held on through a hitch.
+ * refused until the hand has let go of the stick once and said so (a command for zero, or an open grip), because a reset must
+ * not by itself start the machine (ISO 13850, 4.1.4). Silence says nothing: a hand may hold on through it.
  *
  * A stop at the robot itself, such as a button on it, *holds* it: while anything holds it, nothing else releases it.
  */
 export class EstopLatch {
-  readonly #letGoMs: number;
   #by: EstopSource | null = null;
   #number = 0;
   #ofOperator = false;
@@ -27,16 +25,8 @@ export class EstopLatch {
   readonly #holders = new Set<RobotStop>();
   /** Operators who have latched it since it was last clear, and are still there. */
   readonly #latchers = new Set<string>();
-  readonly #heldGapMs: number;
-  /** When motion was last requested since the release; `null` once the hand has let go. */
-  #heldMs: number | null = null;
-  /** When motion was last requested; `null` once the hand has let go. */
-  #askedMs: number | null = null;
-
-  constructor(letGoMs: number, heldGapMs = letGoMs) {
-    this.#letGoMs = letGoMs;
-    this.#heldGapMs = Math.max(letGoMs, heldGapMs);
-  }
+  /** Whether the driver's hand has yet to let go since the release. */
+  #mustLetGo = false;
 
   get latched(): boolean {
     return this.#by !== null;
@@ -106,11 +96,11 @@ export class EstopLatch {
    *
    * @returns false if this stop did not hold it
    */
-  letGo(stop: RobotStop, nowMs: number): boolean {
+  letGo(stop: RobotStop): boolean {
     if (!this.#holders.delete(stop)) return false;
     if (this.#holders.size > 0) return true;
     if (this.#isAsked) this.#by = this.#ofOperator ? 'operator' : 'robot';
-    else this.#clear(nowMs);
+    else this.#clear();
     return true;
   }
 
@@ -120,45 +110,37 @@ export class EstopLatch {
   }
 
   /** The caller has checked who asks. @returns false if it was not latched, or is held by a stop at the robot */
-  release(nowMs: number): boolean {
+  release(): boolean {
     if (this.#by === null || this.#holders.size > 0) return false;
-    this.#clear(nowMs);
+    this.#clear();
     return true;
   }
 
-  /** Records a request of the lease holder and returns the answer to it. */
-  meet(motion: boolean, nowMs: number): EstopAnswer {
-    const askedMs = this.#askedMs;
-    this.#askedMs = motion ? nowMs : null;
+  /** Records a request of the lease holder and returns the answer to it. @param motion false: its hand is open */
+  meet(motion: boolean): EstopAnswer {
     if (this.#by !== null) return 'latched';
-    if (this.#heldMs === null) return 'clear';
-    const holds = askedMs !== null && nowMs - askedMs < this.#heldGapMs;
-    if (!motion || (!holds && nowMs - this.#heldMs >= this.#letGoMs)) {
-      this.#heldMs = null;
-      return 'clear';
-    }
-    this.#heldMs = nowMs;
-    return 'let-go';
+    if (!motion) this.#mustLetGo = false;
+    return this.#mustLetGo ? 'let-go' : 'clear';
   }
 
-  /** Another operator drives: what the last one's hand asked for says nothing of it. */
+  /** Another hand drives. It is asked by itself whether it is open: the last one's says nothing of it. */
   changeHand(): void {
-    this.#askedMs = null;
+    this.#mustLetGo = false;
   }
 
   #latch(by: EstopSource): boolean {
     this.#number = (this.#number + 1) >>> 0;
     if (this.#by !== null) return false;
     this.#by = by;
-    this.#heldMs = null;
+    this.#mustLetGo = false;
     return true;
   }
 
-  #clear(nowMs: number): void {
+  #clear(): void {
     this.#by = null;
     this.#isAsked = false;
     this.#ofOperator = false;
     this.#latchers.clear();
-    this.#heldMs = nowMs;
+    this.#mustLetGo = true;
   }
 }

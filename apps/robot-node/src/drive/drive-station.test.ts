@@ -20,6 +20,7 @@ function station() {
     (twist) => applied.push({ atMs: now() - start, twist }),
     now,
   );
+  guard.onOpenHand('op');
   const outcome = guard.requestLease('op', false, now());
   const lease = outcome.granted ? outcome.lease : '';
   const command = (sequence: number, x: number): Command => ({

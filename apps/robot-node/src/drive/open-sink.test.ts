@@ -33,6 +33,7 @@ function setUp(silenceMs = 60_000) {
   );
   const reader = new ReferenceControlReader(folder);
   open.push(station, sink, reader);
+  guard.onOpenHand('op');
   const outcome = guard.requestLease('op', false, nowMs);
   const lease = outcome.granted ? outcome.lease : '';
   let sequence = 0;

@@ -46,6 +46,7 @@ function setUp() {
     () => station.close(),
     () => wire.close(),
   );
+  guard.onOpenHand('op');
   const outcome = guard.requestLease('op', false, monotonicMs());
   const lease = outcome.granted ? outcome.lease : '';
   let sequence = 0;

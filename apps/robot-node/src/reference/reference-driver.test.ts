@@ -8,7 +8,16 @@ const limits = { maxLinear: 1, maxAngular: 1.5, watchdogMs: 150, maxCommandsPerS
 
 function setUp() {
   const guard = new DriveGuard({ limits, randomBytes: (count) => new Uint8Array(count).fill(7) });
-  return { guard, driver: new ReferenceDriver('reference:1', guard) };
+  const driver = new ReferenceDriver('reference:1', guard);
+  return {
+    ...{ guard, driver },
+    /** As often as the robot does. @returns whether the lease was released */
+    ticks(fromMs: number, toMs: number, pathLives: boolean): boolean {
+      let released = false;
+      for (let t = fromMs; t <= toMs; t += 20) released = driver.tick(t, pathLives) || released;
+      return released;
+    },
+  };
 }
 
 function forward(x: number, z = 0): Twist {
@@ -30,9 +39,13 @@ describe('ReferenceDriver', () => {
   it('is refused while another drives, beyond the limits, and while the emergency stop is latched', () => {
     const { guard, driver } = setUp();
     guard.requestLease('operator', false, 0);
-    expect(driver.onTwist(forward(0.5), 0)).toMatchObject({ accepted: false, reason: 'not-lease-holder' });
+    driver.onTwist(zeroTwist(), 0);
+    expect(driver.onTwist(forward(0.5), 10)).toMatchObject({ accepted: false, reason: 'not-lease-holder' });
     guard.releaseLease('operator');
-    expect(driver.onTwist(forward(2), 20)).toMatchObject({ accepted: false, reason: 'out-of-range' });
+    // It held on while the other one drove.
+    expect(driver.onTwist(forward(0.5), 20)).toMatchObject({ accepted: false, reason: 'let-go-first' });
+    driver.onTwist(zeroTwist(), 30);
+    expect(driver.onTwist(forward(2), 35)).toMatchObject({ accepted: false, reason: 'out-of-range' });
     guard.latchEstop('operator');
     expect(driver.onTwist(forward(0.5), 40)).toMatchObject({ accepted: false, reason: 'estop-latched' });
     expect(guard.velocityAt(40)).toEqual(zeroTwist());
@@ -50,7 +63,7 @@ describe('ReferenceDriver', () => {
 
   it('treats a burst after a stall as a stop, and obeys commands sent after it', () => {
     const { guard, driver } = setUp();
-    for (let t = 0; t <= 100; t += 20) driver.onTwist(forward(0.5), t);
+    for (let t = 0; t <= 100; t += 20) driver.onTwist(t === 0 ? zeroTwist() : forward(0.5), t);
     expect(guard.velocityAt(300)).toEqual(zeroTwist());
     // 15 commands from the last 300 ms, all at once.
     for (let i = 0; i < 15; i++) driver.onTwist(forward(0.5), 400 + i * 0.1);
@@ -63,20 +76,40 @@ describe('ReferenceDriver', () => {
       expect(driver.onTwist(forward(0.5), t)).toMatchObject({ accepted: true });
   });
 
-  it('after 1 s of silence, needs an open hand once: a zero, or 2 s without a request on a live path', () => {
+  it('obeys no hand that it does not know to be open: a zero, or 2 s without a request on a live path', () => {
     const refused = { accepted: false, reason: 'let-go-first' };
-    const { driver } = setUp();
-    driver.onTwist(forward(0.5), 0);
+    const { driver, ticks } = setUp();
+    // A stick that is held when the session begins.
+    expect(driver.onTwist(forward(0.5), 0)).toMatchObject(refused);
+    driver.onTwist(zeroTwist(), 20);
+    expect(driver.onTwist(forward(0.5), 40)).toMatchObject({ accepted: true });
+    // One that is held through a silence.
     expect(driver.onTwist(forward(0.5), 1500)).toMatchObject(refused);
     driver.onTwist(zeroTwist(), 1520);
     expect(driver.onTwist(forward(0.5), 1540)).toMatchObject({ accepted: true });
     // No zero was sent, but everything else kept arriving.
-    expect(driver.tick(4000, true)).toBe(true);
+    expect(ticks(1560, 4000, true)).toBe(true);
     expect(driver.onTwist(forward(0.5), 4020)).toMatchObject({ accepted: true });
     // The path was lost, so the hand may still hold the stick.
-    driver.tick(5000, false);
-    expect(driver.tick(7000, true)).toBe(true);
+    expect(ticks(4040, 6000, false)).toBe(false);
+    expect(ticks(6020, 7000, true)).toBe(true);
     expect(driver.onTwist(forward(0.5), 7020)).toMatchObject(refused);
+    ticks(7040, 9100, true);
+    expect(driver.onTwist(forward(0.5), 9120)).toMatchObject({ accepted: true });
+  });
+
+  it('takes what stood in a queue for no open hand', () => {
+    const { guard, driver } = setUp();
+    driver.onTwist(zeroTwist(), 0);
+    driver.onTwist(forward(0.5), 20);
+    guard.latchEstop('operator');
+    guard.onOpenHand('supervisor');
+    expect(guard.releaseEstop('supervisor', true)).toEqual({ released: true });
+    // Commands of a stick that was held all the time, all at once, after a stall.
+    for (let i = 0; i < 10; i++) driver.onTwist(forward(0.5), 400 + i * 0.1);
+    expect(driver.onTwist(forward(0.5), 420)).toMatchObject({ accepted: false, reason: 'estop-latched' });
+    driver.onTwist(zeroTwist(), 440);
+    expect(driver.onTwist(forward(0.5), 460)).toMatchObject({ accepted: true });
   });
 
   it('stays within the limits and stops after the watchdog time, whatever arrives and when', () => {

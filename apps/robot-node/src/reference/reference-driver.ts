@@ -45,8 +45,8 @@ export class ReferenceDriver {
   #lastMs = Number.NEGATIVE_INFINITY;
   #afterGap = false;
   #lastMotionMs = Number.NEGATIVE_INFINITY;
-  /** The operator was silent for a while after its last motion, so it may still be holding the stick. */
-  #pathWasSilent = false;
+  /** Since when the path has lived and no motion was asked for, ms; `null` if it does not or was. */
+  #quietSinceMs: number | null = null;
 
   /** @param id the operator's id for the guard */
   constructor(id: string, guard: DriveGuard) {
@@ -64,15 +64,20 @@ export class ReferenceDriver {
       const mayAsk = leaseHolder === null || leaseHolder === this.#id;
       return mayAsk && this.#tests.take(nowMs) ? 'latency-test' : 'too-many-tests';
     }
-    const wish = this.#stoodInQueue(nowMs) ? zeroTwist() : twist;
-    const motion = !isZeroTwist(wish);
+    const stood = this.#stoodInQueue(nowMs);
+    const motion = !stood && !isZeroTwist(twist);
     if (motion && leaseHolder === null) this.#guard.requestLease(this.#id, false, nowMs);
-    else if (!motion && leaseHolder !== this.#id) return 'ignored';
+    else if (!motion && leaseHolder !== this.#id) {
+      if (!stood) this.#guard.onOpenHand(this.#id);
+      return 'ignored';
+    }
     if (motion) {
       this.#lastMotionMs = nowMs;
-      this.#pathWasSilent = false;
+      this.#quietSinceMs = null;
     }
-    return this.#guard.onCommand(this.#id, this.#toCommand(wish, nowMs), nowMs);
+    const command = this.#toCommand(stood ? zeroTwist() : twist, nowMs);
+    // What stood in a queue stops the robot, but does not say that the hand is open.
+    return this.#guard.onCommand(this.#id, stood ? { ...command, unread: true } : command, nowMs);
   }
 
   /**
@@ -82,9 +87,13 @@ export class ReferenceDriver {
    * @returns whether the lease was released
    */
   tick(nowMs: number, pathLives: boolean): boolean {
-    if (!pathLives) this.#pathWasSilent = true;
-    if (!this.holdsLease || nowMs - this.#lastMotionMs < LEASE_AFTER_MOTION_MS) return false;
-    return this.#pathWasSilent ? this.#guard.releaseLease(this.#id) : this.#guard.operatorGone(this.#id);
+    this.#quietSinceMs = pathLives ? (this.#quietSinceMs ?? nowMs) : null;
+    const isQuiet = this.#quietSinceMs !== null && nowMs - this.#quietSinceMs >= LEASE_AFTER_MOTION_MS;
+    const isOver = this.holdsLease && nowMs - this.#lastMotionMs >= LEASE_AFTER_MOTION_MS;
+    const released = isOver && this.#guard.releaseLease(this.#id);
+    // Not every reference operator says that its hand is open. On a path that lives, one that asks for nothing has let go.
+    if (isQuiet && !this.holdsLease) this.#guard.onOpenHand(this.#id);
+    return released;
   }
 
   /**
@@ -103,6 +112,12 @@ export class ReferenceDriver {
     return this.#afterGap;
   }
 
+  /** What it is assumed to see. */
+  #seen(capturedMs: number): { seenUs: number } {
+    this.#guard.sentViews.sent(this.#id, capturedMs);
+    return { seenUs: stampUsOf(capturedMs) };
+  }
+
   #toCommand(twist: Twist, nowMs: number): Command {
     this.#sequence = nextSequence32(this.#sequence);
     const state = this.#guard.leaseState(this.#id);
@@ -113,7 +128,7 @@ export class ReferenceDriver {
       // A handle that belongs to nobody, if this operator has no lease.
       lease: state.holder === 'you' && state.lease !== undefined ? state.lease : 'none',
       deadMan: !isZeroTwist(twist),
-      ...(this.sentCaptureMs === null ? {} : { seenUs: stampUsOf(this.sentCaptureMs - ASSUMED_LOOP_MS) }),
+      ...(this.sentCaptureMs === null ? {} : this.#seen(this.sentCaptureMs - ASSUMED_LOOP_MS)),
       twist,
     };
   }

@@ -94,7 +94,7 @@ export class EstopRequests {
       this.#refuse('unnamed');
       return;
     }
-    const outcome = drive.guard.releaseEstop(id, heardMs, supervised, of);
+    const outcome = drive.guard.releaseEstop(id, supervised, of);
     drive.apply();
     if (outcome.released) this.#port.changed();
     else if (outcome.reason === 'not-latched') this.#operator.sendEstop();

@@ -2,6 +2,7 @@ import {
   clockAnswerCodec,
   decodeJson,
   encodeBandwidth,
+  NO_LEASE,
   type ProtocolError,
   type RobotSessionMessage,
   robotSessionCodec,
@@ -76,6 +77,7 @@ function robot() {
         }),
       );
     const takeLease = () => {
+      guard.onOpenHand(id);
       send({ type: 'leaseRequest', take: false });
       const state = inbox.at(-1);
       return state?.type === 'lease' ? (state.lease ?? '') : '';
@@ -103,6 +105,19 @@ describe('OperatorMessages', () => {
     const { alice, bob, speed } = robot();
     const lease = alice.takeLease();
     expect(bob.inbox.at(-1)).toEqual({ type: 'lease', holder: 'other' });
+    alice.command(0, lease, 0.4);
+    expect(speed()).toBe(0.4);
+  });
+
+  it('does not answer one who does not drive and says that its hand is open', () => {
+    const { alice, bob, speed, rejected } = robot();
+    const lease = alice.takeLease();
+    const heard = bob.inbox.length;
+    for (let sequence = 0; sequence < 5; sequence++) bob.command(sequence, NO_LEASE, 0, { deadMan: false });
+    expect([bob.inbox.length, rejected]).toEqual([heard, []]);
+    // A hand that has not said so.
+    bob.command(5, NO_LEASE, 0.4);
+    expect(rejected).toMatchObject([{ reason: 'not-lease-holder' }]);
     alice.command(0, lease, 0.4);
     expect(speed()).toBe(0.4);
   });

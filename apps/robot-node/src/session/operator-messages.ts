@@ -7,7 +7,9 @@ import {
   decodeStreamSwitch,
   type EndSession,
   encodeJson,
+  isZeroTwist,
   type LatencyMeasured,
+  NO_LEASE,
   type OperatorSessionMessage,
   operatorControlCodec,
   operatorSessionCodec,
@@ -37,6 +39,8 @@ export interface SessionHost {
   now(): number;
   /** The driver has changed, and all operators must be told. @param cause if it was not a request */
   leaseChanged(cause?: 'expired' | 'session-ended'): void;
+  /** It has given the lease back, or would if it still had it. */
+  driverLeaves?(session: OperatorMessages): void;
   /** The emergency stop was latched or released. @param by who changed it; undefined: the robot itself */
   estopChanged(by?: OperatorMessages): void;
   /** It was latched again: all operators must be told its new number. */
@@ -180,6 +184,8 @@ export class OperatorMessages {
   #onCommand(command: Command, now: number): void {
     const { drive } = this.#host;
     const verdict = mayDrive(this.access) ? drive.guard.onCommand(this.id, command, now) : NOT_PERMITTED;
+    // It only says that its hand is open.
+    if (command.lease === NO_LEASE && isZeroTwist(command.twist)) return;
     this.#host.commandJudged?.(this, command, verdict);
     // Also after a rejection: releasing the grip stops the robot.
     drive.apply();
@@ -241,6 +247,7 @@ export class OperatorMessages {
       case 'leaseRelease': {
         const released = guard.releaseLease(this.id);
         drive.apply();
+        this.#host.driverLeaves?.(this);
         if (released) this.#host.leaseChanged();
         else this.sendLease();
         break;

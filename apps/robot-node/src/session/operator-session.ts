@@ -30,6 +30,9 @@ import { ResumeKey } from './resume-key.ts';
 import { droppedFrames, StreamMeter } from './stream-meter.ts';
 import { WantedClouds } from './wanted-clouds.ts';
 
+/** A page tells the capture time of a video's picture from its clock and the network's, ms. */
+const VIDEO_EXACT_MS = 50;
+
 /** One operator: connection, session and stream. */
 export class OperatorSession implements FrameTarget {
   readonly messages: OperatorMessages;
@@ -172,11 +175,15 @@ export class OperatorSession implements FrameTarget {
   readonly videoCodecs = (video: number) => this.videos.codecs(video);
 
   offerVideo(frame: VideoFrame): void {
-    if (this.streaming) this.videos.offer(frame);
+    if (!this.streaming) return;
+    if (this.videos.wanted.has(frame.video)) this.#mayBeSeen(frame.capturedAtMs, VIDEO_EXACT_MS);
+    this.videos.offer(frame);
   }
 
   offerPicture(picture: ReadyPicture): void {
-    if (this.streaming) this.pictures.offer(picture);
+    if (!this.streaming) return;
+    if (this.pictures.watched.has(picture.header.camera)) this.#mayBeSeen(picture.capturedAtMs);
+    this.pictures.offer(picture);
   }
 
   get droppedFrames(): number {
@@ -199,6 +206,7 @@ export class OperatorSession implements FrameTarget {
       this.messages.send({ type: 'latencyFrame', id, frameNumber, points, ...moments });
     }
     this.#meter.onQueued(shared);
+    this.#mayBeSeen(capturedAtMs);
     this.sender.enqueue(shared);
   }
 
@@ -220,6 +228,10 @@ export class OperatorSession implements FrameTarget {
   /** This operator's stream for telemetry. Call once per telemetry message: rates count from the previous call. */
   status(captureStages: StageTimings, nowMs: number): { stages: StageTimings; stream: StreamStatus } {
     return this.#meter.status(captureStages, this.sender, nowMs);
+  }
+
+  #mayBeSeen(capturedAtMs: number, exactMs = 0): void {
+    this.#host.drive.guard.sentViews.sent(this.id, capturedAtMs, exactMs);
   }
 
   #sendPictures(): void {

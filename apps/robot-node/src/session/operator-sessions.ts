@@ -56,7 +56,7 @@ export interface OperatorSessionsEvents {
   needsKeyFrame: (video: number) => void;
   latencyFrameLost: () => void;
   /** The operator has been removed from `operators`. */
-  ended: (operator: OperatorSession) => void;
+  ended: (operator: OperatorSession, end: PeerEnd) => void;
 }
 
 /** The sessions with operators, each with its own connection. Signaling opens and closes them. */
@@ -237,7 +237,7 @@ export class OperatorSessions {
     this.operators.delete(id);
     this.#waiting.settled(id);
     this.#access?.forget(id);
-    this.#events.ended(operator);
+    this.#events.ended(operator, end);
     audit.sessionEnded(operator.messages, end, detail);
     counters.sessionsEnded.add(end);
     log.info({ end, detail, operators: this.operators.size }, 'session ended');

@@ -10,11 +10,20 @@ import type { CommandLog } from '../telemetry/command-log.ts';
 import { LimitedLines } from '../telemetry/limited-lines.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { SessionRecording } from '../telemetry/session-recording.ts';
+import type { PeerEnd } from '../transport/peer-events.ts';
 import type { VideoHub } from '../video/video-hub.ts';
 import type { RatedMessage } from './message-rates.ts';
 import type { OperatorMessages, SessionHost } from './operator-messages.ts';
 import type { OperatorSession } from './operator-session.ts';
 import { tellRings, tellVideos } from './welcome.ts';
+
+/** Of these ends, nobody has said that they are meant. */
+const BY_SILENCE: ReadonlySet<PeerEnd> = new Set([
+  'connection-lost',
+  'silent',
+  'not-reading',
+  'not-connected',
+]);
 
 export interface RobotSessionHostParts {
   drive: DriveStation;
@@ -28,12 +37,16 @@ export interface RobotSessionHostParts {
   commandLog: CommandLog | undefined;
   log: Logger;
   now: () => number;
+  /** Who drove last has left on purpose. */
+  driverLeft: () => void;
 }
 
 /** Handles the requests and reports of all sessions on behalf of the robot. */
 export class RobotSessionHost implements SessionHost {
   readonly drive: DriveStation;
   readonly #parts: RobotSessionHostParts;
+  /** Who holds the lease, or held it last. */
+  #driver: string | null = null;
   /** Whoever drives can latch and release the emergency stop without end, but not fill the log. */
   readonly #estopLines = new LimitedLines();
 
@@ -50,6 +63,7 @@ export class RobotSessionHost implements SessionHost {
   leaseChanged(cause?: LeaseCause): void {
     const { audit, operators } = this.#parts;
     const { leaseHolder } = this.drive.guard;
+    this.#driver = leaseHolder ?? this.#driver;
     audit.driver(
       leaseHolder,
       leaseHolder === null ? undefined : operators().get(leaseHolder)?.messages,
@@ -59,12 +73,18 @@ export class RobotSessionHost implements SessionHost {
     this.#parts.sensors().updateBudgets();
   }
 
-  operatorGone(id: string): void {
+  /** @param end why its session has ended */
+  operatorGone(id: string, end: PeerEnd): void {
+    if (id === this.#driver && !BY_SILENCE.has(end)) this.#parts.driverLeft();
     // Stop the wheels before telling anyone.
     const leaseFreed = this.drive.guard.operatorGone(id);
     this.drive.apply();
     if (leaseFreed) this.leaseChanged('session-ended');
     this.#parts.sensors().updateBudgets();
+  }
+
+  driverLeaves({ id }: OperatorMessages): void {
+    if (id === this.#driver) this.#parts.driverLeft();
   }
 
   estopChanged(by?: OperatorMessages): void {

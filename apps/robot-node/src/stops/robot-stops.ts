@@ -76,7 +76,7 @@ export class RobotStops {
     const now = this.#port.now();
     const state = source.look(now);
     // The wheels first.
-    const changed = state === 'go' ? guard.letGoEstop(stop, now) : guard.holdEstop(stop);
+    const changed = state === 'go' ? guard.letGoEstop(stop) : guard.holdEstop(stop);
     if (changed) {
       if (state !== 'go') this.#pressed.set(stop, (this.#pressed.get(stop) ?? 0) + 1);
       this.#port.changed(stop, state);

@@ -14,7 +14,6 @@ import {
   readCloudPayload,
   robotSessionCodec,
   type Sample,
-  stampUsOf,
   type Telemetry,
   type TelemetryMessage,
   telemetryCodec,
@@ -224,7 +223,6 @@ export class OperatorClient {
 
   /** Lets go once when the robot has asked for it. */
   drive(lease: string, linear: number, more: DriveExtras = {}): void {
-    if (this.telemetry !== null) this.#hand.sees(stampUsOf(this.telemetry.timeMs));
     this.sendControl(this.#hand.command(lease, linear, more));
   }
 

@@ -134,6 +134,11 @@ export class SignaledOperator {
     await this.client.vanish();
   }
 
+  /** Ends the session on purpose, and says so. */
+  leave(): void {
+    this.#send({ type: 'session.close', session: this.#session });
+  }
+
   async close(): Promise<void> {
     for (const socket of this.#sockets) socket.close();
     await this.client.close();

@@ -8,6 +8,7 @@ import {
   decodeJson,
   encodeJson,
   isZeroTwist,
+  NO_LEASE,
   type OperatorSessionMessage,
   PROTOCOL_VERSION,
   ProtocolError,
@@ -162,6 +163,8 @@ export class BridgeSession {
   }
 
   command(command: Command, nowMs: number): void {
+    // Nobody is told whether a hand is open.
+    if (command.lease === NO_LEASE) return;
     if (this.#phase !== 'live' || this.interrupted) return;
     const { latencyTest } = command;
     if (latencyTest !== undefined) this.#askGreen(latencyTest, nowMs);

@@ -3,7 +3,14 @@
  * rate. When the grip is released, or is not read any more, it sends a few commands that say so, since any of them may be
  * lost, and then nothing. Time is an argument.
  */
-import { type Command, type DriveLimits, nextSequence32, type Twist, zeroTwist } from '@farpoint/protocol';
+import {
+  type Command,
+  type DriveLimits,
+  NO_LEASE,
+  nextSequence32,
+  type Twist,
+  zeroTwist,
+} from '@farpoint/protocol';
 import { type DriveWish, intoTwist, REST, toTwist } from './velocity-mapping.ts';
 
 export const COMMANDS_PER_SECOND = 40;
@@ -105,6 +112,17 @@ export class CommandStream {
     if (!this.held) this.#stopsLeft--;
     else if (this.#restsLeft > 0) this.#restsLeft--;
     return command;
+  }
+
+  /**
+   * Says that the hand is open, to a robot that it does not drive yet. The robot lets no hand drive that is not known to have
+   * been open before.
+   *
+   * @returns `null` before the robot has said its limits, and with the lease: then {@link tick} says it
+   */
+  openHand(nowMs: number): Command | null {
+    if (this.#limits === null || this.#lease !== null || this.#hand !== 'open') return null;
+    return this.#make(nowMs, this.#limits, NO_LEASE);
   }
 
   /**

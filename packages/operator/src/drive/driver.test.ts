@@ -188,4 +188,48 @@ describe('Driver', () => {
     driver.tick(0);
     expect(commands).toEqual([]);
   });
+
+  describe('a robot that it does not drive', () => {
+    const noLease = ({ lease, deadMan, twist }: Command) => [lease, deadMan, twist.linear.x];
+
+    test('is told now and then that the hand is open, as long as it is', () => {
+      const { commands, hand, driver } = bench();
+      for (let now = 0; now < 1500; now += 25) driver.tick(now);
+      expect(commands.map(noLease)).toEqual(Array(3).fill(['none', false, 0]));
+      hand.held = true;
+      for (let now = 1500; now < 4000; now += 25) driver.tick(now);
+      expect(commands).toHaveLength(3);
+      driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+      driver.tick(4000);
+      expect(commands.at(-1)?.lease).toBe('x');
+    });
+
+    test('is told nothing before it has said its limits', () => {
+      const commands: Command[] = [];
+      const driver = new Driver([new WishInput()], {
+        sendCommand: (command) => commands.push(command),
+        sendSession: () => undefined,
+        onOtherDrives: () => undefined,
+      });
+      for (let now = 0; now < 2000; now += 25) driver.tick(now);
+      expect(commands).toEqual([]);
+    });
+
+    test('does not start when another leaves, with a grip that was closed meanwhile', () => {
+      const { messages, commands, hand, driver } = bench();
+      driver.onLease({ type: 'lease', holder: 'other' });
+      hand.held = true;
+      hand.wish.forward = 1;
+      driver.tick(0);
+      expect(driver.lost).toBe('other-drives');
+      driver.onLease({ type: 'lease', holder: 'nobody' });
+      for (let now = 25; now < 2000; now += 25) driver.tick(now);
+      expect([messages, commands]).toEqual([[], []]);
+      hand.held = false;
+      driver.tick(2000);
+      hand.held = true;
+      driver.tick(2025);
+      expect(messages).toEqual([{ type: 'leaseRequest', take: false }]);
+    });
+  });
 });

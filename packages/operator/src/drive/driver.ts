@@ -16,6 +16,8 @@ export interface DriverPort {
 
 /** While the grip is held and nobody drives, the lease is requested at this interval. */
 const LEASE_RETRY_MS = 500;
+/** While nobody drives by this hand, the robot is told at this interval that it is open. */
+const OPEN_HAND_MS = 500;
 
 /**
  * Turns the operator's hands into commands: chooses the device that drives, requests the lease and decides what is sent
@@ -31,6 +33,7 @@ export class Driver {
   #input: DriveInput | null = null;
   #holder: LeaseState['holder'] = 'nobody';
   #nextLeaseRequestMs = 0;
+  #nextOpenHandMs = 0;
   #suspended = false;
   #toldOther = false;
   readonly #grips = new Grips();
@@ -159,10 +162,20 @@ export class Driver {
     this.stream.set(hand, this.#input?.wish ?? REST, this.#input?.readMs ?? null);
     if (held && this.#holder !== 'you') this.#ask(nowMs);
     if (!held) this.#toldOther = false;
+    this.#tellOpenHand(nowMs);
     const command = this.stream.tick(nowMs);
     if (command === null) return;
     this.#port.sendCommand(command);
     this.onCommand?.(command);
+  }
+
+  /** A command may be lost, so it is told again. */
+  #tellOpenHand(nowMs: number): void {
+    if (nowMs < this.#nextOpenHandMs || this.#inputs.some(({ held }) => held)) return;
+    const command = this.stream.openHand(nowMs);
+    if (command === null) return;
+    this.#nextOpenHandMs = nowMs + OPEN_HAND_MS;
+    this.#port.sendCommand(command);
   }
 
   #ask(nowMs: number): void {
@@ -174,6 +187,8 @@ export class Driver {
       // Taking over from another operator needs a deliberate act, a button.
       this.#toldOther = true;
       this.#port.onOtherDrives();
+      // It must not start the robot when that other one leaves.
+      this.#grips.lose(this.#inputs, 'other-drives');
     }
   }
 }

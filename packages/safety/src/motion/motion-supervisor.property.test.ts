@@ -211,6 +211,7 @@ class Run {
       guards: [new ViewAge(this.#guard.view, view), new BlindTravel(this.#guard.view, view), this.#sensed],
       letGoAfter: { 'view-lost': { why: 'what you saw was too old', lastsMs: RESUME_WITHIN_MS } },
     });
+    this.#guard.onOpenHand('driver');
     this.#guard.requestLease('driver', false, this.#nowMs);
   }
 
@@ -240,12 +241,13 @@ class Run {
         break;
       case 'picture':
         this.#drawnMs = this.#nowMs - step.ageMs;
+        for (const by of ['driver', 'other']) guard.sentViews.sent(by, this.#drawnMs);
         break;
       case 'estop':
         guard.latchEstop('operator', 'driver');
         break;
       case 'release':
-        guard.releaseEstop(guard.leaseHolder ?? '', this.#nowMs);
+        guard.releaseEstop(guard.leaseHolder ?? '');
         break;
       case 'wheels':
         this.#wheels = step.there;

@@ -33,6 +33,7 @@ function supervised(options: Partial<MotionSupervisorOptions> = {}, letGoAfterMs
     letGoAfterMs,
     randomBytes: (count) => new Uint8Array(count),
   });
+  guard.onOpenHand('op');
   const outcome = guard.requestLease('op', false, 0);
   const motion = new MotionSupervisor(guard, { guards: [told, other], ...options });
   let sequence = 0;
@@ -180,7 +181,7 @@ describe('the motion supervisor', () => {
     for (const gapMs of [151, 300, 399]) {
       const { guard, command } = supervised({}, RESUME_WITHIN_MS);
       guard.latchEstop('operator', 'op');
-      guard.releaseEstop('op', 1000);
+      guard.releaseEstop('op');
       const held = (t: number) => guard.onCommand('op', command(t, 1), t);
       for (let t = 1010; t <= 1100; t += 10) expect(held(t)).toMatchObject({ reason: 'estop-latched' });
       expect(held(1100 + gapMs)).toMatchObject({ reason: 'estop-latched' });
@@ -189,8 +190,9 @@ describe('the motion supervisor', () => {
       // A hand that grips afresh, as another operator's does, need not.
       guard.latchEstop('operator', 'op');
       held(2400);
-      guard.releaseEstop('op', 2410);
+      guard.releaseEstop('op');
       guard.releaseLease('op');
+      guard.onOpenHand('next');
       const granted = guard.requestLease('next', false, 2420);
       const lease = granted.granted ? granted.lease : '';
       expect(guard.onCommand('next', { ...command(2600, 1), lease }, 2600).accepted).toBe(true);

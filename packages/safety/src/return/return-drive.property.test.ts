@@ -173,12 +173,12 @@ class Run {
         break;
       case 'estop':
         if (step.latch) robot.guard.holdEstop('key');
-        else robot.guard.letGoEstop('key', robot.nowMs);
+        else robot.guard.letGoEstop('key');
         break;
       case 'press':
         robot.guard.holdEstop('gpio');
         robot.wait(0.1);
-        robot.guard.letGoEstop('gpio', robot.nowMs);
+        robot.guard.letGoEstop('gpio');
         break;
       case 'spoil':
         this.#spoil(step);

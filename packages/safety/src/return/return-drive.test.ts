@@ -103,6 +103,23 @@ describe('a robot that has lost its operators', () => {
   });
 });
 
+describe('a driver who has left on purpose', () => {
+  test.each([0, 5])('is no reason to drive back, %i s after it was heard last', (afterS) => {
+    const robot = lost();
+    robot.wait(afterS);
+    robot.back.left(robot.nowMs);
+    robot.wait(60);
+    expect(robot.back.phase).toBe('standby');
+  });
+
+  test('does not end a way back that silence has begun, nor forbid the next', () => {
+    const robot = returning();
+    robot.back.left(robot.nowMs);
+    robot.tick();
+    expect(robot.back.phase).toBe('returning');
+  });
+});
+
 describe('it stands at once', () => {
   test('when an operator is heard, also while it only announces', () => {
     const robot = returning();
@@ -120,13 +137,13 @@ describe('it stands at once', () => {
     const robot = returning();
     robot.guard.holdEstop('key');
     robot.wait(0.1);
-    robot.guard.letGoEstop('key', robot.nowMs);
+    robot.guard.letGoEstop('key');
     ends(robot, 'estop');
     const waiting = lost();
     waiting.wait(5);
     waiting.guard.holdEstop('key');
     waiting.wait(0.1);
-    waiting.guard.letGoEstop('key', waiting.nowMs);
+    waiting.guard.letGoEstop('key');
     waiting.wait(60);
     expect(waiting.back.phase).toBe('standby');
   });

@@ -47,6 +47,7 @@ const STRANGE_RAD = 0.2;
  * - it asks for nothing while anybody holds the lease, the emergency stop is latched, nothing takes the velocities, or
  *   odometry or a sensor is silent;
  * - it never asks for more than `maxLinear` and `maxAngular`, nor farther from the track than `toleranceM`;
+ * - it asks for nothing after whoever drove has left on purpose, until somebody has driven again;
  * - once an operator is heard or the emergency stop is latched, it asks for nothing until somebody has driven again.
  */
 export class ReturnDrive implements UnattendedDrive {
@@ -116,6 +117,17 @@ export class ReturnDrive implements UnattendedDrive {
     this.#heardMs = atMs;
     if (this.isActive) this.#finish('service-back', atMs);
     else if (this.#phase === 'waiting') this.#become('standby', atMs);
+  }
+
+  /**
+   * Who drove last has left on purpose: it gave the lease back, its session was ended, or its permission. Only silence is a
+   * reason to drive back.
+   */
+  left(nowMs: number): void {
+    // A way back that has begun was begun by silence.
+    if (this.isActive) return;
+    this.#armed = false;
+    if (this.#phase === 'waiting') this.#become('standby', nowMs);
   }
 
   /** Odometry came: the pose of base_link, and when it was measured. */

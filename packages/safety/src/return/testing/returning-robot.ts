@@ -75,6 +75,7 @@ export class ReturningRobot {
   /** A driver takes the lease. */
   connect(): void {
     this.back.heard(this.nowMs);
+    this.guard.onOpenHand('driver');
     const outcome = this.guard.requestLease('driver', true, this.nowMs);
     if (outcome.granted) this.#lease = outcome.lease;
   }

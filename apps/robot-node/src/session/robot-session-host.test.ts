@@ -1,0 +1,70 @@
+import { DriveGuard, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
+import { afterEach, expect, test } from 'vitest';
+import { DriveStation } from '../drive/drive-station.ts';
+import type { PeerEnd } from '../transport/peer-events.ts';
+import type { OperatorMessages } from './operator-messages.ts';
+import { RobotSessionHost, type RobotSessionHostParts } from './robot-session-host.ts';
+
+const stations: DriveStation[] = [];
+afterEach(() => {
+  for (const station of stations.splice(0)) station.close();
+});
+
+/** A robot that somebody has driven. */
+function driven() {
+  let left = 0;
+  const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: (count) => new Uint8Array(count) });
+  const drive = new DriveStation(
+    new MotionSupervisor(guard),
+    () => undefined,
+    () => 0,
+  );
+  stations.push(drive);
+  const host = new RobotSessionHost({
+    drive,
+    operators: () => new Map(),
+    sensors: () => ({ updateBudgets: () => undefined }),
+    audit: { driver: () => undefined },
+    now: () => 0,
+    driverLeft: () => left++,
+  } as unknown as RobotSessionHostParts);
+  const change = (by: string) => {
+    guard.requestLease(by, true, 0, true);
+    host.leaseChanged();
+  };
+  change('driver');
+  return { host, guard, change, left: () => left };
+}
+
+test.each<[PeerEnd, number]>([
+  ['closed', 1],
+  ['grant-expired', 1],
+  ['grant-revoked', 1],
+  ['ended-by-supervisor', 1],
+  ['silent', 0],
+  ['connection-lost', 0],
+  ['not-reading', 0],
+])('a driver whose session ends by %s has left on purpose: %i', (end, count) => {
+  const { host, left } = driven();
+  host.operatorGone('driver', end);
+  expect(left()).toBe(count);
+});
+
+test('one that gives the lease back has left, also if it was silent for so long that it had it no more', () => {
+  const { host, guard, left } = driven();
+  guard.releaseLease('driver');
+  host.leaseChanged('expired');
+  host.driverLeaves({ id: 'driver' } as OperatorMessages);
+  expect(left()).toBe(1);
+});
+
+test('who has not driven last says nothing by leaving', () => {
+  const { host, change, left } = driven();
+  host.operatorGone('watcher', 'closed');
+  host.driverLeaves({ id: 'watcher' } as OperatorMessages);
+  change('next');
+  host.operatorGone('driver', 'closed');
+  expect(left()).toBe(0);
+  host.operatorGone('next', 'closed');
+  expect(left()).toBe(1);
+});
