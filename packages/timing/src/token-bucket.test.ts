@@ -61,3 +61,12 @@ test('never grants more than burst + rate × time, and always that much after a 
     { seed: 3 },
   );
 });
+
+test('several tokens are taken together or not at all', () => {
+  const bucket = new TokenBucket({ perSecond: 10 });
+  expect(bucket.take(0, 8)).toBe(true);
+  expect(bucket.take(0, 3)).toBe(false);
+  expect(bucket.take(0, 2)).toBe(true);
+  expect(bucket.take(0, 1)).toBe(false);
+  expect(bucket.take(300, 3)).toBe(true);
+});

@@ -23,8 +23,11 @@ export class TokenBucket {
     this.#credit = this.#capacity;
   }
 
-  /** @returns false if the bucket is empty; nothing is taken then */
-  take(nowMs: number): boolean {
+  /**
+   * @param tokens how many to take at once: all or none
+   * @returns false if there are too few; nothing is taken then
+   */
+  take(nowMs: number, tokens = 1): boolean {
     // A clock that stands still or runs backwards adds nothing.
     if (this.#filledMs === null) {
       this.#filledMs = nowMs;
@@ -32,8 +35,8 @@ export class TokenBucket {
       this.#credit = Math.min(this.#credit + (nowMs - this.#filledMs) * this.#perSecond, this.#capacity);
       this.#filledMs = nowMs;
     }
-    if (this.#credit < TOKEN) return false;
-    this.#credit -= TOKEN;
+    if (this.#credit < tokens * TOKEN) return false;
+    this.#credit -= tokens * TOKEN;
     return true;
   }
 }
