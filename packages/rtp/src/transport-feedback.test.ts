@@ -122,6 +122,18 @@ test('round trip of any statuses', () => {
   );
 });
 
+test('forty bytes do not become 65,535 objects', () => {
+  const bytes = new Uint8Array(40);
+  const view = new DataView(bytes.buffer);
+  view.setUint16(0, 0x8fcd);
+  view.setUint16(2, 9);
+  for (let at = 20; at < 40; at += 2) view.setUint16(at, 0x1fff);
+  view.setUint16(14, 16_384);
+  expect(parseTransportFeedback(bytes).packets).toHaveLength(16_384);
+  view.setUint16(14, 16_385);
+  expect(errorOf(bytes)?.code).toBe('too-many');
+});
+
 test('any bytes give feedback or a typed error', () => {
   const outcomes = new Map<string, number>();
   const judge = (bytes: Uint8Array) => {
@@ -163,6 +175,7 @@ test('any bytes give feedback or a typed error', () => {
     'feedback',
     'not-transport-feedback',
     'reserved-status',
+    'too-many',
     'truncated',
   ]);
 });

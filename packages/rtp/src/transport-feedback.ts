@@ -21,6 +21,7 @@ export type TransportFeedbackErrorCode =
   | 'bad-length' // the length field does not match the number of bytes
   | 'bad-padding'
   | 'empty' // reports on no packet
+  | 'too-many' // reports on more packets than any sender remembers
   | 'reserved-status'; // the status symbol 3
 
 export class TransportFeedbackError extends Error {
@@ -58,6 +59,8 @@ export interface TransportFeedback {
 
 const HEADER_BYTES = 20;
 const DELTA_US = 250;
+/** Forty bytes can name 65,535 packets. A sender remembers fewer (`SentPacketHistory`): 1.6 s of 10,000 a second. */
+const MAX_STATUSES = 16_384;
 /** Status symbols; 3 is reserved. */
 const NOT_RECEIVED = 0;
 const SMALL_DELTA = 1;
@@ -74,6 +77,8 @@ export function parseTransportFeedback(bytes: Uint8Array): TransportFeedback {
   const baseSequence = view.getUint16(12);
   const statusCount = view.getUint16(14);
   if (statusCount === 0) throw new TransportFeedbackError('empty', 14, 'reports no packet');
+  if (statusCount > MAX_STATUSES)
+    throw new TransportFeedbackError('too-many', 14, `reports ${statusCount} packets`);
   const referenceTimeUs = ((view.getUint32(16) | 0) >> 8) * 64_000;
 
   const symbols = new Uint8Array(statusCount);

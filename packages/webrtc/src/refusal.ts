@@ -9,8 +9,19 @@ export type Refusal =
   | 'dtls-unauthentic' // it does not decrypt
   | 'dtls-out-of-order' // a handshake message that is not allowed now: repeated, skipped, or a new handshake
   | 'dtls-early' // it arrived before the transport was ready, and the buffer for such packets is full
+  | 'stun-too-long' // no check or answer is as long
+  | 'stun-rate-limited' // authentic, but more checks than a peer needs
+  | 'ice-too-many-sources' // authentic, from another new address, after more of them than a peer has
+  | 'rtcp-malformed' // longer than a path takes, of too many parts, or reporting on more packets than were sent
+  | 'rtcp-rate-limited' // authentic, but more than a receiver has to say
+  | 'rtp-unasked' // media from a peer that was offered no m-line for it
+  | 'rtp-too-many-sources' // authentic, under another new SSRC, after more of them than a peer has
   | 'sctp-malformed' // a packet whose lengths, checksum or chunks violate RFC 9260
+  | 'sctp-rate-limited' // more work than a peer may make; it sends again what it must
+  | 'sctp-out-of-order' // it begins an association that is established
+  | 'sctp-false-ack' // it acknowledges what was never sent
   | 'sctp-overfull' // too many fragments, streams or bytes that wait for others; ends the session
+  | 'too-many-channels' // opened one after the other; ends the session
   | 'message-too-large' // longer than our description allows; ends the session
   | 'sctp-failed' // a well-formed packet that werift could not handle
   | 'message-malformed'; // an invalid data channel message (RFC 8832)

@@ -75,6 +75,7 @@ export class OperatorSession implements FrameTarget {
       onConnected: (transport, videos, sound) => this.#onConnected(transport, videos, sound),
       onMessage: (channel, data) => this.messages.onMessage(channel, data),
       onPicturesLow: () => this.#sendPictures(),
+      drives: () => host.drive.guard.leaseHolder === this.id,
       onEnded: (end, detail) => this.#onEnded(end, detail),
     });
     this.pictures = new PictureSender(this.peer, this.#onViewSent);

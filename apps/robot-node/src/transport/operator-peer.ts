@@ -59,6 +59,8 @@ export class OperatorPeer {
     this.#connection = openPeerConnection(options);
     const connection = this.#connection;
     guardConnection(connection, {
+      takesRtp: options.sound === true,
+      drives: () => events.drives?.() === true,
       onRefused: (reason) => options.onRefused?.(reason),
       onUnproven: (error) => this.#end('unproven-peer', error.reason),
       onFault: (error) => this.#end('connection-lost', `a message could not be handled: ${errorText(error)}`),

@@ -46,6 +46,8 @@ export interface OperatorPeerEvents {
    */
   onConnected(clouds: RtpTransport, videos: readonly VideoLine[], sound: SoundLine | null): void;
   onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void;
+  /** Whether the operator drives now, so that more is taken from it. */
+  drives?(): boolean;
   /** Almost all queued picture data has been sent. */
   onPicturesLow?(): void;
   /** The last event. `detail` is for people. */

@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { dtlsRecord } from '../testing/dtls-record.ts';
-import { parseRecords } from './record.ts';
+import { MAX_RECORDS, parseRecords } from './record.ts';
 
 const records = fc.array(
   fc.record({
@@ -33,6 +33,15 @@ describe('parseRecords', () => {
       }),
       { seed: 2 },
     );
+  });
+
+  it('reads no more records than a datagram of a peer has', () => {
+    const many = Buffer.concat(
+      new Array<Buffer>(MAX_RECORDS + 1).fill(dtlsRecord(23, 1, 1, Uint8Array.of(1))),
+    );
+    expect(parseRecords(many.subarray(14))).toMatchObject({ malformed: false });
+    expect(parseRecords(many).malformed).toBe(true);
+    expect(parseRecords(many).records).toHaveLength(MAX_RECORDS);
   });
 
   it('never throws', () => {

@@ -6,6 +6,9 @@ export const RECORD_HEADER_BYTES = 13;
 /** 2^14 bytes of plaintext, plus what a cipher may add (RFC 5246 §6.2.3). */
 const MAX_FRAGMENT_BYTES = 16_384 + 2048;
 
+/** A flight of small records is in one datagram; each record costs a decryption. */
+export const MAX_RECORDS = 32;
+
 export interface DtlsRecord {
   contentType: number;
   /** As in the header: 0xfefd is DTLS 1.2, 0xfeff DTLS 1.0. */
@@ -34,6 +37,7 @@ export function parseRecords(datagram: Buffer): { records: DtlsRecord[]; malform
     const end = at + RECORD_HEADER_BYTES + length;
     const known = contentType >= ContentType.changeCipherSpec && contentType <= ContentType.applicationData;
     const isDtls = version === 0xfefd || version === 0xfeff;
+    if (records.length === MAX_RECORDS) return { records, malformed: true };
     if (!known || !isDtls || length === 0 || length > MAX_FRAGMENT_BYTES || end > datagram.length) {
       return { records, malformed: true };
     }

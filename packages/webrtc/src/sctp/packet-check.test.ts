@@ -36,6 +36,12 @@ describe('isSctpPacket', () => {
     ['a parameter beyond the chunk', packet(chunk(130, [0, 13, 0, 90, 1, 1, 1, 1]))],
     ['missing gap blocks', packet(chunk(3, [...zeros(8), 0, 9, 0, 0]))],
     ['gaps that overlap', packet(chunk(3, [...zeros(8), 0, 2, 0, 0, 0, 1, 0, 9, 0, 5, 0, 12]))],
+    ['no data', packet(chunk(0, zeros(12)))],
+    ['a heartbeat of two parameters, which would be echoed', packet(chunk(4, [0, 1, 0, 4, 0, 1, 0, 4]))],
+    ['a heartbeat of none', packet(chunk(4, []))],
+    ['three requests in one RE-CONFIG', packet(chunk(130, [0, 13, 0, 4, 0, 13, 0, 4, 0, 13, 0, 4]))],
+    ['more causes of an error than there are', packet(chunk(9, new Array(33).fill([0, 1, 0, 4]).flat()))],
+    ['a packet that no path takes', packet(chunk(0, zeros(2040)))],
     ['a gap that runs backwards', packet(chunk(3, [...zeros(8), 0, 1, 0, 0, 0, 9, 0, 1]))],
   ])('refuses %s', (_, bytes) => {
     expect(isSctpPacket(bytes)).toBe(false);

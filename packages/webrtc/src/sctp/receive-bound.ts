@@ -2,6 +2,7 @@
  * Bounds what an SCTP association holds of messages that are not complete. werift assembles whatever arrives, of any
  * length, and looks through all fragments at each new one: a message of 4 MB keeps it busy for a fifth of a second.
  */
+import { MAX_AHEAD } from './tsn-window.ts';
 
 /** As our descriptions announce (`a=max-message-size`): no peer may send a longer message (RFC 8841 §6.1), bytes. */
 export const MAX_MESSAGE_BYTES = 65_536;
@@ -9,10 +10,10 @@ export const MAX_MESSAGE_BYTES = 65_536;
 const MAX_HELD_BYTES = 4 * MAX_MESSAGE_BYTES;
 /** The same by number, because fragments may be as short as a byte. */
 const MAX_HELD_FRAGMENTS = 1024;
-/** How far ahead of the last number received in order a fragment may be. */
-const MAX_AHEAD = 4096;
 /** A session needs six; each costs memory as soon as something arrives on it. */
-const MAX_STREAMS = 64;
+export const MAX_STREAMS = 64;
+/** How often an operator may open a channel; a session needs it twice. */
+export const MAX_OPENINGS = 256;
 
 const LAST_FRAGMENT = 1;
 const FIRST_FRAGMENT = 2;
@@ -33,7 +34,7 @@ export interface ReceivedState {
 }
 
 /** Why a fragment is not kept. */
-export type Excess = 'message-too-large' | 'sctp-overfull';
+export type Excess = 'message-too-large' | 'sctp-overfull' | 'too-many-channels';
 
 /** @returns `null` if the fragment may be kept */
 export function excessOf(fragment: Fragment, { streams, lastTsn }: ReceivedState): Excess | null {

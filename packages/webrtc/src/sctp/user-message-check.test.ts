@@ -21,4 +21,8 @@ describe('isUserMessage', () => {
   ])('refuses %s', (_, protocol, data) => {
     expect(isUserMessage(protocol, data, false)).toBe(false);
   });
+
+  it('refuses another opening of an open channel', () => {
+    expect(isUserMessage(50, open, true)).toBe(false);
+  });
 });

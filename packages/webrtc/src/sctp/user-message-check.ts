@@ -19,6 +19,7 @@ export function isUserMessage(payloadProtocol: number, data: Buffer, isOpen: boo
   if (payloadProtocol !== PayloadProtocol.dcep) return true;
   if (data.length === 0) return false;
   if (data.readUInt8(0) === DCEP_ACK) return isOpen;
-  if (data.readUInt8(0) !== DCEP_OPEN || data.length < OPEN_BYTES) return false;
+  // Each opening is acknowledged, and the acknowledgements of one that is repeated would pile up.
+  if (data.readUInt8(0) !== DCEP_OPEN || isOpen || data.length < OPEN_BYTES) return false;
   return data.length === OPEN_BYTES + data.readUInt16BE(8) + data.readUInt16BE(10);
 }

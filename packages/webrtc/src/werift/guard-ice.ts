@@ -1,5 +1,6 @@
 import type { RTCDtlsTransport } from 'werift';
 import { CandidatePairState } from 'werift';
+import type { PeerBudget } from '../peer-budget.ts';
 import type { Refusals } from '../refusal.ts';
 import { isAuthenticRequest, stunKind } from '../stun/binding-request.ts';
 import { KnownSources } from '../stun/known-sources.ts';
@@ -17,11 +18,30 @@ interface ProtocolShape {
   turn?: object;
 }
 
+interface PairShape {
+  protocol: unknown;
+  state: CandidatePairState;
+  remoteAddr: Address;
+  /** Of every check that ever came. */
+  requestTransactionIds: Set<string>;
+}
+
 interface ConnectionShape {
   userHistory: Record<string, string>;
-  checkList: { protocol: unknown; state: CandidatePairState; remoteAddr: Address }[];
+  checkList: PairShape[];
+  remoteCandidates: readonly { host: string; port: number }[];
+  /** That came before there were candidates. */
+  earlyChecks: unknown[];
   ensureProtocol(protocol: ProtocolShape): void;
 }
+
+/** Checks and their answers are a few hundred bytes (RFC 8489 §6.1). */
+const MAX_STUN_BYTES = 1280;
+/** Addresses of a peer: 128 that it names, and those behind which a check of it comes. Each has pairs with all of ours. */
+const MAX_REMOTE_CANDIDATES = 192;
+const MAX_EARLY_CHECKS = 64;
+/** werift counts repetitions with them, and nothing else. */
+const MAX_TRANSACTION_IDS = 256;
 
 /**
  * Filters what arrives at the ICE sockets. It passes on connectivity checks authenticated with our password, answers to
@@ -29,12 +49,17 @@ interface ConnectionShape {
  *
  * @throws {WeriftShapeError}
  */
-export function guardIce(transport: RTCDtlsTransport, refusals: Refusals): void {
+export function guardIce(transport: RTCDtlsTransport, refusals: Refusals, budget: PeerBudget): void {
   const connection = transport.iceTransport.connection as unknown as ConnectionShape;
   expectMethods(connection, 'the ICE connection', ['ensureProtocol']);
-  if (typeof connection.userHistory !== 'object' || !Array.isArray(connection.checkList)) {
-    throw new WeriftShapeError('no credentials or candidate pairs in the ICE connection');
+  const { userHistory, checkList, remoteCandidates, earlyChecks } = connection;
+  if (typeof userHistory !== 'object' || ![checkList, remoteCandidates, earlyChecks].every(Array.isArray)) {
+    throw new WeriftShapeError('no credentials, candidates or pairs in the ICE connection');
   }
+  const isOneTooMany = (host: string, port: number) =>
+    connection.earlyChecks.length >= MAX_EARLY_CHECKS ||
+    (connection.remoteCandidates.length >= MAX_REMOTE_CANDIDATES &&
+      !connection.remoteCandidates.some((one) => one.host === host && one.port === port));
   const passwordOf = (fragment: string) =>
     Object.hasOwn(connection.userHistory, fragment) ? connection.userHistory[fragment] : undefined;
   const ensureProtocol = connection.ensureProtocol.bind(connection);
@@ -56,12 +81,27 @@ export function guardIce(transport: RTCDtlsTransport, refusals: Refusals): void 
     protocol[name] = (datagram, address) => {
       const [host, port] = address;
       const kind = stunKind(datagram);
+      if (kind !== null && datagram.length > MAX_STUN_BYTES) {
+        refusals.add('stun-too-long');
+        return;
+      }
       if (kind === 'request') {
         if (!isAuthenticRequest(datagram, passwordOf)) {
           refusals.add('stun-unauthenticated');
           return;
         }
+        if (!budget.take('stun', 1, performance.now())) {
+          refusals.add('stun-rate-limited');
+          return;
+        }
+        if (isOneTooMany(host, port)) {
+          refusals.add('ice-too-many-sources');
+          return;
+        }
         sources.add(host, port);
+        for (const { requestTransactionIds } of connection.checkList) {
+          if (requestTransactionIds.size >= MAX_TRANSACTION_IDS) requestTransactionIds.clear();
+        }
       } else if (kind === null && !sources.has(host, port)) {
         if (!hasAnswered(host, port)) {
           refusals.add('unknown-source');

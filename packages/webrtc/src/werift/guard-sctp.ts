@@ -1,8 +1,11 @@
 import type { RTCSctpTransport } from 'werift';
+import type { PeerBudget } from '../peer-budget.ts';
 import type { Refusals } from '../refusal.ts';
-import { isSctpPacket } from '../sctp/packet-check.ts';
-import { excessOf, type Fragment } from '../sctp/receive-bound.ts';
+import { beginsAssociation, isSctpPacket } from '../sctp/packet-check.ts';
+import { sctpWork } from '../sctp/packet-work.ts';
+import { type Excess, excessOf, type Fragment, MAX_OPENINGS } from '../sctp/receive-bound.ts';
 import { DCEP_OPEN, isUserMessage, PayloadProtocol } from '../sctp/user-message-check.ts';
+import { boundSctp } from './bound-sctp.ts';
 import { mendSctp } from './mend-sctp.ts';
 import { expectMethods, WeriftShapeError } from './werift-shape.ts';
 
@@ -10,6 +13,7 @@ type Receive = (streamId: number, payloadProtocol: number, data: Buffer) => Prom
 type Send = (streamId: number, payloadProtocol: number, data: Buffer, options?: unknown) => Promise<void>;
 
 interface AssociationShape {
+  state: string;
   handleData(packet: Buffer): Promise<void>;
   receiveDataChunk(chunk: Fragment): void;
   inboundStreams: Record<number, { reassembly: Fragment[] } | undefined>;
@@ -36,12 +40,15 @@ export class ExcessError extends Error {
  * Checks what arrives at an SCTP association before werift parses it. An error that werift still throws ends with the
  * packet; unguarded, it would be an unhandled rejection and end the process.
  *
+ * What is more than the peer's budget is dropped: SCTP sends again what must arrive, and slows down.
+ *
  * @param onFault called if one of our listeners throws while handling a message, and with an {@link ExcessError}
  * @throws {WeriftShapeError}
  */
 export function guardSctp(
   transport: RTCSctpTransport,
   refusals: Refusals,
+  budget: PeerBudget,
   onFault: (error: unknown) => void,
 ): void {
   const shape = transport as unknown as TransportShape;
@@ -53,35 +60,49 @@ export function guardSctp(
   if (typeof sctp.inboundStreams !== 'object')
     throw new WeriftShapeError('no streams in the SCTP association');
   mendSctp(transport);
-  const handleData = sctp.handleData.bind(sctp);
   let exceeded = false;
-  sctp.handleData = async (packet) => {
+  const onExcess = (excess: Excess) => {
     if (exceeded) return;
-    if (!isSctpPacket(packet)) {
-      refusals.add('sctp-malformed');
-      return;
-    }
-    await handleData(packet).catch(() => refusals.add('sctp-failed'));
-  };
-
-  const receiveDataChunk = sctp.receiveDataChunk.bind(sctp);
-  sctp.receiveDataChunk = (chunk) => {
-    if (exceeded) return;
-    const excess = excessOf(chunk, { streams: sctp.inboundStreams, lastTsn: sctp.lastReceivedTsn });
-    if (excess === null) {
-      receiveDataChunk(chunk);
-      return;
-    }
     exceeded = true;
     // Frees what was held.
     sctp.inboundStreams = {};
     refusals.add(excess);
     onFault(new ExcessError(excess));
   };
+  const isRepeated = boundSctp(sctp, { onExcess, onFalseAck: () => refusals.add('sctp-false-ack') });
+
+  const handleData = sctp.handleData.bind(sctp);
+  sctp.handleData = async (packet) => {
+    if (exceeded) return;
+    if (!isSctpPacket(packet)) {
+      refusals.add('sctp-malformed');
+    } else if (!budget.take('sctp', sctpWork(packet), performance.now())) {
+      refusals.add('sctp-rate-limited');
+    } else if (sctp.state === 'connected' && beginsAssociation(packet)) {
+      // It would set all numbers anew, also if it is an old one that arrives late.
+      refusals.add('sctp-out-of-order');
+    } else {
+      await handleData(packet).catch(() => refusals.add('sctp-failed'));
+    }
+  };
+
+  const receiveDataChunk = sctp.receiveDataChunk.bind(sctp);
+  sctp.receiveDataChunk = (chunk) => {
+    if (exceeded || isRepeated(chunk.tsn)) return;
+    const excess = excessOf(chunk, { streams: sctp.inboundStreams, lastTsn: sctp.lastReceivedTsn });
+    if (excess === null) receiveDataChunk(chunk);
+    else onExcess(excess);
+  };
+  let openings = 0;
   sctp.onReceive.allUnsubscribe();
   sctp.onReceive.subscribe((streamId, payloadProtocol, data) => {
     if (!isUserMessage(payloadProtocol, data, shape.dataChannels[streamId] !== undefined)) {
       refusals.add('message-malformed');
+      return;
+    }
+    const opens = payloadProtocol === PayloadProtocol.dcep && data[0] === DCEP_OPEN;
+    if (opens && ++openings > MAX_OPENINGS) {
+      onExcess('too-many-channels');
       return;
     }
     shape.datachannelReceive(streamId, payloadProtocol, data).catch(onFault);

@@ -3,13 +3,15 @@
  * packets it decrypts.
  */
 import { Buffer } from 'node:buffer';
-import { RTCP_TRANSPORT_FEEDBACK } from '@farpoint/rtp';
 import type { RTCDtlsTransport, RtcpPacket } from 'werift';
 import { WeriftShapeError } from './werift-shape.ts';
 
-const NO_RTCP = Buffer.alloc(0);
+/** Transports whose RTCP is read by us. */
+const tapped = new WeakSet<RTCDtlsTransport>();
+
+export const NO_RTCP = Buffer.alloc(0);
 /** What werift parses instead of a packet: an RTP header of a stream that it does not know. */
-const NO_RTP = Buffer.from([0x80, 0x7f, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
+export const NO_RTP = Buffer.from([0x80, 0x7f, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
 
 export interface SrtpKeys {
   /** SRTP protection profile (RFC 5764 §4.1.2). */
@@ -34,17 +36,20 @@ export function srtpKeys(dtls: RTCDtlsTransport, direction: 'incoming' | 'outgoi
 }
 
 /**
- * Passes every decrypted compound RTCP packet to `tap`. Feedback on packets goes only to `tap`: werift would process it
- * again, for packets that it never sent.
+ * Passes every decrypted compound RTCP packet to `tap`, and none to werift, which sends nothing that they could be about.
  *
  * @throws {WeriftShapeError}
  */
 export function tapRtcp(dtls: RTCDtlsTransport, tap: (compound: Uint8Array) => void): void {
   intercept(dtls, 'srtcp', (data, decipher) => {
-    const compound = decipher(data);
-    tap(compound);
-    return compound[1] === RTCP_TRANSPORT_FEEDBACK ? NO_RTCP : compound;
+    tap(decipher(data));
+    return NO_RTCP;
   });
+  tapped.add(dtls);
+}
+
+export function isRtcpTapped(dtls: RTCDtlsTransport): boolean {
+  return tapped.has(dtls);
 }
 
 /** Encrypts and sends a compound RTCP packet, if the connection still takes it. */

@@ -1,0 +1,104 @@
+/** Which RTP and RTCP reach werift or the tap, at stand-ins for its sessions. */
+
+import { beforeEach, describe, expect, it } from 'vitest';
+import type { RTCDtlsTransport } from 'werift';
+import { PeerBudget, WATCHER_LIMITS } from '../peer-budget.ts';
+import { Refusals } from '../refusal.ts';
+import { guardMedia } from './guard-media.ts';
+import { tapRtcp } from './media-tap.ts';
+
+/** Deciphers what begins with 0x80 or more; that is itself. */
+const session = () => ({
+  deciphered: 0,
+  decrypt(sealed: Buffer): Buffer {
+    if (sealed[0]! < 0x80) throw new Error('not authentic');
+    this.deciphered++;
+    return sealed;
+  },
+});
+
+const report = Buffer.from([0x80, 201, 0, 1, 0, 0, 0, 9]);
+/** Reports on 16,000 packets. */
+const feedback = Buffer.from([0x8f, 205, 0, 4, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 62, 128, 0, 0, 0, 1]);
+
+function rtp(ssrc: number, first = 0x80): Buffer {
+  const packet = Buffer.alloc(20, first);
+  packet.writeUInt32BE(ssrc, 8);
+  return packet;
+}
+
+let transport: RTCDtlsTransport;
+let srtp: ReturnType<typeof session>;
+let srtcp: ReturnType<typeof session>;
+let refusals: Refusals;
+
+beforeEach(() => {
+  [srtp, srtcp, refusals] = [session(), session(), new Refusals()];
+  for (const one of [srtp, srtcp]) one.decrypt = one.decrypt.bind(one);
+  transport = { srtp, srtcp, startSrtp: () => undefined } as unknown as RTCDtlsTransport;
+  guardMedia(transport, refusals, new PeerBudget());
+  transport.startSrtp();
+});
+
+describe('RTCP', () => {
+  it('werift gets reports only', () => {
+    expect(srtcp.decrypt(Buffer.concat([report, feedback]))).toEqual(report);
+    expect(srtcp.decrypt(feedback)).toHaveLength(0);
+  });
+
+  it('a tap gets everything, and werift nothing more', () => {
+    const heard: Uint8Array[] = [];
+    tapRtcp(transport, (compound) => heard.push(compound));
+    const compound = Buffer.concat([report, feedback]);
+    expect(srtcp.decrypt(compound)).toHaveLength(0);
+    expect(heard).toEqual([compound]);
+  });
+
+  it('is dropped beyond the budget, by what it costs', () => {
+    let taken = 0;
+    while (refusals.get('rtcp-rate-limited') === 0) {
+      srtcp.decrypt(feedback);
+      taken++;
+    }
+    // 16,000 statuses cost as much as 62 packets.
+    expect(taken - 1).toBe(Math.floor(WATCHER_LIMITS.rtcp.burst! / 63));
+  });
+
+  it('is not even deciphered if it is too long, and not read if it has too many parts', () => {
+    expect(srtcp.decrypt(Buffer.alloc(4000, 0x80))).toHaveLength(0);
+    expect(srtcp.deciphered).toBe(0);
+    expect(srtcp.decrypt(Buffer.concat(new Array<Buffer>(200).fill(report)))).toHaveLength(0);
+    expect(refusals.get('rtcp-malformed')).toBe(2);
+  });
+
+  it('that is not authentic costs the peer nothing', () => {
+    for (let n = 0; n < 5000; n++) expect(() => srtcp.decrypt(Buffer.alloc(40))).toThrow('not authentic');
+    expect(srtcp.decrypt(report)).toEqual(report);
+  });
+});
+
+describe('RTP', () => {
+  it('is taken of as many sources as a peer has', () => {
+    for (let ssrc = 0; ssrc < 64; ssrc++) expect(srtp.decrypt(rtp(ssrc))).toEqual(rtp(ssrc));
+    expect(srtp.decrypt(rtp(64))).not.toEqual(rtp(64));
+    expect(srtp.decrypt(rtp(9))).toEqual(rtp(9));
+    expect(srtp.deciphered).toBe(65);
+    expect(refusals.get('rtp-too-many-sources')).toBe(1);
+  });
+
+  it('is not even deciphered if none was asked for', () => {
+    const [unasked, media] = [new Refusals(), session()];
+    const other = { srtp: media, srtcp, startSrtp: () => undefined } as unknown as RTCDtlsTransport;
+    guardMedia(other, unasked, new PeerBudget(), false);
+    other.startSrtp();
+    expect(media.decrypt(rtp(1))).not.toEqual(rtp(1));
+    expect(media.deciphered).toBe(0);
+    expect(unasked.get('rtp-unasked')).toBe(1);
+  });
+
+  it('that is not authentic makes no source known', () => {
+    for (let ssrc = 100; ssrc < 200; ssrc++)
+      expect(() => srtp.decrypt(rtp(ssrc, 0))).toThrow('not authentic');
+    expect(srtp.decrypt(rtp(1))).toEqual(rtp(1));
+  });
+});
