@@ -4,6 +4,9 @@ import { fileAttacks } from './attacks/files.ts';
 import { grantAttacks } from './attacks/grants.ts';
 import { httpAttacks } from './attacks/http.ts';
 import { iceAttacks } from './attacks/ice.ts';
+import { peerMediaAttacks } from './attacks/peer-media.ts';
+import { peerPathAttacks } from './attacks/peer-path.ts';
+import { peerSctpAttacks } from './attacks/peer-sctp.ts';
 import { referenceAttacks } from './attacks/reference.ts';
 import { sctpAttacks } from './attacks/sctp.ts';
 import { sessionAttacks } from './attacks/session.ts';
@@ -15,6 +18,9 @@ export const allAttacks = [
   ...iceAttacks,
   ...srtpAttacks,
   ...sctpAttacks,
+  ...peerSctpAttacks,
+  ...peerMediaAttacks,
+  ...peerPathAttacks,
   ...sessionAttacks,
   ...grantAttacks,
   ...signalingAttacks,

@@ -5,6 +5,7 @@ export const LAYERS = [
   'ice',
   'srtp',
   'sctp',
+  'peer',
   'session',
   'grants',
   'signaling',
@@ -20,12 +21,12 @@ export interface Attack {
   readonly name: string;
   readonly layer: Layer;
   /**
-   * Tries it once. Whether it did harm is then judged by facts; see {@link Scene.harm}.
+   * Tries it once; a `Tally` that it resolves to is printed. Whether it did harm is then judged by facts; see {@link Scene.harm}.
    *
    * @throws {HarmError} if the attack itself sees its effect
    * @throws {NotTriedError} if what it needs is not here
    */
-  readonly run: (scene: Scene) => Promise<void>;
+  readonly run: (scene: Scene) => Promise<unknown>;
 }
 
 /** Attacks of one layer. */

@@ -14,6 +14,10 @@ Starts signaling, two robots (one admits only who has a grant) and a bridge on t
 attacks them, one attack after another. An attack is held if afterwards the operator still drives in the same session with
 the same lease, others are introduced as before, no program has ended, and none has grown by more than 128 MB.
 
+The attacks of the layer peer come from an operator that may watch: one packet a thousand times, after the worst state that
+it can set up. Held means also that the robot's main thread never paused for more than 150 ms, spent no more than 500 µs
+on a packet, and grew by no more than 50 MB.
+
 --flood sends datagrams of each kind at a rate for this long while the operator drives, and prints command and frame latency
 before and during, lost sessions, and the robot's memory.
 

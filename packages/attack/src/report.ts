@@ -4,9 +4,10 @@ import type { FloodResult } from './run-flood.ts';
 const MARKS: Record<Outcome, string> = { held: '✓', harmed: '✗', 'not tried': '–' };
 
 /** One line of the table: attack, layer, outcome, time. */
-export function row({ name, layer, outcome, detail, seconds }: AttackResult): string {
+export function row({ name, layer, outcome, detail, tally, seconds }: AttackResult): string {
   const line = `${MARKS[outcome]} ${layer.padEnd(9)}  ${name.padEnd(58)}  ${outcome.padEnd(9)}  ${seconds.toFixed(1).padStart(5)} s`;
-  return detail === null ? line : `${line}\n    ${detail}`;
+  const text = detail ?? tally?.text ?? null;
+  return text === null ? line : `${line}\n    ${text}`;
 }
 
 export function printSummary(results: readonly AttackResult[]): void {
@@ -14,6 +15,11 @@ export function printSummary(results: readonly AttackResult[]): void {
   console.error(
     `${results.length} attacks: ${count('held')} held, ${count('harmed')} harmed, ${count('not tried')} not tried`,
   );
+  const counted = results.flatMap(({ tally }) => (tally === null ? [] : [tally.packets]));
+  if (counted.length > 0) {
+    const packets = counted.reduce((sum, one) => sum + one, 0);
+    console.error(`${counted.length} patterns of an admitted watcher, ${packets} packets`);
+  }
 }
 
 const ms = (value: number | null) => (value === null ? '–' : value.toFixed(1)).padStart(8);

@@ -1,5 +1,6 @@
 import type { Attack, Layer } from './attack.ts';
 import { inTime, NotTriedError } from './harm.ts';
+import { Tally } from './repeat/tally.ts';
 import { Scene } from './scene.ts';
 
 export type Outcome = 'held' | 'harmed' | 'not tried';
@@ -10,6 +11,8 @@ export interface AttackResult {
   outcome: Outcome;
   /** What harm it did, or why it was not tried; `null` if everything held. */
   detail: string | null;
+  /** What it has sent and measured; `null` if it counts nothing. */
+  tally: Tally | null;
   /** How long the attack and the judgement took, s. */
   seconds: number;
 }
@@ -47,14 +50,19 @@ export async function runAttacks(
 
 async function runAttack({ name, layer, run }: Attack, scene: Scene): Promise<AttackResult> {
   const begun = performance.now();
+  let tally: Tally | null = null;
   const failure = await inTime(run(scene), 'the attack does not end', ATTACK_MS).then(
-    () => null,
+    (outcome) => {
+      tally = outcome instanceof Tally ? outcome : null;
+      return null;
+    },
     (error: unknown) => error,
   );
   const harm = await scene.harm();
   const seconds = (performance.now() - begun) / 1000;
-  if (harm !== null) return { name, layer, outcome: 'harmed', detail: harm, seconds };
-  if (failure === null) return { name, layer, outcome: 'held', detail: null, seconds };
+  const facts = { name, layer, tally, seconds };
+  if (harm !== null) return { ...facts, outcome: 'harmed', detail: harm };
+  if (failure === null) return { ...facts, outcome: 'held', detail: null };
   const detail = failure instanceof Error ? failure.message : String(failure);
-  return { name, layer, outcome: failure instanceof NotTriedError ? 'not tried' : 'harmed', detail, seconds };
+  return { ...facts, outcome: failure instanceof NotTriedError ? 'not tried' : 'harmed', detail };
 }

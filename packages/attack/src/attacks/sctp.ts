@@ -1,48 +1,9 @@
-import type { SignaledOperator } from '@farpoint/robot-node/testing';
 import { dataChunk, malformedChunks, sctpPacket } from '@farpoint/webrtc/testing';
 import { attacks } from '../attack.ts';
 import { inTime, pause } from '../harm.ts';
 import { Noise } from '../noise.ts';
 import type { Scene } from '../scene.ts';
-
-interface Association {
-  remoteVerificationTag: number;
-  localTsn: number;
-  send(stream: number, protocol: number, data: Buffer): Promise<void>;
-}
-
-/** An operator with keys, which sends SCTP of its own. */
-class SctpGuest {
-  readonly operator: SignaledOperator;
-
-  private constructor(operator: SignaledOperator) {
-    this.operator = operator;
-  }
-
-  static async join(scene: Scene): Promise<SctpGuest> {
-    return new SctpGuest(await scene.guest());
-  }
-
-  get association(): Association {
-    return this.operator.client.connection.sctpTransport?.sctp as unknown as Association;
-  }
-
-  /** Bytes in a DTLS record. */
-  async raw(...packets: readonly Buffer[]): Promise<void> {
-    const [transport] = this.operator.client.connection.dtlsTransports;
-    for (const packet of packets) await transport?.sendData(packet).catch(() => undefined);
-  }
-
-  /** Chunks in a packet of the association. */
-  async chunks(...chunks: readonly number[]): Promise<void> {
-    await this.raw(sctpPacket(this.association.remoteVerificationTag, ...chunks));
-  }
-
-  /** A message on any stream with any protocol. */
-  message(stream: number, protocol: number, data: Buffer): void {
-    this.association.send(stream, protocol, data).catch(() => undefined);
-  }
-}
+import { SctpGuest } from '../sctp-guest.ts';
 
 function withGuest(act: (guest: SctpGuest) => Promise<void>): (scene: Scene) => Promise<void> {
   return async (scene) => {
