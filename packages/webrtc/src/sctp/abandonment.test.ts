@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { abandonMessage, isWorthless, type OutboundChunk } from './abandonment.ts';
+import { abandonMessage, dropOverdue, isWorthless, type OutboundChunk } from './abandonment.ts';
 
 const [LAST, FIRST] = [1, 2];
 const NOW_S = 1000;
@@ -29,10 +29,55 @@ describe('isWorthless', () => {
   it('is what was sent again as often as allowed, or is too old', () => {
     const [chunk] = queues([1], 1).sent as [Chunk];
     expect(isWorthless({ ...chunk, sentCount: 9 }, NOW_S)).toBe(false);
+    expect(isWorthless({ ...chunk, maxRetransmits: 0 }, NOW_S)).toBe(true);
     expect(isWorthless({ ...chunk, maxRetransmits: 1 }, NOW_S)).toBe(false);
     expect(isWorthless({ ...chunk, maxRetransmits: 1, sentCount: 2 }, NOW_S)).toBe(true);
     expect(isWorthless({ ...chunk, expiry: NOW_S }, NOW_S)).toBe(false);
     expect(isWorthless({ ...chunk, expiry: NOW_S - 0.001 }, NOW_S)).toBe(true);
+  });
+});
+
+describe('dropOverdue', () => {
+  const UNORDERED = 4;
+
+  /** Which of the messages are unordered, and which overdue. */
+  const fates = fc.array(
+    fc.record({ length: fc.integer({ min: 1, max: 4 }), unordered: fc.boolean(), overdue: fc.boolean() }),
+    { maxLength: 10 },
+  );
+
+  it('drops whole messages that nobody has begun to send, and leaves no gap in the numbers', () => {
+    fc.assert(
+      fc.property(fates, fc.nat(3), fc.constantFrom(1, 2 ** 32 - 3), (messages, begun, tsn) => {
+        // Of the first message, some may be on its way.
+        const sentCount = messages.length === 0 ? 0 : Math.min(begun, messages[0]!.length - 1);
+        const { waiting } = queues(
+          messages.map(({ length }) => length),
+          sentCount,
+          tsn,
+        );
+        for (const chunk of waiting) {
+          const { unordered, overdue } = messages[chunk.message]!;
+          chunk.flags |= unordered ? UNORDERED : 0;
+          chunk.expiry = overdue ? NOW_S - 1 : NOW_S + 1;
+        }
+        const all = [...waiting];
+        const stays = ({ message }: Chunk) =>
+          (message === 0 && sentCount > 0) || !messages[message]!.unordered || !messages[message]!.overdue;
+        const dropped = dropOverdue(waiting, NOW_S);
+        expect(waiting).toEqual(all.filter(stays));
+        expect(dropped).toBe(all.length - waiting.length);
+        expect(waiting.map((chunk) => chunk.tsn)).toEqual(waiting.map((_, n) => (tsn + sentCount + n) >>> 0));
+      }),
+      { seed: 6, numRuns: 300 },
+    );
+  });
+
+  it('leaves what has no time limit', () => {
+    const { waiting } = queues([2, 1], 0);
+    for (const chunk of waiting) Object.assign(chunk, { flags: chunk.flags | UNORDERED, maxRetransmits: 0 });
+    expect(dropOverdue(waiting, NOW_S)).toBe(0);
+    expect(waiting).toHaveLength(3);
   });
 });
 

@@ -5,6 +5,7 @@
 
 const LAST_FRAGMENT = 1;
 const FIRST_FRAGMENT = 2;
+const UNORDERED = 4;
 
 /** A DATA chunk (RFC 9260 §3.3.1) at its sender. */
 export interface OutboundChunk {
@@ -17,7 +18,7 @@ export interface OutboundChunk {
   /** The peer has it. */
   acked: boolean;
   sentCount: number;
-  /** How often it may be sent again; undefined or 0: without limit. */
+  /** How often it may be sent again; undefined: without limit. */
   maxRetransmits?: number | undefined;
   /** When it is no longer worth sending, s since 1970; undefined: never. */
   expiry?: number | undefined;
@@ -30,9 +31,32 @@ export interface Outbound<Chunk extends OutboundChunk> {
   waiting: Chunk[];
 }
 
-/** @param nowS s since 1970 */
+/** Whether a chunk that was lost is not sent again. @param nowS s since 1970 */
 export function isWorthless({ maxRetransmits, expiry, sentCount }: OutboundChunk, nowS: number): boolean {
-  return (!!maxRetransmits && maxRetransmits < sentCount) || (!!expiry && expiry < nowS);
+  return (maxRetransmits !== undefined && maxRetransmits < sentCount) || isOverdue(expiry, nowS);
+}
+
+/**
+ * Drops messages whose time is over before any of them was sent, and gives their numbers to those that follow: a peer
+ * does not miss what never had a number. Messages of ordered channels are numbered twice, and stay.
+ *
+ * @param waiting what is not sent yet, in the order of the numbers; changed in place
+ * @returns how many numbers are free again
+ */
+export function dropOverdue(waiting: OutboundChunk[], nowS: number): number {
+  let kept = 0;
+  let drops = false;
+  const first = waiting[0]?.tsn ?? 0;
+  for (const chunk of waiting) {
+    // All fragments of a message share its fate; the first in line may be the rest of one that is on its way.
+    if (isFirst(chunk)) drops = (chunk.flags & UNORDERED) !== 0 && isOverdue(chunk.expiry, nowS);
+    if (drops) continue;
+    chunk.tsn = (first + kept) >>> 0;
+    waiting[kept++] = chunk;
+  }
+  const dropped = waiting.length - kept;
+  waiting.length = kept;
+  return dropped;
 }
 
 /**
@@ -64,6 +88,10 @@ export function abandonMessage<Chunk extends OutboundChunk>(
     one.retransmit = false;
   }
   return underway;
+}
+
+function isOverdue(expiry: number | undefined, nowS: number): boolean {
+  return expiry !== undefined && expiry < nowS;
 }
 
 function isFirst(chunk: OutboundChunk | undefined): boolean {

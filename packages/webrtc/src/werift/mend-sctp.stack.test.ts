@@ -74,3 +74,81 @@ it('hands over every message of an ordered channel that waited for an earlier on
   expect(ordered()).toEqual(['ordered 0', 'ordered 1', 'ordered 2', 'ordered 3']);
   expect(lost).toBe(1);
 });
+
+/** What the guarded peer's association says about its sending. */
+interface Sender {
+  sentQueue: { acked: boolean; sentCount: number; abandoned: boolean }[];
+  outboundQueue: unknown[];
+  forwardTsnChunk: unknown;
+  advancedPeerAckTsn: number;
+  sendChunk(chunk: { type: number }): Promise<void>;
+}
+
+const [DATA, FORWARD_TSN] = [0, 192];
+
+/** A guarded peer with a channel that may lose messages, and what decides which of its chunks are lost. */
+async function lossy(limit: { maxRetransmits: number } | { maxPacketLifeTime: number }) {
+  const peers = await open({});
+  const heard: string[] = [];
+  peers.other.onDataChannel.subscribe((channel) => {
+    channel.onMessage.subscribe((data) => heard.push(`${channel.label} ${data}`));
+  });
+  await peers.until(() => peers.connected);
+  const channel = peers.guarded.createDataChannel('lossy', { ordered: false, ...limit });
+  const reliable = peers.guarded.createDataChannel('reliable');
+  await expect.poll(() => [channel.readyState, reliable.readyState]).toEqual(['open', 'open']);
+  const sender = channel.sctp.sctp as unknown as Sender;
+  await expect.poll(() => sender.sentQueue.length).toBe(0);
+  const sent: number[] = [];
+  const state = { loses: (_: number) => false };
+  const sendChunk = sender.sendChunk.bind(sender);
+  sender.sendChunk = async (chunk) => {
+    sent.push(chunk.type);
+    if (!state.loses(chunk.type)) await sendChunk(chunk);
+  };
+  return { channel, reliable, sender, sent, heard, state };
+}
+
+it.each([
+  ['without retransmissions', { maxRetransmits: 0 }],
+  ['whose time is over', { maxPacketLifeTime: 100 }],
+])('gives up a lost message %s, and says so until the peer knows', async (_, limit) => {
+  const { channel, reliable, sender, sent, heard, state } = await lossy(limit);
+  let losses = 0;
+  // The first message, and the first word about it.
+  state.loses = (type) =>
+    type === DATA ? losses === 0 && ++losses === 1 : type === FORWARD_TSN && ++losses === 2;
+  channel.send('lost');
+  reliable.send('one');
+  await expect.poll(() => losses, { timeout: 10_000 }).toBe(2);
+  await expect.poll(() => sender.sentQueue.length, { timeout: 10_000 }).toBe(0);
+  expect(sent.filter((type) => type === FORWARD_TSN).length).toBeGreaterThan(1);
+  channel.send('next');
+  await expect.poll(() => heard, { timeout: 5000 }).toEqual(['reliable one', 'lossy next']);
+});
+
+it('sends nothing that has become too old while it waited, and nothing is missed', async () => {
+  const { channel, reliable, sender, heard, state } = await lossy({ maxPacketLifeTime: 1 });
+  // Nothing gets out: what is sent fills the window, and the rest waits.
+  state.loses = () => true;
+  for (let n = 0; n < 20; n++) reliable.send(`${n}`.padEnd(1000));
+  await expect.poll(() => sender.outboundQueue.length).toBeGreaterThan(5);
+  for (let n = 0; n < 20; n++) channel.send(`old ${n}`);
+  state.loses = () => false;
+  await expect.poll(() => heard.length, { timeout: 20_000 }).toBe(20);
+  channel.send('new');
+  await expect.poll(() => heard.at(-1), { timeout: 5000 }).toBe('lossy new');
+  expect(heard.filter((text) => text.startsWith('lossy'))).toEqual(['lossy new']);
+  await expect.poll(() => sender.sentQueue.length, { timeout: 5000 }).toBe(0);
+}, 40_000);
+
+it('does not send again what has arrived behind a gap', async () => {
+  const { reliable, sender, heard, state } = await lossy({ maxRetransmits: 0 });
+  let data = 0;
+  // The first is lost, also when it is sent again; two follow, too few to be a sign of its loss.
+  state.loses = (type) => type === DATA && [1, 4].includes(++data);
+  for (const text of ['a', 'b', 'c']) reliable.send(text);
+  await expect.poll(() => heard, { timeout: 10_000 }).toEqual(['reliable a', 'reliable b', 'reliable c']);
+  await expect.poll(() => sender.sentQueue.length).toBe(0);
+  expect(data).toBe(5);
+});
