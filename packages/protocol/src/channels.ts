@@ -2,11 +2,11 @@
 export const channels = {
   /** Lease, limits, stream control, refusals: session-messages.ts. */
   session: { label: 'session', openedBy: 'robot', ordered: true },
-  /** telemetry.ts. A lifetime, not a retransmission count: werift reads a count of 0 as reliable. */
+  /** telemetry.ts. A state that is older than its lifetime is worth nothing: the next one is on its way. */
   telemetry: { label: 'telemetry', openedBy: 'robot', ordered: false, maxPacketLifeTime: 100 },
   /** picture-chunk.ts; from robots that have cameras. A chunk older than its lifetime is not worth sending again. */
   pictures: { label: 'pictures', openedBy: 'robot', ordered: false, maxPacketLifeTime: 150 },
-  /** control.ts. Opened by the browser, whose stack honours 0 retransmissions for what it sends. */
+  /** control.ts. Nothing is sent again, in either direction: whoever needs an answer asks again. */
   control: { label: 'control', openedBy: 'operator', ordered: false, maxRetransmits: 0 },
   /** bandwidth.ts: the operator's limit for the stream. */
   bandwidth: { label: 'bandwidth', openedBy: 'operator', ordered: true },
