@@ -227,6 +227,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   // Benchmarks.
   'pnpm attack': MEASURES,
   'pnpm attack --list': MEASURES,
+  'pnpm attack --only peer': MEASURES,
   'pnpm attack --flood SECONDS': MEASURES,
   'pnpm fuzz': MEASURES,
   'pnpm fuzz --inputs 10000000 --seed 2': MEASURES,

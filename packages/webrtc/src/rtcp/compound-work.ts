@@ -2,15 +2,18 @@
  * How much work a decrypted compound RTCP packet (RFC 3550 §6.1) makes. The unit is a packet of it, or as much as that
  * costs of what a packet lists: feedback names up to 65,535 packets in 40 bytes.
  */
+import {
+  FMT_TRANSPORT_WIDE,
+  RTCP_RECEIVER_REPORT,
+  RTCP_SENDER_REPORT,
+  RTCP_TRANSPORT_FEEDBACK,
+} from '@farpoint/rtp';
+
 const HEADER_BYTES = 4;
-const TRANSPORT_FEEDBACK = 205;
-const FMT_TRANSPORT_WIDE = 15;
 /** Where transport-wide feedback says on how many packets it reports. */
 const STATUS_COUNT_AT = 14;
 const STATUSES_PER_UNIT = 256;
 const BYTES_PER_UNIT = 64;
-const SENDER_REPORT = 200;
-const RECEIVER_REPORT = 201;
 
 /** No path takes more. */
 export const MAX_COMPOUND_BYTES = 2048;
@@ -25,7 +28,7 @@ export function compoundWork(compound: Buffer): number | null {
   for (let at = 0; at + HEADER_BYTES <= compound.length; at = partEnd(compound, at)) {
     if (++parts > MAX_PARTS) return null;
     const isFeedback =
-      compound.readUInt8(at + 1) === TRANSPORT_FEEDBACK &&
+      compound.readUInt8(at + 1) === RTCP_TRANSPORT_FEEDBACK &&
       (compound.readUInt8(at) & 0x1f) === FMT_TRANSPORT_WIDE &&
       at + STATUS_COUNT_AT + 2 <= compound.length;
     if (isFeedback) work += Math.floor(compound.readUInt16BE(at + STATUS_COUNT_AT) / STATUSES_PER_UNIT);
@@ -39,7 +42,7 @@ export function compoundWork(compound: Buffer): number | null {
  */
 export function leadingReport(compound: Buffer): Buffer {
   const type = compound[1];
-  if (compound.length < HEADER_BYTES || (type !== SENDER_REPORT && type !== RECEIVER_REPORT))
+  if (compound.length < HEADER_BYTES || (type !== RTCP_SENDER_REPORT && type !== RTCP_RECEIVER_REPORT))
     return compound.subarray(0, 0);
   return compound.subarray(0, partEnd(compound, 0));
 }
