@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import { DRIVER_LIMITS, type Intake, PeerBudget, WATCHER_LIMITS } from './peer-budget.ts';
 
-const KINDS: Intake[] = ['sctp', 'rtcp', 'stun'];
+const KINDS: Intake[] = ['sctp', 'rtcp', 'stun', 'stun-again'];
 
 function taken(budget: PeerBudget, intake: Intake, nowMs: number): number {
   let count = 0;

@@ -4,8 +4,11 @@
  */
 import { TokenBucket, type TokenBucketOptions } from '@farpoint/timing';
 
-/** `sctp`: chunks; `rtcp`: packets in compounds, and what they list; `stun`: connectivity checks. */
-export type Intake = 'sctp' | 'rtcp' | 'stun';
+/**
+ * `sctp`: chunks; `rtcp`: packets in compounds, and what they list; `stun`: connectivity checks; `stun-again`: repetitions
+ * of them, which somebody else may have seen and sent.
+ */
+export type Intake = 'sctp' | 'rtcp' | 'stun' | 'stun-again';
 
 type Limits = Readonly<Record<Intake, TokenBucketOptions>>;
 
@@ -14,12 +17,14 @@ export const WATCHER_LIMITS: Limits = {
   sctp: { perSecond: 1000, burst: 2000 },
   rtcp: { perSecond: 500, burst: 1000 },
   stun: { perSecond: 50, burst: 200 },
+  'stun-again': { perSecond: 50, burst: 200 },
 };
 /** Someone who drives sends commands as well: more than the robot takes of them. */
 export const DRIVER_LIMITS: Limits = {
   sctp: { perSecond: 3000, burst: 6000 },
   rtcp: { perSecond: 1000, burst: 2000 },
   stun: { perSecond: 50, burst: 200 },
+  'stun-again': { perSecond: 50, burst: 200 },
 };
 
 /** The time of one peer. */
@@ -39,6 +44,11 @@ export class PeerBudget {
   }
 }
 
-function buckets({ sctp, rtcp, stun }: Limits): Record<Intake, TokenBucket> {
-  return { sctp: new TokenBucket(sctp), rtcp: new TokenBucket(rtcp), stun: new TokenBucket(stun) };
+function buckets(limits: Limits): Record<Intake, TokenBucket> {
+  return {
+    sctp: new TokenBucket(limits.sctp),
+    rtcp: new TokenBucket(limits.rtcp),
+    stun: new TokenBucket(limits.stun),
+    'stun-again': new TokenBucket(limits['stun-again']),
+  };
 }

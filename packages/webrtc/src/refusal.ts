@@ -11,7 +11,9 @@ export type Refusal =
   | 'dtls-early' // it arrived before the transport was ready, and the buffer for such packets is full
   | 'stun-too-long' // no check or answer is as long
   | 'stun-rate-limited' // authentic, but more checks than a peer needs
+  | 'stun-replayed' // an authentic check again, from another address than the first time
   | 'ice-too-many-sources' // authentic, from another new address, after more of them than a peer has
+  | 'rtcp-replayed' // the packet was received before (RFC 3711 §3.3.2)
   | 'rtcp-malformed' // longer than a path takes, of too many parts, or reporting on more packets than were sent
   | 'rtcp-rate-limited' // authentic, but more than a receiver has to say
   | 'rtp-unasked' // media from a peer that was offered no m-line for it

@@ -4,6 +4,7 @@ import type { PeerBudget } from '../peer-budget.ts';
 import type { Refusals } from '../refusal.ts';
 import { isAuthenticRequest, stunKind } from '../stun/binding-request.ts';
 import { KnownSources } from '../stun/known-sources.ts';
+import { RecentChecks } from '../stun/recent-checks.ts';
 import { guardRelay } from './guard-relay.ts';
 import { expectMethods, WeriftShapeError } from './werift-shape.ts';
 
@@ -56,6 +57,7 @@ export function guardIce(transport: RTCDtlsTransport, refusals: Refusals, budget
   if (typeof userHistory !== 'object' || ![checkList, remoteCandidates, earlyChecks].every(Array.isArray)) {
     throw new WeriftShapeError('no credentials, candidates or pairs in the ICE connection');
   }
+  const recent = new RecentChecks();
   const isOneTooMany = (host: string, port: number) =>
     connection.earlyChecks.length >= MAX_EARLY_CHECKS ||
     (connection.remoteCandidates.length >= MAX_REMOTE_CANDIDATES &&
@@ -90,7 +92,12 @@ export function guardIce(transport: RTCDtlsTransport, refusals: Refusals, budget
           refusals.add('stun-unauthenticated');
           return;
         }
-        if (!budget.take('stun', 1, performance.now())) {
+        const age = recent.note(datagram, host, port);
+        if (age === 'moved') {
+          refusals.add('stun-replayed');
+          return;
+        }
+        if (!budget.take(age === 'new' ? 'stun' : 'stun-again', 1, performance.now())) {
           refusals.add('stun-rate-limited');
           return;
         }

@@ -77,6 +77,35 @@ describe('RTCP', () => {
   });
 });
 
+describe('RTCP under AES-GCM', () => {
+  /** With a tag and a number, which the stand-in leaves there. */
+  function numbered(index: number): Buffer {
+    const packet = Buffer.concat([report, Buffer.alloc(20)]);
+    packet.writeUInt32BE(index, packet.length - 4);
+    return packet;
+  }
+
+  it('counts once, whoever repeats it', () => {
+    const session = { ...srtcp, remoteContext: { profile: 7 } };
+    session.decrypt = (sealed) => {
+      if (sealed[8] === 9) throw new Error('not authentic');
+      return sealed.subarray(0, 8);
+    };
+    const other = { srtp, srtcp: session, startSrtp: () => undefined } as unknown as RTCDtlsTransport;
+    guardMedia(other, refusals, new PeerBudget());
+    other.startSrtp();
+    // One that is forged, with a number to come, does not make that number old.
+    const forged = numbered(1);
+    forged[8] = 9;
+    expect(() => session.decrypt(forged)).toThrow('not authentic');
+    expect(session.decrypt(numbered(1))).toEqual(report);
+    for (let n = 0; n < 5000; n++) expect(session.decrypt(numbered(1))).toHaveLength(0);
+    expect(session.decrypt(numbered(2))).toEqual(report);
+    expect(refusals.get('rtcp-replayed')).toBe(5000);
+    expect(refusals.get('rtcp-rate-limited')).toBe(0);
+  });
+});
+
 describe('RTP', () => {
   it('is taken of as many sources as a peer has', () => {
     for (let ssrc = 0; ssrc < 64; ssrc++) expect(srtp.decrypt(rtp(ssrc))).toEqual(rtp(ssrc));

@@ -2,6 +2,7 @@ import type { RTCDtlsTransport } from 'werift';
 import type { PeerBudget } from '../peer-budget.ts';
 import type { Refusals } from '../refusal.ts';
 import { compoundWork, leadingReport, MAX_COMPOUND_BYTES } from '../rtcp/compound-work.ts';
+import { ReplayedRtcp } from '../rtcp/replayed-rtcp.ts';
 import { isRtcpTapped, NO_RTCP, NO_RTP } from './media-tap.ts';
 import { expectMethods, WeriftShapeError } from './werift-shape.ts';
 
@@ -10,6 +11,7 @@ const MAX_SOURCES = 64;
 /** What SRTCP adds: tag, index (RFC 7714 §9.2, RFC 3711 §3.4). */
 const SRTCP_BYTES = 20;
 const SSRC_AT = 8;
+const SRTP_AEAD_AES_128_GCM = 7;
 
 /**
  * Bounds the RTP and RTCP of a peer as soon as there are keys for it. What is dropped was authentic, so that nobody
@@ -35,12 +37,18 @@ export function guardMedia(
     expectMethods(srtcp, 'the SRTCP session', ['decrypt']);
 
     const decipherRtcp = srtcp.decrypt;
+    const replayed = srtcp.remoteContext?.profile === SRTP_AEAD_AES_128_GCM ? new ReplayedRtcp() : null;
     srtcp.decrypt = (sealed) => {
       if (sealed.length > MAX_COMPOUND_BYTES + SRTCP_BYTES) {
         refusals.add('rtcp-malformed');
         return NO_RTCP;
       }
+      if (replayed?.has(sealed) === true) {
+        refusals.add('rtcp-replayed');
+        return NO_RTCP;
+      }
       const compound = decipherRtcp(sealed);
+      replayed?.mark(sealed);
       const work = compoundWork(compound);
       if (work === null) refusals.add('rtcp-malformed');
       else if (!budget.take('rtcp', work, performance.now())) refusals.add('rtcp-rate-limited');
