@@ -1,5 +1,12 @@
 import { expect, it } from 'vitest';
-import { DRIVER_LIMITS, type Intake, PeerBudget, WATCHER_LIMITS } from './peer-budget.ts';
+import {
+  DRIVER_LIMITS,
+  type Intake,
+  PeerBudget,
+  SHARED_LIMITS,
+  SharedBudget,
+  WATCHER_LIMITS,
+} from './peer-budget.ts';
 
 const KINDS: Intake[] = ['sctp', 'rtcp', 'stun', 'stun-again'];
 
@@ -30,4 +37,22 @@ it('gives more to the one who drives, at once, whatever it used up before', () =
   expect(taken(budget, 'sctp', 0)).toBe(DRIVER_LIMITS.sctp.burst);
   drives = false;
   expect(taken(budget, 'sctp', 0)).toBe(0);
+});
+
+it('gives many watchers no more than their common share, and leaves the driver its own', () => {
+  const shared = new SharedBudget();
+  const watchers = Array.from({ length: 30 }, () => new PeerBudget(() => false, shared));
+  for (const kind of KINDS) {
+    const sum = watchers.reduce((all, watcher) => all + taken(watcher, kind, 0), 0);
+    expect(sum).toBe(SHARED_LIMITS[kind].burst);
+    expect(taken(new PeerBudget(() => true, shared), kind, 0)).toBe(DRIVER_LIMITS[kind].burst);
+  }
+});
+
+it('lets one watcher alone not use up what is shared', () => {
+  const shared = new SharedBudget();
+  for (const kind of KINDS) {
+    taken(new PeerBudget(() => false, shared), kind, 0);
+    expect(taken(new PeerBudget(() => false, shared), kind, 0)).toBe(WATCHER_LIMITS[kind].burst);
+  }
 });

@@ -27,20 +27,40 @@ export const DRIVER_LIMITS: Limits = {
   'stun-again': { perSecond: 50, burst: 200 },
 };
 
-/** The time of one peer. */
+/** All who watch together, however many they are: about a third of a processor. */
+export const SHARED_LIMITS: Limits = {
+  sctp: { perSecond: 6000, burst: 12_000 },
+  rtcp: { perSecond: 4000, burst: 8000 },
+  stun: { perSecond: 400, burst: 3200 },
+  'stun-again': { perSecond: 400, burst: 1600 },
+};
+
+/** What all peers that do not drive have in common. */
+export class SharedBudget {
+  readonly #buckets = buckets(SHARED_LIMITS);
+
+  take(intake: Intake, work: number, nowMs: number): boolean {
+    return this.#buckets[intake].take(nowMs, work);
+  }
+}
+
+/** What one peer may use up. */
 export class PeerBudget {
   readonly #watching = buckets(WATCHER_LIMITS);
   readonly #driving = buckets(DRIVER_LIMITS);
   readonly #drives: () => boolean;
+  readonly #shared: SharedBudget;
 
-  /** @param drives whether the peer drives now */
-  constructor(drives: () => boolean = () => false) {
+  /** @param drives whether the peer drives now: then it takes nothing from what is shared, and needs nothing of it */
+  constructor(drives: () => boolean = () => false, shared = new SharedBudget()) {
     this.#drives = drives;
+    this.#shared = shared;
   }
 
   /** @returns false if what costs so much must be dropped */
   take(intake: Intake, work: number, nowMs: number): boolean {
-    return (this.#drives() ? this.#driving : this.#watching)[intake].take(nowMs, work);
+    if (this.#drives()) return this.#driving[intake].take(nowMs, work);
+    return this.#watching[intake].take(nowMs, work) && this.#shared.take(intake, work, nowMs);
   }
 }
 

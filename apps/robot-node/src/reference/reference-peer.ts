@@ -63,6 +63,7 @@ export class ReferencePeer {
         icePolicy: options.icePolicy,
       },
       {
+        takesRtp: false,
         onRefused: (reason) => options.onRefused?.(reason),
         onUnproven: (error) => this.close('unproven-peer', error.reason),
         onFault: (error) =>

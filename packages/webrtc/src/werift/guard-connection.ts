@@ -1,6 +1,6 @@
 import type { RTCDtlsTransport, RTCPeerConnection, RTCSctpTransport } from 'werift';
 import type { UnprovenPeerError } from '../dtls/peer-proof.ts';
-import { PeerBudget } from '../peer-budget.ts';
+import { PeerBudget, SharedBudget } from '../peer-budget.ts';
 import { type Refusal, Refusals } from '../refusal.ts';
 import { guardDtls } from './guard-dtls.ts';
 import { guardIce } from './guard-ice.ts';
@@ -27,6 +27,9 @@ interface ConnectionShape {
   createSctpTransport(): RTCSctpTransport;
 }
 
+/** Of all connections of this process, whose thread they share. */
+const sharedBudget = new SharedBudget();
+
 /**
  * Guards everything that a connection receives: ICE, DTLS, RTP, RTCP and SCTP. Call it before the connection has any transceiver
  * or channel.
@@ -39,7 +42,7 @@ export function guardConnection(connection: RTCPeerConnection, events: Connectio
   const shape = connection as unknown as ConnectionShape;
   expectMethods(shape, 'the connection', ['createDtlsTransport', 'createSctpTransport']);
   const refusals = new Refusals(events.onRefused);
-  const budget = new PeerBudget(() => events.drives?.() === true);
+  const budget = new PeerBudget(() => events.drives?.() === true, sharedBudget);
   const createDtls = shape.createDtlsTransport.bind(connection);
   shape.createDtlsTransport = (options) => {
     const transport = createDtls(options);
