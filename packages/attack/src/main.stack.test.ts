@@ -36,6 +36,17 @@ it('runs the chosen attacks against the real programs, and prints what came of e
   expect(code).toBe(0);
 }, 60_000);
 
+it('lets a watcher send one packet a thousand times beside the driver, and prints what each took', async () => {
+  const { code, out, err } = await run('--only', 'SACK: a gap', '--json');
+  expect(err).toContain('1 attacks: 1 held, 0 harmed, 0 not tried');
+  expect(err).toMatch(/1000 packets, \d+ µs each, pause \d+ ms, -?\d+ MB/);
+  const [{ tally }] = JSON.parse(out) as [{ tally: { packets: number } }];
+  // With what it has set up before.
+  expect(tally.packets).toBeGreaterThan(1000);
+  expect(err).toContain(`1 patterns of an admitted watcher, ${tally.packets} packets`);
+  expect(code).toBe(0);
+}, 90_000);
+
 it.each([
   [['--only', 'nothing of the kind'], '--only nothing of the kind: no such attack'],
   [['--flood', 'long'], '--flood long: must be a positive number'],

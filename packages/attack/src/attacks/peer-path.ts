@@ -66,7 +66,7 @@ export const peerPathAttacks = repeated({
   }),
   'DTLS: data that is no SCTP': (guest) => () => guest.raw(Buffer.alloc(1)),
   'DTLS: 16 kB of data': (guest) => () => guest.raw(Buffer.alloc(16_000)),
-  'DTLS: plaintext hello': same(() => clientHello()),
+  'DTLS: a hello in clear': same(() => clientHello()),
   'DTLS: change of ciphers': same(() => dtlsRecord(20, 0, 1, Uint8Array.of(1))),
   'DTLS: forged handshake': same(() => forged(22, 60)),
   'DTLS: forged alert': same(() => forged(21, 26)),
