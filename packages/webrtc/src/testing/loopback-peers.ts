@@ -25,6 +25,8 @@ export interface LoopbackOptions {
   onAnswer?: ((sdp: string) => string) | undefined;
   /** Gets the answering peer's DTLS socket before its handshake begins. */
   onClientSocket?: ((socket: DtlsSocketShape) => void) | undefined;
+  /** Whether the other peer drives now. */
+  drives?: (() => boolean) | undefined;
   /** The guarded peer answers, as the DTLS client, and the other one offers. */
   guardedAnswers?: boolean | undefined;
   /** Gets the guarded peer's transport before anything happens on it. */
@@ -43,7 +45,7 @@ export class LoopbackPeers {
   onHeard: ((text: string) => void) | null = null;
   readonly #waiters = new Set<() => void>();
 
-  private constructor(keys: DtlsKeys | undefined) {
+  private constructor({ keys, drives }: LoopbackOptions) {
     const common = {
       iceServers: [],
       iceUseIpv6: false,
@@ -53,6 +55,7 @@ export class LoopbackPeers {
     this.guarded = new RTCPeerConnection(common);
     this.other = new RTCPeerConnection({ ...common, ...(keys === undefined ? {} : { dtls: { keys } }) });
     this.refusals = guardConnection(this.guarded, {
+      drives: () => drives?.() === true,
       onRefused: () => this.#changed(),
       onUnproven: (error) => {
         this.unproven = error;
@@ -69,7 +72,7 @@ export class LoopbackPeers {
   }
 
   static async open(options: LoopbackOptions = {}): Promise<LoopbackPeers> {
-    const peers = new LoopbackPeers(options.keys);
+    const peers = new LoopbackPeers(options);
     const { guarded, other } = peers;
     const [offerer, answerer] = options.guardedAnswers === true ? [other, guarded] : [guarded, other];
     other.onDataChannel.subscribe(() => undefined);
