@@ -6,6 +6,8 @@ export { parseHandshakeFragments, serializeHandshake } from './dtls/handshake-me
 export { parseRecords } from './dtls/record.ts';
 export { CandidateGate, takeCandidates } from './ice/candidate-gate.ts';
 export { Refusals } from './refusal.ts';
+export { compoundWork, leadingReport } from './rtcp/compound-work.ts';
 export { isSctpPacket } from './sctp/packet-check.ts';
+export { sctpWork } from './sctp/packet-work.ts';
 export { isUserMessage } from './sctp/user-message-check.ts';
 export { isAuthenticRequest, stunKind } from './stun/binding-request.ts';

@@ -1,14 +1,17 @@
 import {
   CandidateGate,
+  compoundWork,
   type DtlsEndpoint,
   DtlsGate,
   HandshakeAssembler,
   isAuthenticRequest,
   isSctpPacket,
   isUserMessage,
+  leadingReport,
   parseHandshakeFragments,
   parseRecords,
   Refusals,
+  sctpWork,
   serializeHandshake,
   splitClientHello,
   stunKind,
@@ -109,7 +112,42 @@ export const transportTargets: readonly FuzzTarget[] = [
       sctpPacket(1, ...dataChunk(1, 1), ...dataChunk(2, 1)),
       ...[...malformedChunks.values()].map((chunks) => sctpPacket(1, ...chunks)),
     ],
-    run: (input) => void isSctpPacket(view(input)),
+    run: (input) => {
+      if (isSctpPacket(view(input))) sctpWork(view(input));
+    },
+    refusals: [],
+  },
+  {
+    name: 'rtcp-work',
+    seeds: () => [
+      Buffer.from([
+        0x80,
+        201,
+        0,
+        1,
+        0,
+        0,
+        0,
+        1,
+        0x8f,
+        205,
+        0,
+        4,
+        ...new Array(8).fill(1),
+        0,
+        0,
+        255,
+        255,
+        0,
+        0,
+        0,
+        1,
+      ]),
+    ],
+    run: (input) => {
+      compoundWork(view(input));
+      leadingReport(view(input));
+    },
     refusals: [],
   },
   {
