@@ -40,27 +40,32 @@ export function repeated(patterns: Readonly<Record<string, Pattern>>): Attack[] 
 }
 
 async function repeat(scene: Scene, pattern: Pattern): Promise<Tally> {
+  let sent = 0;
+  for (let tries = 1; ; tries++) {
+    const attempt = await once(scene, pattern);
+    sent += attempt.sent;
+    const excess = excessiveStrain(attempt.strain);
+    if (excess === null) return new Tally(sent, strainText(attempt.strain));
+    mustHold(tries < TRIES, excess);
+  }
+}
+
+/** With a guest of its own, whose numbers and state are new. */
+async function once(scene: Scene, pattern: Pattern): Promise<{ strain: Strain; sent: number }> {
   const first = await read(scene);
   const guest = await SctpGuest.join(scene);
   const setUp = worstState(guest);
   await guest.raw(...setUp);
   const send = await pattern(guest, scene);
-  let strain: Strain;
-  let sent = setUp.length;
-  for (let tries = 1; ; tries++) {
-    const idle = [await read(scene), await rested(scene)] as const;
-    for (let n = 0; n < PACKETS; n++) {
-      send(n);
-      if (n % BURST === BURST - 1) await pause(BURST_MS);
-    }
-    sent += PACKETS;
-    await pause(300);
-    strain = strainOf({ first, idle, last: await readSmaller(scene, first) }, PACKETS);
-    if (excessiveStrain(strain) === null || tries === TRIES) break;
+  const idle = [await read(scene), await rested(scene)] as const;
+  for (let n = 0; n < PACKETS; n++) {
+    send(n);
+    if (n % BURST === BURST - 1) await pause(BURST_MS);
   }
-  const excess = excessiveStrain(strain);
-  mustHold(excess === null, excess ?? '');
-  return new Tally(sent, strainText(strain));
+  await pause(300);
+  const last = await readSmaller(scene, first);
+  await guest.operator.close();
+  return { strain: strainOf({ first, idle, last }, PACKETS), sent: setUp.length + PACKETS };
 }
 
 async function rested(scene: Scene): Promise<Reading> {
