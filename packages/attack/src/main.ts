@@ -29,6 +29,11 @@ function fail(message: string): never {
   return process.exit(2);
 }
 
+/** Ends once all of the output is written: a pipe takes a part at a time. */
+function finish(code: number, output: string): Promise<never> {
+  return new Promise(() => process.stdout.write(output, () => process.exit(code)));
+}
+
 function readArguments() {
   try {
     return parseArgs({
@@ -61,9 +66,8 @@ if (values.flood !== undefined) {
   const seconds = positive('flood', values.flood);
   const results = await runFlood({ seconds, perSecond: positive('rate', values.rate), only });
   if (results.length === 0) fail(`--only ${only}: no such datagrams`);
-  if (json) console.log(JSON.stringify(results));
-  else printFlood(results);
-  process.exit(results.some(({ harm }) => harm !== null) ? 1 : 0);
+  if (!json) printFlood(results);
+  await finish(results.some(({ harm }) => harm !== null) ? 1 : 0, json ? `${JSON.stringify(results)}\n` : '');
 }
 
 const chosen = allAttacks.filter(
@@ -71,10 +75,9 @@ const chosen = allAttacks.filter(
 );
 if (chosen.length === 0) fail(`--only ${only}: no such attack`);
 if (list) {
-  for (const { layer, name } of chosen) console.log(`${layer.padEnd(9)}  ${name}`);
-  process.exit(0);
+  await finish(0, chosen.map(({ layer, name }) => `${layer.padEnd(9)}  ${name}\n`).join(''));
 }
 const results = await runAttacks(chosen, (result) => console.error(row(result)));
 printSummary(results);
-if (json) console.log(JSON.stringify(results));
-process.exit(results.every(({ outcome }) => outcome === 'held') ? 0 : 1);
+const held = results.every(({ outcome }) => outcome === 'held');
+await finish(held ? 0 : 1, json ? `${JSON.stringify(results)}\n` : '');
