@@ -125,8 +125,10 @@ describe('robot process', { timeout: 30_000 }, () => {
     client.control.send('{"type":"command"}');
     await client.message('rejected', (message) => message.reason === 'malformed');
     const lease = await client.takeLease();
-    client.drive(lease, 50);
+    // Before the hand has let go once, it is asked to do that.
+    const driving = setInterval(() => client.drive(lease, 50), 20);
     await client.message('rejected', (message) => message.reason === 'out-of-range');
+    clearInterval(driving);
     expect(client.telemetry?.twist.linear.x ?? 0).toBe(0);
     expect(await metric('commands_rejected_total', '{reason="malformed"}')).toBeGreaterThanOrEqual(1);
   });

@@ -6,9 +6,9 @@ import { ReferenceDriver } from './reference-driver.ts';
 
 const limits = { maxLinear: 1, maxAngular: 1.5, watchdogMs: 150, maxCommandsPerSecond: 100 };
 
-function setUp() {
+function setUp(mayHold = true) {
   const guard = new DriveGuard({ limits, randomBytes: (count) => new Uint8Array(count).fill(7) });
-  const driver = new ReferenceDriver('reference:1', guard);
+  const driver = new ReferenceDriver('reference:1', guard, () => mayHold);
   return {
     ...{ guard, driver },
     /** As often as the robot does. @returns whether the lease was released */
@@ -96,6 +96,20 @@ describe('ReferenceDriver', () => {
     expect(driver.onTwist(forward(0.5), 7020)).toMatchObject(refused);
     ticks(7040, 9100, true);
     expect(driver.onTwist(forward(0.5), 9120)).toMatchObject({ accepted: true });
+  });
+
+  it('presumes the hand open in a session before which none was held, and says when it may hold on', () => {
+    const { driver, ticks } = setUp(false);
+    expect(driver.holds(0)).toBe(false);
+    expect(driver.onTwist(forward(0.5), 20)).toMatchObject({ accepted: true });
+    expect(driver.holds(100)).toBe(true);
+    ticks(40, 1900, true);
+    expect(driver.holds(1900)).toBe(true);
+    ticks(1920, 2100, true);
+    expect(driver.holds(2100)).toBe(false);
+    driver.onTwist(forward(0.5), 2120);
+    driver.onTwist(zeroTwist(), 2140);
+    expect(driver.holds(2160)).toBe(false);
   });
 
   it('takes what stood in a queue for no open hand', () => {

@@ -45,13 +45,27 @@ export class ReferenceDriver {
   #lastMs = Number.NEGATIVE_INFINITY;
   #afterGap = false;
   #lastMotionMs = Number.NEGATIVE_INFINITY;
+  #mayHold: (() => boolean) | null;
+  /** Whether its latest message asked for motion. */
+  #asksMotion = false;
   /** Since when the path has lived and no motion was asked for, ms; `null` if it does not or was. */
   #quietSinceMs: number | null = null;
 
-  /** @param id the operator's id for the guard */
-  constructor(id: string, guard: DriveGuard) {
+  /**
+   * @param id the operator's id for the guard
+   * @param mayHold asked once, at the first message: whether the hand may have held on since a session before. If not, it
+   *   counts as open at first: not every reference operator can say so
+   */
+  constructor(id: string, guard: DriveGuard, mayHold: () => boolean = () => false) {
     this.#id = id;
     this.#guard = guard;
+    this.#mayHold = mayHold;
+  }
+
+  /** Whether its hand may still hold on: it asked for motion, and has not let go since. */
+  holds(nowMs: number): boolean {
+    const isQuiet = this.#quietSinceMs !== null && nowMs - this.#quietSinceMs >= LEASE_AFTER_MOTION_MS;
+    return this.#asksMotion && !isQuiet;
   }
 
   get holdsLease(): boolean {
@@ -59,6 +73,8 @@ export class ReferenceDriver {
   }
 
   onTwist(twist: Twist, nowMs: number): ReferenceVerdict {
+    if (this.#mayHold?.() === false) this.#guard.onOpenHand(this.#id);
+    this.#mayHold = null;
     const { leaseHolder } = this.#guard;
     if (twist.linear.z !== 0) {
       const mayAsk = leaseHolder === null || leaseHolder === this.#id;
@@ -66,6 +82,7 @@ export class ReferenceDriver {
     }
     const stood = this.#stoodInQueue(nowMs);
     const motion = !stood && !isZeroTwist(twist);
+    if (!stood) this.#asksMotion = motion;
     if (motion && leaseHolder === null) this.#guard.requestLease(this.#id, false, nowMs);
     else if (!motion && leaseHolder !== this.#id) {
       if (!stood) this.#guard.onOpenHand(this.#id);

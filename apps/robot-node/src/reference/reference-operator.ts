@@ -34,6 +34,8 @@ export interface ReferenceOperatorOptions {
   id: string;
   peer: ReferencePeerOptions;
   controller: RateController;
+  /** Whether an operator's hand may have held on since a session before. */
+  mayHold?: (() => boolean) | undefined;
   packetLog?: PacketLog | undefined;
 }
 
@@ -80,7 +82,7 @@ export class ReferenceOperator implements FrameTarget {
     this.#host = host;
     this.#sendLoop = sendLoop;
     this.#events = events;
-    this.driver = new ReferenceDriver(options.id, host.drive.guard);
+    this.driver = new ReferenceDriver(options.id, host.drive.guard, options.mayHold);
     this.peer = new ReferencePeer(options.peer, {
       onCandidate: (candidate) => events.onCandidate(candidate),
       onConnected: (transport) => this.#onConnected(transport),

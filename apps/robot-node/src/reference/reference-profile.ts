@@ -41,6 +41,9 @@ const MOST_RETRY_MS = 5000;
 /** After this long without hearing from an operator, another one may replace it, ms. */
 const REPLACE_AFTER_MS = 1000;
 
+/** Who comes so soon after one who held on when its session ended may be the same, with the hand still closed, ms. */
+const HELD_MS = 30_000;
+
 export class ReferenceProfile {
   /** Counted since the start: offers made, operators connected, and operators that ended. */
   offers = 0;
@@ -65,6 +68,8 @@ export class ReferenceProfile {
   #rival = false;
   #retry: NodeJS.Timeout | null = null;
   #failures = 0;
+  /** When a session ended whose operator may have held on, ms. */
+  #heldMs = Number.NEGATIVE_INFINITY;
   #made = 0;
   #closed = false;
 
@@ -195,8 +200,9 @@ export class ReferenceProfile {
     const { peer, makeController, packetLog, sendLoop, onBudgetChanged } = this.#options;
     // No Farpoint session has a colon in its id.
     const id = `reference:${++this.#made}`;
+    const mayHold = () => this.#host.now() - this.#heldMs < HELD_MS;
     const operator: ReferenceOperator = new ReferenceOperator(
-      { id, peer, controller: makeController(), packetLog },
+      { id, peer, controller: makeController(), packetLog, mayHold },
       this.#host,
       sendLoop,
       {
@@ -224,6 +230,7 @@ export class ReferenceProfile {
   }
 
   #onEnded(operator: ReferenceOperator, end: string, detail: string): void {
+    if (operator.driver.holds(this.#host.now())) this.#heldMs = this.#host.now();
     this.ended++;
     this.#log.info({ operator: operator.id, end, detail }, 'reference operator ended');
     const wasOurs = operator === this.#current || operator === this.#offered;
