@@ -109,8 +109,10 @@ describe('a robot that has lost its operators', { timeout: 90_000 }, () => {
     const driver = await connect();
     await drive(driver.client);
     if (how === 'gives the lease back') {
-      driver.client.sendSession({ type: 'leaseRelease' });
-      await driver.client.message('lease', ({ holder }) => holder === 'nobody');
+      const { client } = driver;
+      client.sendSession({ type: 'leaseRelease' });
+      const newest = () => client.session.findLast((each) => each.type === 'lease');
+      await client.until(() => newest()?.holder === 'nobody');
       await driver.vanish();
     } else {
       driver.leave();
