@@ -6,6 +6,7 @@ import { guardHealth } from './obstacles/guard-report.ts';
 import { toRobotOptions } from './options/robot-options.ts';
 import { robotProgram } from './options/robot-program.ts';
 import { Robot } from './robot.ts';
+import { lockRun } from './run-locks.ts';
 import { registerRobotMetrics } from './telemetry/metrics/robot-metrics.ts';
 
 /** The capture thread reports every 20 ms, unless a frame takes longer. */
@@ -28,11 +29,14 @@ export async function run(): Promise<void> {
     const systemd = order === null ? null : new Notifier(order);
     systemd?.starting(Math.max(options.shmWaitS, options.rosWaitS) * 1000 + START_MS);
     const robotOptions = toRobotOptions(options, where);
+    const locks = lockRun(robotOptions, log);
+    // Last of all: until then, this robot writes.
+    shutdown.onClose('locks', () => locks[Symbol.dispose]());
     const audit = await openRobotAudit(robotOptions.audit, robotOptions.id, {
       where: where('auditLog'),
       log,
     });
-    // Last, so that what ends with the robot is recorded.
+    // After the robot, so that what ends with it is recorded.
     shutdown.onClose('audit log', () => audit.close());
     const robot = await Robot.start(robotOptions, log, audit.audit).catch(async (error: unknown) => {
       throw (await import('./doctor/start-failure.ts')).startFailure(robotOptions, error);

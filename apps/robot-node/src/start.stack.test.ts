@@ -14,6 +14,8 @@ writeFileSync(words, 'no cloud, no recording\n');
 afterAll(() => rmSync(folder, { recursive: true }));
 
 const missing = join(folder, 'missing');
+/** A folder of their own: no other robot of this machine is in the way. */
+const COMMON = ['--admin-port', '0', '--state-dir', join(folder, 'state')];
 
 describe('a robot that cannot start', () => {
   it.each([
@@ -26,7 +28,7 @@ describe('a robot that cannot start', () => {
     [['--record', words], `${words} already exists`, 'name another file'],
     [['--record', join(missing, 'a.mcap')], `${missing} is not a folder`, 'create it'],
   ])('%j: says so once, with what to do, and without a stack', async (args, detail, remedy) => {
-    const robot = new LoggingProcess(program, [...args, '--admin-port', '0', '--sim-size', '16']);
+    const robot = new LoggingProcess(program, [...args, ...COMMON, '--sim-size', '16']);
     const said = await robot.logged(/^could not start: /);
     expect(await robot.exited).toBe(1);
     expect(said.msg).toContain(detail);
@@ -35,7 +37,7 @@ describe('a robot that cannot start', () => {
   });
 
   it('as text, the line ends with an arrow and the remedy', () => {
-    const args = [program, '--source', 'pcd', '--path', missing, '--log-format', 'text'];
+    const args = [program, '--source', 'pcd', '--path', missing, '--log-format', 'text', ...COMMON];
     const { stdout, status } = spawnSync(process.execPath, args, { encoding: 'utf8' });
     expect(status).toBe(1);
     expect(stdout).toContain(

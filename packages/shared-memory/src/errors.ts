@@ -14,7 +14,7 @@ export type SharedMemoryErrorCode =
   | 'bad-length' // an impossible payload length
   | 'bad-frame' // an impossible header of a frame
   | 'too-large' // more points than the reader has room for
-  | 'in-use' // another producer is running
+  | 'in-use' // another program writes it
   | 'out-of-memory'
   | 'io';
 
@@ -33,5 +33,23 @@ export class SharedMemoryError extends Error {
     this.code = code;
     this.file = file;
     this.offset = offset;
+  }
+}
+
+/** Another process holds the lock of a file that only one may write. */
+export class FileInUseError extends SharedMemoryError {
+  /** The process, if the system tells it. */
+  readonly holder: number | null;
+  /** What is wrong, without the remedy. */
+  readonly fault: string;
+  /** For people; begins with a verb. */
+  readonly remedy: string;
+
+  constructor(file: string, holder: number | null, remedy: string) {
+    const who = holder === null ? 'another program' : `another program (process ${holder})`;
+    super('in-use', file, null, `${who} writes it: ${remedy}`);
+    this.holder = holder;
+    this.fault = `${file}: ${who} writes it`;
+    this.remedy = remedy;
   }
 }

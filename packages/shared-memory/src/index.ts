@@ -10,7 +10,7 @@ export {
   type Lens,
   PUBLISHED_OFFSET,
 } from './cloud/layout.ts';
-export { SharedMemoryError, type SharedMemoryErrorCode } from './errors.ts';
+export { FileInUseError, SharedMemoryError, type SharedMemoryErrorCode } from './errors.ts';
 export { type MapOptions, MappedFile, type TrustedOwner } from './mapped-file.ts';
 export { type ControlBlock, ReferenceControlReader } from './reference/control-reader.ts';
 export { type ControlWriterOptions, ReferenceControlWriter } from './reference/control-writer.ts';

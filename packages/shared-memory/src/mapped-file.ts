@@ -1,5 +1,6 @@
 import { type Addon, type ByteView, loadAddon, type MappingHandle } from './addon.ts';
-import { SharedMemoryError, type SharedMemoryErrorCode } from './errors.ts';
+import { FileInUseError, SharedMemoryError, type SharedMemoryErrorCode } from './errors.ts';
+import { lockHolder } from './lock-holder.ts';
 
 /** Whose files are used besides this user's own and root's: those of the user with this id, or everybody's. */
 export type TrustedOwner = number | 'any';
@@ -62,6 +63,16 @@ export class MappedFile implements Disposable {
   /** Locks the file for as long as it is mapped; false if another process holds the lock. */
   lock(): boolean {
     return this.#addon.lock(this.handle);
+  }
+
+  /**
+   * Locks the file as {@link lock} does.
+   *
+   * @param remedy what to do if another process holds the lock, for people; begins with a verb
+   * @throws {FileInUseError}
+   */
+  claim(remedy: string): void {
+    if (!this.lock()) throw new FileInUseError(this.path, lockHolder(this.path), remedy);
   }
 
   /**

@@ -3,7 +3,7 @@ import { GrantKeysError } from '@farpoint/grants';
 import { RecordingError } from '@farpoint/recording';
 import { RosFault } from '@farpoint/ros';
 import { StartFailure } from '@farpoint/service';
-import { SharedMemoryError } from '@farpoint/shared-memory';
+import { FileInUseError, SharedMemoryError } from '@farpoint/shared-memory';
 import { RevocationJournalError } from '../access/revocation-journal.ts';
 import { CaptureError } from '../capture/capture.ts';
 import type { RobotOptions } from '../robot-configuration.ts';
@@ -23,6 +23,8 @@ export function startFailure({ sensors, sink, record }: RobotOptions, error: unk
   }
   if (error instanceof RecordingError)
     return failure(error, checkRecording(record?.path), 'set recording.file (--record) to another file');
+  // The files themselves are well.
+  if (error instanceof FileInUseError) return new StartFailure(error.fault, error.remedy, { cause: error });
   if (error instanceof SharedMemoryError)
     return failure(
       error,

@@ -13,9 +13,13 @@ export interface ControlWriterOptions {
   silenceMs: number;
 }
 
+const IN_USE = 'end that program, or give this one a folder of its own (--shm-folder)';
+
 /**
  * Writes the velocity into `shared_control`, with a counter that grows by one each time. The reader sets the velocity
  * to zero when the counter stops.
+ *
+ * It holds the file's lock for as long as it lives: of two writers, the stop of one would not stop the other.
  */
 export class ReferenceControlWriter implements Disposable {
   readonly #options: ControlWriterOptions;
@@ -24,7 +28,7 @@ export class ReferenceControlWriter implements Disposable {
   #files: { block: MappedFile; busy: MappedFile; control: ControlHandle } | null;
   #silencesBefore = 0;
 
-  /** @throws {SharedMemoryError} */
+  /** @throws {SharedMemoryError} a {@link FileInUseError} while another writer lives */
   constructor(options: ControlWriterOptions) {
     this.#options = options;
     this.#files = this.#open();
@@ -79,6 +83,8 @@ export class ReferenceControlWriter implements Disposable {
     const block = MappedFile.open(paths.control, { bytes: CONTROL_BYTES, ...create });
     let busy: MappedFile | null = null;
     try {
+      // Before a thread of ours could write anything.
+      block.claim(IN_USE);
       busy = MappedFile.open(paths.busy, { bytes: BUSY_BYTES, ...create });
       return { block, busy, control: this.#addon.control(block.handle, busy.handle, silenceMs) };
     } catch (error) {

@@ -114,6 +114,7 @@ describe.skipIf(ADDON_SUITE.skip)(`command block (${ADDON_SUITE.note})`, () => {
   it('clears a busy flag that a killed writer left', () => {
     const first = writer();
     first.write(forward);
+    first.close();
     writeFileSync(files.busy, Uint8Array.of(1, 0, 0, 0, 0));
     writer().write(zeroTwist());
     expect(reader().read()?.twist).toEqual(zeroTwist());
@@ -159,6 +160,35 @@ describe.skipIf(ADDON_SUITE.skip)(`command block (${ADDON_SUITE.note})`, () => {
     expect(write.write(forward)).toBeGreaterThan(0);
     expect(reader().read()?.twist).toEqual(forward);
     expect(counter).toBe(1);
+  });
+
+  it('refuses a second writer, which writes nothing, and names the first one and the remedy', () => {
+    const first = writer();
+    first.write(forward);
+    const before = toHex(readFileSync(files.control));
+    const error = errorOf(() => writer());
+    expect(error).toMatchObject({ code: 'in-use', file: files.control, holder: process.pid });
+    expect(error.message).toContain(`(process ${process.pid}) writes it: end that program`);
+    expect(error.message).toContain('--shm-folder');
+    expect(toHex(readFileSync(files.control))).toBe(before);
+    // Readers need no lock.
+    expect(reader().read()?.twist).toEqual(forward);
+    first.close();
+    expect(writer().write(zeroTwist())).toBe(3);
+  });
+
+  it('a writer whose file was recreated and is written by another writes no more', () => {
+    const first = writer();
+    first.write(forward);
+    rmSync(files.control);
+    const second = writer();
+    second.write(zeroTwist());
+    expect(errorOf(() => first.write(forward)).code).toBe('in-use');
+    expect(errorOf(() => first.write(forward)).code).toBe('in-use');
+    expect(reader().read()?.twist).toEqual(zeroTwist());
+    second.close();
+    first.write(forward);
+    expect(reader().read()?.twist).toEqual(forward);
   });
 
   it('says which file is unavailable', () => {
