@@ -68,9 +68,7 @@ export class KeyStop implements StopSource {
   }
 
   #take(data: Buffer): void {
-    for (const byte of data) {
-      const word = this.#words.take(byte);
-      if (word === null) continue;
+    for (const word of this.#words.take(data)) {
       if (word === 'interrupt') this.#interrupt();
       else this.#signal.hear(word === 'stop', this.#nowMs);
       // Each word by itself: a stop among others is not missed.
