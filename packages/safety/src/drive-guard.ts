@@ -13,6 +13,7 @@ import type { DriveGuardOptions } from './drive-guard-options.ts';
 import { EstopLatch, type EstopSource } from './estop.ts';
 import { type EstopReleaseOutcome, type EstopReleasePolicy, releaseEstop } from './estop-release.ts';
 import { type LeaseOutcome, LeaseTable } from './lease.ts';
+import { copyTwist } from './limits.ts';
 import { OperatorView } from './motion/operator-view.ts';
 import { SentViews } from './motion/sent-views.ts';
 import type { RobotStop } from './robot-stop.ts';
@@ -206,11 +207,16 @@ export class DriveGuard {
     return released;
   }
 
+  /** The operator is this subject: what any of its sessions latches, each of them has latched. */
+  identify(operatorId: string, subject: string): void {
+    this.#estop.latchers.identify(operatorId, subject);
+  }
+
   /** The operator's connection has ended. @returns whether this freed the lease */
   operatorGone(operatorId: string): boolean {
     this.#gate.forget(operatorId);
     this.sentViews.forget(operatorId);
-    this.#estop.withdraw(operatorId);
+    this.#estop.latchers.gone(operatorId);
     return this.releaseLease(operatorId);
   }
 
@@ -293,8 +299,4 @@ export class DriveGuard {
     this.#wish = zeroTwist();
     this.#watchdog.reset();
   }
-}
-
-function copyTwist({ linear, angular }: Twist): Twist {
-  return { linear: { ...linear }, angular: { ...angular } };
 }

@@ -3,7 +3,7 @@ import type { EstopLatch } from './estop.ts';
 /** Who may release an emergency stop that an operator has latched. Supervisors always may. */
 export const estopReleasePolicies = [
   'driver', // whoever drives
-  'latcher', // the operator who latched it, while it drives
+  'latcher', // the operator who latched it, in any of its sessions, while it drives
   'supervisor', // supervisors only
 ] as const;
 export type EstopReleasePolicy = (typeof estopReleasePolicies)[number];
@@ -31,7 +31,8 @@ export interface EstopRelease {
 /**
  * Releases the emergency stop if the request may. Nobody, not even a supervisor, releases what a stop at the robot holds.
  * What the robot itself latched for another reason is released by whoever drives. With the
- * policy `latcher`, a latch by operators who have left, or from before the robot's restart, is too.
+ * policy `latcher`, a latch by operators who have left, or from before the robot's restart, is too. An operator whose
+ * subject is known (latchers.ts) may release its latch in another session, and until it has left keeps others from it.
  */
 export function releaseEstop(
   estop: EstopLatch,
@@ -43,10 +44,10 @@ export function releaseEstop(
   if (estop.holders.size > 0) return refused('held-at-robot');
   if (of !== undefined && of !== estop.number) return refused('newer-latch');
   if (!supervises && policy === 'supervisor' && estop.ofOperator) return refused('not-supervisor');
-  if (!supervises && policy === 'latcher' && estop.latchers.size > 0) {
+  if (!supervises && policy === 'latcher' && estop.latchers.present > 0) {
     if (!estop.latchers.has(operatorId)) return refused('not-latcher');
-    estop.withdraw(operatorId);
-    if (estop.latchers.size > 0) return refused('others-latched');
+    estop.latchers.withdraw(operatorId);
+    if (estop.latchers.present > 0) return refused('others-latched');
   }
   estop.release();
   return { released: true };

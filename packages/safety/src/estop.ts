@@ -1,4 +1,5 @@
 import type { EstopState } from '@farpoint/protocol';
+import { Latchers } from './latchers.ts';
 import type { RobotStop } from './robot-stop.ts';
 
 /** Who latched the emergency stop. */
@@ -6,8 +7,6 @@ export type EstopSource = 'operator' | 'robot';
 
 /** `let-go`: released, but the hand has not let go of the stick since. */
 export type EstopAnswer = 'clear' | 'latched' | 'let-go';
-
-const MOST_LATCHERS = 64;
 
 /**
  * The emergency stop: anyone can latch it, and only a deliberate action releases it. After the release, motion stays
@@ -23,8 +22,8 @@ export class EstopLatch {
   #isAsked = false;
   /** The stops at the robot that hold it. */
   readonly #holders = new Set<RobotStop>();
-  /** Operators who have latched it since it was last clear, and are still there. */
-  readonly #latchers = new Set<string>();
+  /** Operators who have latched it since it was last clear, and have not withdrawn that. */
+  readonly latchers = new Latchers();
   /** Whether the driver's hand has yet to let go since the release. */
   #mustLetGo = false;
 
@@ -65,17 +64,11 @@ export class EstopLatch {
     return this.#holders;
   }
 
-  /** The operators who latched it and have neither withdrawn that nor left. */
-  get latchers(): ReadonlySet<string> {
-    return this.#latchers;
-  }
-
   /** @returns false if it was already latched: its number has changed nevertheless */
   latch(by: EstopSource, operatorId?: string): boolean {
     this.#isAsked = true;
     this.#ofOperator ||= by === 'operator';
-    // The bound is never met: a robot takes fewer operators.
-    if (operatorId !== undefined && this.#latchers.size < MOST_LATCHERS) this.#latchers.add(operatorId);
+    if (operatorId !== undefined) this.latchers.add(operatorId);
     return this.#latch(by);
   }
 
@@ -102,11 +95,6 @@ export class EstopLatch {
     if (this.#isAsked) this.#by = this.#ofOperator ? 'operator' : 'robot';
     else this.#clear();
     return true;
-  }
-
-  /** The operator has left, or wants its own latch released. It stays latched. */
-  withdraw(operatorId: string): void {
-    this.#latchers.delete(operatorId);
   }
 
   /** The caller has checked who asks. @returns false if it was not latched, or is held by a stop at the robot */
@@ -140,7 +128,7 @@ export class EstopLatch {
     this.#by = null;
     this.#isAsked = false;
     this.#ofOperator = false;
-    this.#latchers.clear();
+    this.latchers.clear();
     this.#mustLetGo = true;
   }
 }

@@ -1,4 +1,4 @@
-import type { DriveLimits } from '@farpoint/protocol';
+import type { DriveLimits, Twist } from '@farpoint/protocol';
 import * as z from 'zod';
 
 /**
@@ -23,3 +23,7 @@ export const defaultDriveLimits: Readonly<DriveLimits> = Object.freeze(driveLimi
  * for a hitch of a slow page, and too short for its operator to look away.
  */
 export const RESUME_WITHIN_MS = 400;
+
+export function copyTwist({ linear, angular }: Twist): Twist {
+  return { linear: { ...linear }, angular: { ...angular } };
+}

@@ -151,6 +151,8 @@ export class OperatorSessions {
     const admitted = this.#access === null || (await this.#access.admits(operator, message));
     // Refused, or ended while its grant was verified.
     if (this.operators.get(session) !== operator) return;
+    const { subject } = operator.messages.access;
+    if (admitted && subject !== null) this.#options.host.drive.guard.identify(session, subject);
     const verdict = admitted ? await operator.answer(sdp) : 'unasked';
     if (verdict === 'taken') {
       this.#waiting.answered(session);
