@@ -53,7 +53,7 @@ export class CloudPlayer {
   readonly #options: PlayOptions;
   readonly #clock: PlayClock;
   readonly #timeline: PlayTimeline;
-  readonly #state = new WorldState();
+  readonly #state: WorldState;
   readonly #ended = new AbortController();
   #passEnd = new AbortController();
   #fromNs: bigint;
@@ -69,6 +69,7 @@ export class CloudPlayer {
     this.stream = stream;
     this.#options = options;
     this.#clock = clock;
+    this.#state = new WorldState(undefined, options.baseFrame);
     this.#timeline = new PlayTimeline(clock, options.rate);
     this.#fromNs = recording.startNs + BigInt(Math.round(options.fromS * 1e9));
   }

@@ -12,6 +12,8 @@ export interface PlayOptions {
   atEnd: 'repeat' | 'stop';
   /** `auto`: optical if the frame's name says so (REP-103), else body. */
   axes: CloudAxes | 'auto';
+  /** Frame of the robot's base; by default as odometry and tf name it. */
+  baseFrame?: string | null;
   /** Topics whose messages are delivered at their times along with the clouds; missing topics are ignored. */
   along?: readonly string[];
 }

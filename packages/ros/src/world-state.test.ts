@@ -203,3 +203,86 @@ describe('a sensor', () => {
     ]).toEqual([null, null]);
   });
 });
+
+describe('the base’s frame', () => {
+  const x = (world: WorldState) => world.base.pose.position.x;
+  /** Another robot's tf, with the usual name. */
+  const another = tf(transform(1000, 'other_odom', 'base_link', 99));
+
+  test.each(['robot1/base_link', 'body', '/robot1/base_link'])(
+    'is the one that odometry positions: %s',
+    (child) => {
+      const world = new WorldState();
+      world.take(TF, another);
+      world.take(ODOM, odometry(1000, 1, { parent: 'robot1/odom', child }));
+      expect(world.base).toMatchObject({ pose: { position: { x: 1 } }, timeMs: 1000 });
+      world.take(TF, tf(transform(1100, 'other_odom', 'base_link', 98)));
+      world.take(ODOM, odometry(1100, 2, { parent: 'robot1/odom', child }));
+      expect(world.base).toMatchObject({ pose: { position: { x: 2 } }, timeMs: 1100 });
+    },
+  );
+
+  test('is the usual one where that is in the same tree as what odometry positions', () => {
+    const world = new WorldState();
+    world.take(STATIC, tf(transform(0, 'tracker', 'base_link', -0.3)));
+    world.take(ODOM, odometry(1000, 1, { child: 'tracker' }));
+    expect(x(world)).toBeCloseTo(0.7);
+    const below = new WorldState();
+    below.take(STATIC, tf(transform(0, 'tracker', 'base_footprint', -0.2)));
+    below.take(ODOM, odometry(1000, 1, { child: 'tracker' }));
+    expect(x(below)).toBeCloseTo(0.8);
+  });
+
+  test('is the usual one without odometry', () => {
+    const world = new WorldState();
+    world.take(TF, tf(transform(1000, 'odom', 'base_footprint', 3)));
+    expect(x(world)).toBe(3);
+    world.take(TF, tf(transform(1000, 'base_footprint', 'base_link', 1)));
+    expect(x(world)).toBe(4);
+  });
+
+  test('places a sensor on it', () => {
+    const world = new WorldState();
+    world.take(TF, another);
+    world.take(STATIC, tf(transform(0, 'robot1/base_link', 'robot1/lidar', 0.2)));
+    world.take(ODOM, odometry(1000, 7, { parent: 'robot1/odom', child: 'robot1/base_link' }));
+    const { cameraPose, base, mount } = world.place('robot1/lidar', 1000, 'body');
+    expect([cameraPose.position.x, base?.position.x, mount?.position.x]).toEqual([
+      7.2,
+      7,
+      expect.closeTo(0.2),
+    ]);
+  });
+
+  test('is the configured one, whatever else there is', () => {
+    for (const name of ['robot1/body', '/robot1/body']) {
+      const world = new WorldState(undefined, name);
+      world.take(ODOM, odometry(1000, 1));
+      expect(world.base.timeMs).toBeNull();
+      expect(world.place('lidar', 1000, 'body').base).toBeNull();
+      world.take(TF, tf(transform(1000, 'odom', 'robot1/body', 5)));
+      expect(world.base).toMatchObject({ pose: { position: { x: 5 } }, timeMs: 1000 });
+      world.take(STATIC, tf(transform(0, 'robot1/body', 'lidar', 0.5)));
+      expect(world.place('lidar', 1000, 'body').mount?.position.x).toBeCloseTo(0.5);
+    }
+  });
+
+  test('is the configured one where a message does not name it', () => {
+    const world = new WorldState(undefined, 'body');
+    world.take(ODOM, odometry(1000, 1, { parent: '', child: '' }));
+    expect(x(world)).toBe(1);
+    const posed = new WorldState(undefined, 'body');
+    posed.take(POSE, {
+      header: header(1000, 'map'),
+      pose: { position: { x: 2, y: 0, z: 0 }, orientation: NO_TURN },
+    });
+    expect(x(posed)).toBe(2);
+  });
+
+  test('carries the sensors of a robot that nobody places', () => {
+    const world = new WorldState(undefined, 'body');
+    world.take(STATIC, tf(transform(0, 'body', 'lidar', 0.2)));
+    const { base, mount } = world.place('lidar', 1000, 'body');
+    expect([base, mount?.position.x]).toEqual([null, 0.2]);
+  });
+});

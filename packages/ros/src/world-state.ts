@@ -23,7 +23,8 @@ const ORIGIN: Pose = { position: { x: 0, y: 0, z: 0 }, orientation: NO_TURN };
 /** Assumed pose of a camera of which nobody says where it sits: 1 m above the ground, looking ahead. For the picture only. */
 const UNKNOWN_MOUNT: Pose = { position: { x: 0, y: 0, z: 1 }, orientation: OPTICAL_IN_BODY };
 const OPTICAL: Pose = { position: ORIGIN.position, orientation: OPTICAL_IN_BODY };
-const BASE_FRAMES = ['base_link', 'base_footprint'];
+/** Of a robot whose base's frame nobody names, in the order in which they are looked for. */
+export const BASE_FRAMES: readonly string[] = ['base_link', 'base_footprint'];
 /** What odometry means whose frames are not named. */
 const ODOM_FRAME = 'odom';
 /** What moves is not known where its newest sample is older, or its oldest younger, ms. */
@@ -55,9 +56,9 @@ function timeOfStamp(ns: bigint): number | null {
 
 /** Where the robot is, and how it moves: all of one time. */
 export interface BaseMotion {
-  /** Of base_link in the world. */
+  /** Of the base's frame in the world. */
   pose: Pose;
-  /** In base_link; `null` if nobody has said it lately. */
+  /** In the base's frame; `null` if nobody has said it lately. */
   twist: Twist | null;
   /** Of the stamps' clock, ms; `null` if nobody says where the robot is. */
   timeMs: number | null;
@@ -67,9 +68,9 @@ export interface BaseMotion {
 export interface PlacedSensor {
   /** Of its optical axes in the world, as well as it is known: what pictures need. */
   cameraPose: Pose;
-  /** Of base_link in the world; `null` if it was not known then. */
+  /** Of the base's frame in the world; `null` if it was not known then. */
   base: Pose | null;
-  /** Of its optical axes in base_link, as tf says; `null` if tf does not. */
+  /** Of its optical axes in the base's frame, as tf says; `null` if tf does not. */
   mount: Pose | null;
 }
 
@@ -81,12 +82,16 @@ export class WorldState {
   readonly #tree = new TransformTree();
   /** Frames that odometry positions, as long as tf does not. */
   readonly #byOdometry = new Set<string>();
-  #base: string | null = null;
+  readonly #configured: string | null;
+  /** The frame that odometry positions. */
+  #told: string | null = null;
   #newestMs = Number.NEGATIVE_INFINITY;
   #twist: { twist: Twist; timeMs: number } | null = null;
 
-  constructor(times: StampTimes = BY_STAMP) {
+  /** @param base the frame of the robot's base; `null`: as odometry and tf name it */
+  constructor(times: StampTimes = BY_STAMP, base: string | null = null) {
     this.#times = times;
+    this.#configured = base === null ? null : frameName(base);
   }
 
   /** Selects the topics that contribute to the state. */
@@ -186,8 +191,23 @@ export class WorldState {
     this.#twist = null;
   }
 
+  /** Another robot's base may have the usual name: only in the tree of what odometry positions it is this one's. */
   get #baseFrame(): string | null {
-    return BASE_FRAMES.find((name) => this.#tree.has(name)) ?? this.#base;
+    if (this.#configured !== null) return this.#configured;
+    const root = this.#told === null ? null : this.#rootOf(this.#told);
+    const usual = BASE_FRAMES.find(
+      (name) => this.#tree.has(name) && (root === null || this.#rootOf(name) === root),
+    );
+    return usual ?? this.#told;
+  }
+
+  #rootOf(frame: string): string | null {
+    return this.#tree.poseInRoot(frame, this.#newestMs)?.root ?? null;
+  }
+
+  /** What is meant where a message does not name the base's frame. */
+  get #unnamed(): string {
+    return this.#configured ?? (BASE_FRAMES[0] as string);
   }
 
   #takeTransforms(message: unknown, fixed: boolean): string | null {
@@ -209,13 +229,13 @@ export class WorldState {
 
   #takeOdometry(topic: string, message: unknown): string | null {
     const { header, child_frame_id, pose, twist } = odometrySchema.parse(message);
-    const child = frameName(child_frame_id) || (BASE_FRAMES[0] as string);
+    const child = frameName(child_frame_id) || this.#unnamed;
     const parent = frameName(header.frame_id) || ODOM_FRAME;
     if (child === parent)
       return `its child_frame_id is its frame_id, ${child}: it says nothing about the robot`;
     const timeMs = this.#times.of(topic, stampNs(header.stamp), false);
     if (typeof timeMs === 'string') return timeMs;
-    this.#base = child;
+    this.#told = child;
     const { linear, angular } = twist.twist;
     const isMeasured = isFiniteVector(linear) && isFiniteVector(angular);
     this.#twist = isMeasured ? { twist: twist.twist, timeMs } : null;
@@ -224,16 +244,16 @@ export class WorldState {
     return this.#place(parent, child, timeMs, pose.pose.position, pose.pose.orientation, false);
   }
 
-  /** Pose of `base_link`: the message names only the reference frame. */
+  /** Pose of the base: the message names only the reference frame. */
   #takePose(topic: string, message: unknown): string | null {
     const { header, pose } = poseStampedSchema.parse(message);
     const { position, orientation } = 'pose' in pose ? pose.pose : pose;
-    const base = BASE_FRAMES[0] as string;
+    const base = this.#unnamed;
     const parent = frameName(header.frame_id) || ODOM_FRAME;
     if (parent === base) return `its frame_id is ${base}: it says nothing about the robot`;
     const timeMs = this.#times.of(topic, stampNs(header.stamp), false);
     if (typeof timeMs === 'string') return timeMs;
-    this.#base = base;
+    this.#told = base;
     if (this.#tree.has(base) && !this.#byOdometry.has(base)) return null;
     this.#byOdometry.add(base);
     return this.#place(parent, base, timeMs, position, orientation, false);

@@ -60,7 +60,7 @@ const odometry = (ms: number, x: number) => ({
 async function setUp(
   table: unknown,
   first: (graph: MemoryGraph) => void,
-  { version = 2, waitMs = 1000 }: { version?: 1 | 2; waitMs?: number } = {},
+  { version = 2, waitMs = 1000, ...more }: { version?: 1 | 2; waitMs?: number; baseFrame?: string } = {},
 ) {
   let nowMs = 5000;
   const graph = new MemoryGraph(version, () => nowMs);
@@ -70,7 +70,7 @@ async function setUp(
   };
   const opening = RosSource.open(
     graph,
-    { topics: topicTableSchema.parse(table), axes: 'auto', waitMs },
+    { topics: topicTableSchema.parse(table), axes: 'auto', waitMs, ...more },
     clock,
   );
   first(graph);
@@ -130,6 +130,31 @@ describe('RosSource', () => {
       expect(faults).toEqual([]);
     },
   );
+
+  it('takes the base’s frame that is configured', async () => {
+    const table = [
+      { topic: '/points', as: 'cloud' },
+      { topic: '/odom', as: 'pose' },
+      { topic: '/tf_static', as: 'tf' },
+    ];
+    const first = (graph: MemoryGraph) =>
+      graph.say(
+        '/points',
+        CLOUD,
+        cloudOf(0, 3, 1, 'lidar', () => [1, 2, 3]),
+      );
+    const { graph, source } = await setUp(table, first, { baseFrame: 'body' });
+    graph.say('/odom', ODOMETRY, odometry(0, 7));
+    expect(source.state.measuredMs).toBeNull();
+    const translation = { x: 0.5, y: 0, z: 0 };
+    const rotation = { x: 0, y: 0, z: 0, w: 1 };
+    graph.say('/tf_static', 'tf2_msgs/msg/TFMessage', {
+      transforms: [
+        { header: headerAt(0, 'base_link'), child_frame_id: 'body', transform: { translation, rotation } },
+      ],
+    });
+    expect(source.state).toMatchObject({ pose: { position: { x: 7.5 } }, measuredMs: 5000 });
+  });
 
   it('subscribes only to what the table names', async () => {
     const table = [

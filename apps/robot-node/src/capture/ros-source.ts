@@ -35,6 +35,8 @@ export interface RosSourceOptions {
   topics: TopicTable;
   /** Axes of the clouds' frame. `auto`: optical if the frame's name says so (REP-103), otherwise body. */
   axes: CloudAxes | 'auto';
+  /** Frame of the robot's base; by default as odometry and tf name it. */
+  baseFrame?: string | null;
   /** How long to wait for the first frame, ms. */
   waitMs: number;
 }
@@ -98,14 +100,14 @@ export class RosSource implements FrameSource {
     options: RosSourceOptions & Mounted,
     clock: RosClock,
   ): Promise<RosSource> {
-    const { topics, axes, waitMs } = options;
+    const { topics, axes, waitMs, baseFrame = null } = options;
     let last: RosFault | null = null;
     const onFault = (fault: RosFault) => {
       last = fault;
     };
     graph.onFault = onFault;
     const stamps = new StampClock(clock);
-    const state = new StateTopics(graph, topics, clock, stamps);
+    const state = new StateTopics(graph, topics, clock, stamps, baseFrame);
     let feed: RosFeed | null = null;
     try {
       feed = openFeed(graph, topics, axes);

@@ -42,12 +42,21 @@ export class StateTopics {
   /** What {@link #tell} was given before {@link start}. */
   #early: Map<string, TopicReading> | null = new Map();
 
-  constructor(graph: RosGraph, topics: TopicTable, clock: RosClock, stamps: StampClock) {
+  /** @param base the frame of the robot's base; `null`: as odometry and tf name it */
+  constructor(
+    graph: RosGraph,
+    topics: TopicTable,
+    clock: RosClock,
+    stamps: StampClock,
+    base: string | null = null,
+  ) {
     this.#clock = clock;
     this.#stamps = stamps;
-    this.world = new WorldState(this.#times);
+    this.world = new WorldState(this.#times, base);
     this.#hasPoses = topics.some(({ as }) => as === 'pose' || as === 'tf');
-    this.#listeners = topics.filter((entry) => isHeard(entry)).map((entry) => this.#listen(graph, entry));
+    this.#listeners = topics
+      .filter((entry) => isHeard(entry))
+      .map((entry) => this.#listen(graph, entry, base));
   }
 
   /** The callbacks are set. */
@@ -90,14 +99,14 @@ export class StateTopics {
     return judged;
   }
 
-  #listen(graph: RosGraph, entry: TopicEntry): Listener {
+  #listen(graph: RosGraph, entry: TopicEntry, base: string | null): Listener {
     const { topic: name, type, as } = entry;
     const clock = this.#clock;
     const onFault = (fault: RosFault) => this.onFault?.(fault);
     const reading = ReadingTopic.is(entry) ? new ReadingTopic(entry) : null;
     const navigation = NavigationTopic.is(entry) ? new NavigationTopic(entry) : null;
     if (navigation !== null) this.#navigation.push(navigation);
-    const model = ModelTopic.is(entry) ? new ModelTopic(entry) : null;
+    const model = ModelTopic.is(entry) ? new ModelTopic(entry, base) : null;
     const limited = reading?.readsAll !== true && as !== 'joints';
     return listen(graph, entry, { queue: STATE_QUEUE, limited, onFault }, (message, receivedMs) => {
       this.#receivedMs = receivedMs;

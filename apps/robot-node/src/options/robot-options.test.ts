@@ -54,6 +54,17 @@ describe('robot options', () => {
     });
   });
 
+  it('name the base’s frame to ROS and to recordings', () => {
+    const ROS = 'robot:\n  source: { kind: ros2 }\n  topics: [{ topic: /points, as: cloud }]\n';
+    const named = file(`${ROS}  ros: { baseFrame: robot1/base_link }\n`);
+    expect(named.sensors[0]?.capture.source).toMatchObject({ baseFrame: 'robot1/base_link' });
+    const played = robot('--source', 'recording', '--path', 'a.mcap', '--ros-base-frame', '/body');
+    expect(played.sensors[0]?.capture.source).toMatchObject({ baseFrame: '/body' });
+    expect(file(ROS).sensors[0]?.capture.source).toMatchObject({ baseFrame: null });
+    for (const name of [' ', 'a//b', 'a b'])
+      expect(() => robot('--ros-base-frame', name)).toThrow('--ros-base-frame');
+  });
+
   it('take a source and a sink in shared memory', () => {
     const options = robot(
       ...['--source', 'shm', '--shm-layout', 'reference', '--shm-folder', '/x', '--sink', 'shm'],

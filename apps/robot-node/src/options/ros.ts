@@ -80,6 +80,18 @@ export const rosOptions = optionGroup('ros', {
     file: 'axes',
     help: 'ros1, ros2: axes of the clouds’ frame: optical (z forward), body (x forward, z up), or auto: optical if the frame’s name says so',
   }),
+  rosBaseFrame: defineOption({
+    schema: schema.optional(
+      z
+        .string('must be text')
+        .max(255, 'must have at most 255 characters')
+        .regex(/^\/?[^\s/]+(\/[^\s/]+)*$/, 'must be the name of a frame, such as robot1/base_link'),
+    ),
+    default: null,
+    argument: 'FRAME',
+    file: 'baseFrame',
+    help: 'ros1, ros2, recording: frame of the robot’s base, whose pose counts; default: base_link or base_footprint in the tree of the frame that odometry positions, else that frame',
+  }),
   rosWaitS: defineOption({
     schema: schema.number({ min: 0, max: 3600 }),
     default: 30,

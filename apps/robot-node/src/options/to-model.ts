@@ -9,7 +9,7 @@ const NO_MODEL = 'none';
 
 /** The model that is known from the start; undefined if there is none. @param refuse takes what is wrong */
 export function toModel(
-  { urdf, source, simLidars, topics }: RobotOptionValues,
+  { urdf, source, simLidars, topics, rosBaseFrame }: RobotOptionValues,
   refuse: (key: RobotOptionKey, detail: string) => void,
 ): TopicReading | undefined {
   if (urdf === NO_MODEL) return undefined;
@@ -19,7 +19,7 @@ export function toModel(
   const text = urdf === null ? simUrdf(simLidars > 0) : readText(urdf, (detail) => refuse('urdf', detail));
   if (text === null) return undefined;
   try {
-    return modelReading(TOPIC, undefined, { kind: 'model', model: readUrdf(text) });
+    return modelReading(TOPIC, undefined, { kind: 'model', model: readUrdf(text, rosBaseFrame) });
   } catch (error) {
     if (!(error instanceof UrdfFault)) throw error;
     refuse('urdf', `${urdf}: ${error.message}`);

@@ -15,12 +15,15 @@ const MOST_TEXT = 60;
 
 export class ModelTopic {
   readonly #entry: TopicEntry;
+  readonly #base: string | null;
   readonly #limit: RateLimit;
   /** Joint states come from several nodes, each with its joints: the newest of each. */
   readonly #joints = new Map<string, number>();
 
-  constructor(entry: TopicEntry) {
+  /** @param base the link in which the model is told; `null`: the usual one */
+  constructor(entry: TopicEntry, base: string | null = null) {
     this.#entry = entry;
+    this.#base = base;
     this.#limit = new RateLimit(entry.most);
   }
 
@@ -35,7 +38,8 @@ export class ModelTopic {
    */
   take(message: unknown, nowMs: number): TopicReading | null {
     const { topic, label, as } = this.#entry;
-    if (as === 'model') return modelReading(topic, label, newsOf(stringSchema.parse(message).data));
+    if (as === 'model')
+      return modelReading(topic, label, newsOf(stringSchema.parse(message).data, this.#base));
     const { name, position } = jointStateSchema.parse(message);
     name.forEach((each, i) => {
       const at = position[i];
@@ -48,9 +52,9 @@ export class ModelTopic {
 }
 
 /** What a description's text says. */
-export function newsOf(urdf: string): ModelNews {
+export function newsOf(urdf: string, base: string | null = null): ModelNews {
   try {
-    return { kind: 'model', model: readUrdf(urdf) };
+    return { kind: 'model', model: readUrdf(urdf, base) };
   } catch (error) {
     if (error instanceof UrdfFault) return { kind: 'refused', fault: error };
     throw error;

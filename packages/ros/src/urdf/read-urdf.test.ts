@@ -67,6 +67,15 @@ describe('a description', () => {
     ]);
   });
 
+  it.each(['body', '/body', 'robot1/body'])('is placed in the base that is named: %s', (base) => {
+    const model = readUrdf(
+      robot(`<link name="base_link">${ball}</link><link name="body">${ball}</link>
+        ${joint('j', 'fixed', 'base_link', 'body', '<origin xyz="0 0 0.2"/>')}`),
+      base,
+    );
+    expect(shapesOf(model).map(({ place }) => place[2])).toEqual([-0.2, 0]);
+  });
+
   it('turns by roll, pitch and yaw about fixed axes, in this order', () => {
     const model = readUrdf(
       robot(`<link name="a"/><link name="b">${visual('<box size="1 1 1"/>', '<origin xyz="1 0 0"/>')}</link>

@@ -1,6 +1,6 @@
 /**
- * A robot's model from its URDF (https://wiki.ros.org/urdf/XML): its moving links and their shapes, in base_link. Links that
- * do not move against each other become one, so that a model is small and quickly drawn.
+ * A robot's model from its URDF (https://wiki.ros.org/urdf/XML): its moving links and their shapes, in the robot's base. Links
+ * that do not move against each other become one, so that a model is small and quickly drawn.
  */
 import {
   compose,
@@ -11,6 +11,8 @@ import {
   type ModelPlace,
   type Pose,
 } from '@farpoint/protocol';
+import { frameName } from '../messages.ts';
+import { BASE_FRAMES } from '../world-state.ts';
 import { type JointSource, jointSources } from './joint-sources.ts';
 import { UrdfFault } from './urdf-fault.ts';
 import { type LinkShape, materialsOf, shapesOf } from './urdf-shapes.ts';
@@ -20,8 +22,6 @@ import { readXml } from './xml.ts';
 
 /** What xacro may leave behind: it stands for nothing itself. */
 const XACRO_DEFINITIONS = ['xacro:arg', 'xacro:macro', 'xacro:property'];
-/** In the order in which the robot's pose is looked for (world-state.ts). */
-const BASE_LINKS = ['base_link', 'base_footprint'];
 /** Tenths of millimetres, and as fine for turns. */
 const DIGITS = 4;
 
@@ -37,8 +37,11 @@ export interface RobotModel {
   undrawn: number;
 }
 
-/** @throws {UrdfFault} */
-export function readUrdf(text: string): RobotModel {
+/**
+ * @param base the frame of the robot's base, with or without the prefix of its robot; `null`: the usual one
+ * @throws {UrdfFault}
+ */
+export function readUrdf(text: string, base: string | null = null): RobotModel {
   const robot = readXml(text);
   if (robot.name !== 'robot')
     throw new UrdfFault('not-urdf', `its root is <${robot.name}>, not <robot>`, robot.line);
@@ -50,7 +53,7 @@ export function readUrdf(text: string): RobotModel {
   const tree = treeOf(robot);
   const materials = materialsOf(robot);
   const meshes = { replaced: 0, missing: 0 };
-  const bodies = bodiesOf(tree);
+  const bodies = bodiesOf(tree, baseLinks(base));
   const shapes: ModelPart[] = [];
   let undrawn = 0;
   for (const { name, element } of tree.links) {
@@ -87,12 +90,12 @@ interface Bodies {
   joints: UrdfJoint[];
 }
 
-function bodiesOf({ links }: UrdfTree): Bodies {
+function bodiesOf({ links }: UrdfTree, bases: readonly string[]): Bodies {
   const of = new Map<string, Placed>();
   const moving: ModelPart[] = [];
   const joints: UrdfJoint[] = [];
-  // The links that do not move against the root come first, so that it is known where base_link is.
-  const base = basePose(links);
+  // The links that do not move against the root come first, so that it is known where the base is.
+  const base = basePose(links, bases);
   for (const { name, joint } of links) {
     if (joint === null) {
       of.set(name, { body: 0, pose: base });
@@ -116,15 +119,22 @@ function bodiesOf({ links }: UrdfTree): Bodies {
   return { of, links: moving, joints };
 }
 
-/** Of the root in base_link, if that does not move against the root; else none. */
-function basePose(links: UrdfTree['links']): Pose {
+/** A description has no prefix where its frames have one. */
+function baseLinks(base: string | null): readonly string[] {
+  if (base === null) return BASE_FRAMES;
+  const name = frameName(base);
+  return [name, name.split('/').at(-1) ?? name, ...BASE_FRAMES];
+}
+
+/** Of the root in the base, if that does not move against the root; else none. */
+function basePose(links: UrdfTree['links'], bases: readonly string[]): Pose {
   const inRoot = new Map<string, Pose>();
   for (const { name, joint } of links) {
     if (joint === null) inRoot.set(name, identity());
     const parent = joint === null || joint.moves !== null ? undefined : inRoot.get(joint.parent);
     if (joint !== null && parent !== undefined) inRoot.set(name, compose(parent, joint.origin));
   }
-  const base = BASE_LINKS.map((name) => inRoot.get(name)).find((pose) => pose !== undefined);
+  const base = bases.map((name) => inRoot.get(name)).find((pose) => pose !== undefined);
   return base === undefined ? identity() : inverse(base);
 }
 
