@@ -39,6 +39,7 @@ const SYNTHETIC = {
   options: 'examples/synthetic_camera.py',
   because: 'runs until it is ended, and every test of it',
 } as const;
+const WHEELS = { because: 'runs until it is ended, and every test of it' } as const;
 const NO_PRODUCER = ['--shm-folder', '/dev/shm/farpoint-without-a-producer', '--shm-wait-s', '0'];
 const shm: Treatment = { refused: /^could not start: shm: /, also: [...ALONE, ...NO_PRODUCER] };
 
@@ -89,6 +90,8 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
     refused: /^could not start: recording: drive\.mcap does not exist$/,
     also: ALONE,
   },
+  // It would write where robots of this machine do.
+  'npx -y pnpm@12 robot --sink shm': { help: true },
   'npx -y pnpm@12 robot --source shm': shm,
   'npx -y pnpm@12 robot --source shm --shm-layout reference --fps 18': shm,
   'npx -y pnpm@12 robot --source shm --sink shm …': shm,
@@ -126,6 +129,8 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'npx -y pnpm@12 conformance robot --name ROBOT --client ws://HOST:3002': { help: true },
   'npx -y pnpm@12 conformance bridge --robot ws://HOST:3001 --client ws://HOST:3002 --control ws://HOST:8085 --telemetry ws://HOST:8090 --streaming ws://HOST:8095':
     { help: true },
+  'python3 examples/wheels.py': WHEELS,
+  'cc -O2 -o wheels examples/wheels.c && ./wheels': WHEELS,
   'python3 examples/synthetic_camera.py': SYNTHETIC,
   'python3 examples/synthetic_camera.py --layout reference --fps 18': SYNTHETIC,
 
