@@ -16,6 +16,7 @@ import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import manifest from '../package.json' with { type: 'json' };
+import { judgeUnitDevices, unitDevices } from '../src/doctor/check-unit.ts';
 import { baseImageOf } from './debian-base.ts';
 
 const here = import.meta.dirname;
@@ -68,6 +69,28 @@ it('the unit keeps the access that the robot needs', () => {
   ])
     expect(text).toContain(line);
   expect(text).not.toMatch(/^MemoryDenyWriteExecute=yes/m);
+});
+
+it('the unit permits the devices that options name, and no others', () => {
+  const text = readFileSync(unit, 'utf8');
+  const values = (key: string) =>
+    [...text.matchAll(new RegExp(`^${key}=(.*)$`, 'gm'))].map(([, value]) => value);
+  // PrivateDevices=yes would hide them, whatever else is permitted.
+  expect(values('PrivateDevices')).toEqual(['no']);
+  expect(values('DevicePolicy')).toEqual(['closed']);
+  expect(values('DeviceAllow')).toEqual(['char-gpiochip r', 'char-alsa rw', 'char-video4linux rw']);
+  // What PrivateDevices=yes would take away besides.
+  expect(values('CapabilityBoundingSet')).toEqual(['']);
+  expect(values('NoNewPrivileges')).toEqual(['yes']);
+  expect(values('SystemCallFilter').join()).toContain('@raw-io');
+  // A group that the machine does not have would keep the robot from starting.
+  expect(values('SupplementaryGroups')).toEqual([]);
+  const own = unitDevices(
+    values('DeviceAllow')
+      .map((each) => `DeviceAllow=${each}`)
+      .join('\n'),
+  );
+  expect(judgeUnitDevices(['/dev/gpiochip0', '/dev/snd', '/dev/video0'], own)).toEqual([]);
 });
 
 describe.skipIf(!compiler)('install.sh (needs a C compiler, make and Python 3)', () => {

@@ -90,6 +90,8 @@ if [ -z "$dest" ] && [ "$files_only" = no ]; then
   if ! id farpoint >/dev/null 2>&1; then
     useradd --system --user-group --home-dir /var/lib/farpoint --no-create-home --shell /usr/sbin/nologin farpoint
   fi
+  # For --stop-gpio. Groups that the machine does not have are left out.
+  if getent group gpio >/dev/null; then usermod --append --groups gpio farpoint; fi
   chgrp farpoint "$config"
   sysctl -q -p /etc/sysctl.d/60-farpoint.conf || say 'the socket buffer sizes were not changed'
   systemctl daemon-reload

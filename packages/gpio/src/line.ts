@@ -20,7 +20,8 @@ export interface GpioLine {
 const WORDS: Readonly<Record<string, string>> = {
   ENOENT: 'there is no such chip',
   EACCES: 'the system does not permit it: add the robot’s user to the group of the device',
-  EPERM: 'the system does not permit it: add the robot’s user to the group of the device',
+  EPERM:
+    'a device policy does not permit it: DeviceAllow=char-gpiochip in the service’s unit, --device of a container',
   EBUSY: 'another program or driver uses the line',
   EINVAL: 'the chip has no such line',
   ENOTTY: 'it is no GPIO chip',

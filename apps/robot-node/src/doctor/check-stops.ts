@@ -76,7 +76,7 @@ function checkLine(gpio: NonNullable<RobotStopsOptions['gpio']>): Result {
   } catch (error) {
     return fail(
       `stop (GPIO): ${(error as Error).message}: ${STANDS}`,
-      '`gpioinfo` lists chips and lines; correct --stop-gpio, or the permissions of the chip',
+      '`gpioinfo` lists chips and lines; correct --stop-gpio, or the permissions of the chip; a container needs `--device` and `--group-add`',
     );
   }
 }

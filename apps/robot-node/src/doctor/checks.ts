@@ -17,6 +17,7 @@ import { judgeSignaling } from './check-signaling.ts';
 import { judgeSound } from './check-sound.ts';
 import { judgeClosedSource, judgeSource, trialSource } from './check-source.ts';
 import { checkStops } from './check-stops.ts';
+import { devicesOf, judgeUnitDevices, serviceUnit } from './check-unit.ts';
 import { judgeVideo } from './check-video.ts';
 import { type Check, type Result, warn } from './finding.ts';
 import type { Host } from './host.ts';
@@ -126,6 +127,14 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
           isTerminal: process.stdin.isTTY === true,
           wait: (ms) => new Promise((resolve) => setTimeout(resolve, ms)),
         }),
+    },
+    {
+      name: 'service',
+      withinMs: ANSWER_MS + SLACK_MS,
+      run: async () => {
+        const devices = devicesOf(robot);
+        return devices.length === 0 ? [] : judgeUnitDevices(devices, await serviceUnit(ANSWER_MS));
+      },
     },
     ...robot.sensors.map(({ name, capture }, i) => ({
       name: i === 0 ? 'source' : `source (${name})`,
