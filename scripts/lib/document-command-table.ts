@@ -172,12 +172,13 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'docker ps': { because: 'needs a container engine' },
   'docker build -f apps/robot-node/Dockerfile -t farpoint-robot .': { because: 'needs a container engine' },
   'sudo mkdir -p /etc/farpoint': { because: 'needs root' },
+  'sudo install -d -m 750 -o "$(id -u)" /var/lib/farpoint': { because: 'needs root' },
   'docker run --rm farpoint-robot init --source shm --output - | sudo tee /etc/farpoint/robot.yaml': {
     because: 'needs a container engine',
   },
-  'docker run -d --name farpoint-robot --restart unless-stopped --network host --ipc host --user "$(id -u)" -v /etc/farpoint:/etc/farpoint:ro --env-file /etc/farpoint/robot.env farpoint-robot':
+  'docker run -d --name farpoint-robot --restart unless-stopped --network host --ipc host --user "$(id -u)" -v /var/lib/farpoint:/var/lib/farpoint -v /etc/farpoint:/etc/farpoint:ro --env-file /etc/farpoint/robot.env farpoint-robot':
     { because: 'needs a container engine' },
-  'docker run --rm --network host --ipc host --user "$(id -u)" -v /etc/farpoint:/etc/farpoint:ro --env-file /etc/farpoint/robot.env farpoint-robot doctor':
+  'docker run --rm --network host --ipc host --user "$(id -u)" -v /var/lib/farpoint:/var/lib/farpoint -v /etc/farpoint:/etc/farpoint:ro --env-file /etc/farpoint/robot.env farpoint-robot doctor':
     { because: 'needs a container engine' },
   'docker build -f apps/signaling/Dockerfile -t farpoint-signaling .': {
     because: 'needs a container engine',

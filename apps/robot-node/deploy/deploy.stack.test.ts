@@ -182,6 +182,21 @@ describe('the image', () => {
     expect(last.find(({ name }) => name === 'HEALTHCHECK')?.text).toContain('/healthz');
   });
 
+  it('keeps the state where the documented command mounts a folder of the machine', () => {
+    const last = dockerfile.slice(dockerfile.findLastIndex(({ name }) => name === 'FROM'));
+    const environment = last.flatMap(({ name, text }) => (name === 'ENV' ? text.split(' ') : []));
+    expect(environment).toContain('STATE_DIRECTORY=/var/lib/farpoint');
+    // Without a name it would be another one for each container, and the robot could not tell.
+    expect(last.filter(({ name }) => name === 'VOLUME')).toEqual([]);
+    // For whichever user.
+    const made = last.find(({ name, text }) => name === 'RUN' && text.includes('install -d'));
+    expect(made?.text).toContain('install -d -m 1777 /var/lib/farpoint');
+    const document = readFileSync(join(repository, 'docs/real-robot.md'), 'utf8').replaceAll(/\\\n\s*/g, '');
+    const runs = document.split('\n').filter((line) => /^docker run .*farpoint-robot( doctor)?$/.test(line));
+    expect(runs).toHaveLength(2);
+    for (const line of runs) expect(line).toContain(' -v /var/lib/farpoint:/var/lib/farpoint ');
+  });
+
   it.skipIf(!has('bash', '--version'))('is healthy exactly when the robot says so', async () => {
     const text = dockerfile.find(({ name }) => name === 'HEALTHCHECK')?.text ?? '';
     const [program = '', ...args] = JSON.parse(text.slice(text.indexOf('['))) as string[];

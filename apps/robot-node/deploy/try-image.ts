@@ -11,7 +11,7 @@
  * emulated 15.
  */
 import { execFileSync, spawn, spawnSync } from 'node:child_process';
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { setTimeout as wait } from 'node:timers/promises';
 import { parseArgs } from 'node:util';
@@ -47,6 +47,7 @@ const whole = values.folder ?? mkdtempSync('/var/tmp/farpoint-image-');
 const folder = join(whole, architecture);
 mkdirSync(folder, { recursive: true });
 const etc = join(folder, 'etc');
+const state = join(folder, 'state');
 const podman = new Podman(folder);
 let failures = 0;
 
@@ -137,7 +138,11 @@ async function configure(stack: LocalStack): Promise<string[]> {
   };
   const lines = Object.entries(environment).map(([name, value]) => `FARPOINT_ROBOT_${name}=${value}\n`);
   writeFileSync(join(etc, 'robot.env'), lines.join(''));
-  return ['-v', `${etc}:/etc/farpoint:ro`, '--env-file', join(etc, 'robot.env')];
+  // Whichever user the container has.
+  mkdirSync(state, { recursive: true });
+  chmodSync(state, 0o777);
+  const kept = ['-v', `${state}:/var/lib/farpoint`];
+  return ['-v', `${etc}:/etc/farpoint:ro`, ...kept, '--env-file', join(etc, 'robot.env')];
 }
 
 function tryDoctor(configured: readonly string[]): void {
@@ -240,6 +245,10 @@ async function tryRobot(): Promise<void> {
     const configured = await configure(stack);
     tryDoctor(configured);
     await start(configured);
+    check(
+      'it keeps its key and its emergency stop',
+      ['key', 'run'].every((name) => existsSync(join(state, `robot-1.${name}.json`))),
+    );
     await tryOperator(stack.signalingUrl, true);
     const client = `ws://127.0.0.1:${stack.ports.referenceClient}`;
     const results = await runSuite(robotSuite, { client, name: 'Robot' }, 'strict');

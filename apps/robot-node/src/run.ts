@@ -7,6 +7,7 @@ import { toRobotOptions } from './options/robot-options.ts';
 import { robotProgram } from './options/robot-program.ts';
 import { Robot } from './robot.ts';
 import { lockRun } from './run-locks.ts';
+import { warnOfFleetingState } from './state-place.ts';
 import { registerRobotMetrics } from './telemetry/metrics/robot-metrics.ts';
 
 /** The capture thread reports every 20 ms, unless a frame takes longer. */
@@ -29,6 +30,7 @@ export async function run(): Promise<void> {
     const systemd = order === null ? null : new Notifier(order);
     systemd?.starting(Math.max(options.shmWaitS, options.rosWaitS) * 1000 + START_MS);
     const robotOptions = toRobotOptions(options, where);
+    warnOfFleetingState(robotOptions, log);
     const locks = lockRun(robotOptions, log);
     // Last of all: until then, this robot writes.
     shutdown.onClose('locks', () => locks[Symbol.dispose]());

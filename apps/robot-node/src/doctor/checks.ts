@@ -16,6 +16,7 @@ import { checkProcessor, judgeCodec, timeCodec } from './check-processor.ts';
 import { judgeSignaling } from './check-signaling.ts';
 import { judgeSound } from './check-sound.ts';
 import { judgeClosedSource, judgeSource, trialSource } from './check-source.ts';
+import { checkState } from './check-state.ts';
 import { checkStops } from './check-stops.ts';
 import { devicesOf, judgeUnitDevices, serviceUnit } from './check-unit.ts';
 import { judgeVideo } from './check-video.ts';
@@ -156,6 +157,7 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
       withinMs: SLACK_MS,
       run: () => (running.state === 'runs' ? [] : checkRecording(robot.record?.path)),
     },
+    { name: 'state', withinMs: SLACK_MS, run: () => checkState(robot) },
     { name: 'audit log', withinMs: 20_000, run: () => checkAudit(robot.audit?.path) },
   ];
 }
