@@ -167,6 +167,8 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'sudo systemctl daemon-reload && sudo systemctl enable --now farpoint-signaling': {
     because: 'needs systemd',
   },
+  'sudo usermod -aG gpio,audio,video farpoint': { because: 'needs root' },
+  'systemctl edit farpoint-robot': { because: 'needs systemd' },
 
   // Containers.
   'docker ps': { because: 'needs a container engine' },
