@@ -38,6 +38,8 @@ export class DriveGuard {
   readonly view: OperatorView;
   /** What each operator was sent, which its commands may name as seen. */
   readonly sentViews = new SentViews();
+  /** The operator is this subject: what any of its sessions latches, each of them has latched. */
+  readonly identify = (id: string, subject: string) => this.#estop.latchers.identify(id, subject);
   readonly #limits: Readonly<DriveLimits>;
   readonly #gate: CommandGate;
   readonly #leases: LeaseTable;
@@ -205,11 +207,6 @@ export class DriveGuard {
     const released = this.#leases.release(operatorId);
     if (released) this.#changeDriver();
     return released;
-  }
-
-  /** The operator is this subject: what any of its sessions latches, each of them has latched. */
-  identify(operatorId: string, subject: string): void {
-    this.#estop.latchers.identify(operatorId, subject);
   }
 
   /** The operator's connection has ended. @returns whether this freed the lease */
