@@ -11,6 +11,7 @@ export {
   PUBLISHED_OFFSET,
 } from './cloud/layout.ts';
 export { FileInUseError, SharedMemoryError, type SharedMemoryErrorCode } from './errors.ts';
+export { lockHolder } from './lock-holder.ts';
 export { type MapOptions, MappedFile, type TrustedOwner } from './mapped-file.ts';
 export { type ControlBlock, ReferenceControlReader } from './reference/control-reader.ts';
 export { type ControlWriterOptions, ReferenceControlWriter } from './reference/control-writer.ts';

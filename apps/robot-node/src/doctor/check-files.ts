@@ -1,7 +1,13 @@
 /** Checks the files that the robot shares with a camera, wheels or a recording: permissions and free space. */
 import { accessSync, constants, type Stats, statfsSync, statSync } from 'node:fs';
 import { dirname } from 'node:path';
-import { cloudFile, isAvailable, referenceFiles, type TrustedOwner } from '@farpoint/shared-memory';
+import {
+  cloudFile,
+  isAvailable,
+  lockHolder,
+  referenceFiles,
+  type TrustedOwner,
+} from '@farpoint/shared-memory';
 import type { SourceOptions } from '../capture/open-source.ts';
 import type { SinkOptions } from '../drive/open-sink.ts';
 import { fail, ok, type Result, warn } from './finding.ts';
@@ -10,8 +16,12 @@ import { megabytes } from './host.ts';
 const EASY_SHARED_BYTES = 64e6;
 const EASY_RECORDING_BYTES = 5e9;
 
-/** Checks the addon, the folder, and the files of programs that are already running. */
-export function checkSharedMemory(source: SourceOptions, sink: SinkOptions): Result[] {
+/**
+ * Checks the addon, the folder, and the files of programs that are already running.
+ *
+ * @param robotRuns a running robot writes the velocities
+ */
+export function checkSharedMemory(source: SourceOptions, sink: SinkOptions, robotRuns = false): Result[] {
   const folder = source.kind === 'shm' ? source.folder : sink.kind === 'shm' ? sink.folder : null;
   if (folder === null) return [];
   if (!isAvailable())
@@ -43,6 +53,14 @@ export function checkSharedMemory(source: SourceOptions, sink: SinkOptions): Res
   }
   if (sink.kind === 'shm') {
     results.push(...[files.control, files.busy].flatMap((file) => checkFile(file, true, sink.owner)));
+    const writer = robotRuns ? null : lockHolder(files.control);
+    if (writer !== null)
+      results.push(
+        fail(
+          `${files.control} is written by another program (process ${writer})`,
+          'end that program, or give this robot a folder of its own: source.shmFolder',
+        ),
+      );
     if (stats(files.control) === null && !may(folder, constants.W_OK))
       results.push(fail(`${folder} is not writable`, 'run the robot as a user who may create files there'));
   }

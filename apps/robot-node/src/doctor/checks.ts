@@ -107,7 +107,10 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
     {
       name: 'shared memory',
       withinMs: SLACK_MS,
-      run: () => robot.sensors.flatMap(({ capture }) => checkSharedMemory(capture.source, robot.sink)),
+      run: () =>
+        robot.sensors.flatMap(({ capture }) =>
+          checkSharedMemory(capture.source, robot.sink, running.state === 'runs'),
+        ),
     },
     {
       name: 'ROS',
