@@ -15,7 +15,7 @@ beforeEach(() => {
 /** What becomes of the release, asked for while driving. */
 function release(operatorId: string): string {
   guard.requestLease(operatorId, true, 0, true);
-  const outcome = guard.releaseEstop(operatorId, 0);
+  const outcome = guard.releaseEstop(operatorId);
   return outcome.released ? 'released' : outcome.reason;
 }
 
