@@ -14,6 +14,7 @@ import type { ConfiguredVideo } from './options/videos.ts';
 import type { PicturePolicy } from './pictures/picture-plan.ts';
 import type { ReturnConfiguration } from './return/return-configuration.ts';
 import type { CloudSensorOptions } from './sensors/cloud-sensor.ts';
+import type { OperatorPlacesOptions } from './session/operator-places.ts';
 import type { SignalingOptions } from './signaling/signaling-client.ts';
 import type { RobotStopsOptions } from './stops/open-stops.ts';
 import type { AlarmRule } from './telemetry/alarms/alarm-board.ts';
@@ -83,7 +84,8 @@ export interface RobotOptions extends RateControlOptions {
   sound: SoundOptions;
   /** Where everything is sent once for any number of viewers; if undefined, nowhere. */
   broadcast?: BroadcastOptions | undefined;
-  maxOperators: number;
+  /** How many operators there may be, and of one person. */
+  places: OperatorPlacesOptions;
   /** An operator that has not been heard from for this long is gone, ms. */
   silenceMs: number;
   /** A driver whose page has said nothing for this long loses the lease, ms. */

@@ -102,7 +102,7 @@ export class Robot {
     this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
     this.sessions = new OperatorSessions(
       {
-        ...{ id: options.id, most: options.maxOperators, iceServers: options.iceServers },
+        ...{ id: options.id, places: options.places, iceServers: options.iceServers },
         ...{ grants, robotKey },
         peer: {
           ...this.#peerOptions,

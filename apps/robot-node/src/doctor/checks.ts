@@ -102,7 +102,7 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
     {
       name: 'network',
       withinMs: SLACK_MS,
-      run: () => (running.state === 'runs' ? [] : checkUdpPorts(robot.portRange ?? null, robot.maxOperators)),
+      run: () => (running.state === 'runs' ? [] : checkUdpPorts(robot.portRange ?? null, robot.places.most)),
     },
     {
       name: 'shared memory',

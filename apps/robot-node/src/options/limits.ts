@@ -58,6 +58,18 @@ export const limitsOptions = optionGroup('limits', {
     argument: 'N',
     help: 'maximum operators at once, including the one who drives',
   }),
+  maxPerSubject: defineOption({
+    schema: schema.integer({ min: 1, max: 32 }),
+    default: 2,
+    argument: 'N',
+    help: 'maximum operators at once with grants for the same subject; never all of --max-operators, unless that is 1',
+  }),
+  keepPlaceS: defineOption({
+    schema: schema.number({ min: 0, max: 600 }),
+    default: 30,
+    argument: 'SECONDS',
+    help: 'the place of an operator who drove is kept for this long after its connection was lost (with --grant-keys)',
+  }),
   silenceS: defineOption({
     schema: schema.number({ min: 1, max: 300 }),
     default: 60,

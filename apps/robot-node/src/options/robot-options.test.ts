@@ -23,7 +23,7 @@ describe('robot options', () => {
       bitsPerSecond: 60e6,
       rateControl: 'adaptive',
       limits: { watchdogMs: 150 },
-      maxOperators: 4,
+      places: { most: 4, perSubject: 2, keepMs: 30_000 },
     });
     expect(options.signaling.key).not.toBe(robot().signaling.key);
   });

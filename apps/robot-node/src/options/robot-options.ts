@@ -110,7 +110,11 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     playedVideosBitsPerSecond: values.playVideosKbitPerS * 1000,
     sound: values.sound,
     broadcast,
-    maxOperators: values.maxOperators,
+    places: {
+      most: values.maxOperators,
+      perSubject: values.maxPerSubject,
+      keepMs: values.keepPlaceS * 1000,
+    },
     silenceMs: values.silenceS * 1000,
     leaseSilenceMs: values.leaseSilenceS * 1000,
     connectTimeoutMs: 20_000,

@@ -16,6 +16,7 @@ import type { PacketLog } from '../transport/packet-log.ts';
 import type { OperatorPeerOptions, PeerEnd } from '../transport/peer-events.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
 import type { SessionHost } from './operator-messages.ts';
+import { OperatorPlaces, type OperatorPlacesOptions } from './operator-places.ts';
 import { OperatorSession } from './operator-session.ts';
 import type { ResumeRequest } from './path-keeper.ts';
 import { WaitingPlaces } from './waiting-places.ts';
@@ -27,8 +28,8 @@ export interface OperatorSessionsOptions {
   grants: GrantFiles | null;
   /** `null`: operators cannot recognise the robot. */
   robotKey: RobotKey | null;
-  /** The maximum number of operators; further ones are refused. */
-  most: number;
+  /** How many operators there may be, and of one person. */
+  places: OperatorPlacesOptions;
   /** In addition to the signaling service's ICE servers. */
   iceServers: readonly IceServer[];
   peer: Omit<OperatorPeerOptions, 'iceServers'>;
@@ -66,6 +67,8 @@ export class OperatorSessions {
   readonly #events: OperatorSessionsEvents;
   readonly #access: RobotAccess | null;
   readonly #waiting = new WaitingPlaces();
+  /** `null` if everybody is admitted: then nobody is known by anything but a name of its own choice. */
+  readonly #places: OperatorPlaces | null;
   #iceServers: readonly IceServer[] = [];
 
   constructor(options: OperatorSessionsOptions, events: OperatorSessionsEvents) {
@@ -75,6 +78,7 @@ export class OperatorSessions {
     const { grantsRefused: refusals, revocationLists } = counters;
     const onRefused = (operator: AuditedOperator, reason: string) =>
       audit.refused('admission', reason, operator);
+    this.#places = files === null ? null : new OperatorPlaces(options.places);
     const clocks = { nowS: () => Date.now() / 1000, now: monotonicMs };
     this.#access =
       files === null
@@ -84,7 +88,9 @@ export class OperatorSessions {
 
   /** Call every 25 ms. */
   tick(): void {
-    this.#access?.tick(this.operators, this.#options.host.drive.guard.leaseHolder);
+    const { leaseHolder } = this.#options.host.drive.guard;
+    this.#places?.tick(leaseHolder, monotonicMs());
+    this.#access?.tick(this.operators, leaseHolder);
   }
 
   /** Reads keys and revocations again; the old keys stay in force if that fails. @throws {GrantKeysError} */
@@ -151,6 +157,7 @@ export class OperatorSessions {
     const admitted = this.#access === null || (await this.#access.admits(operator, message));
     // Refused, or ended while its grant was verified.
     if (this.operators.get(session) !== operator) return;
+    if (admitted && !this.#placed(operator)) return;
     const { subject } = operator.messages.access;
     if (admitted && subject !== null) this.#options.host.drive.guard.identify(session, subject);
     const verdict = admitted ? await operator.answer(sdp) : 'unasked';
@@ -162,8 +169,19 @@ export class OperatorSessions {
     this.#options.log.debug({ session: shown(session), verdict }, 'answer ignored');
   }
 
+  /** Ends the session of an admitted operator for whom there is no place. @returns whether there is one */
+  #placed(operator: OperatorSession): boolean {
+    const { leaseHolder } = this.#options.host.drive.guard;
+    const refused = this.#places?.enter(operator, this.operators, leaseHolder, monotonicMs()) ?? null;
+    if (refused === null) return true;
+    this.#options.counters.sessionsRefused++;
+    this.#options.audit.refused('session', 'robot-full', operator.messages);
+    operator.peer.close('robot-full', refused);
+    return false;
+  }
+
   async #open(session: string, operatorName: string): Promise<void> {
-    const { most, peer, pictureShare, makeController, claims, sendLoop, packetLog } = this.#options;
+    const { places, peer, pictureShare, makeController, claims, sendLoop, packetLog } = this.#options;
     const { host, signaling, counters } = this.#options;
     if (this.operators.has(session)) {
       // To reconnect to an open session, an operator must use session.resume.
@@ -171,6 +189,7 @@ export class OperatorSessions {
       return;
     }
     const now = monotonicMs();
+    const most = this.#places?.mostSessions ?? places.most;
     if (this.operators.size >= most) {
       const overdue = this.operators.get(this.#waiting.overdue(now) ?? '');
       overdue?.peer.close('not-connected', 'somebody else asked for a place before the connection was there');
@@ -179,10 +198,10 @@ export class OperatorSessions {
       counters.sessionsRefused++;
       this.#options.audit.refused('session', 'robot-full', { id: session, access: openAccess(operatorName) });
       this.#options.log.warn(
-        { session: shown(session), operators: most },
+        { session: shown(session), operators: this.operators.size },
         'session refused: the robot is full',
       );
-      signaling.send({ type: 'session.close', session, reason: 'robot-full', maxOperators: most });
+      signaling.send({ type: 'session.close', session, reason: 'robot-full', maxOperators: places.most });
       return;
     }
     const log = this.#options.log.child({ session: shown(session), operator: operatorName });
@@ -239,13 +258,21 @@ export class OperatorSessions {
     this.operators.delete(id);
     this.#waiting.settled(id);
     this.#access?.forget(id);
+    this.#places?.ended(operator, end, monotonicMs());
     this.#events.ended(operator, end);
     audit.sessionEnded(operator.messages, end, detail);
     counters.sessionsEnded.add(end);
     log.info({ end, detail, operators: this.operators.size }, 'session ended');
     // The other side knows already: we told it, or it told us.
     if (end === 'closed') return;
-    signaling.send({ type: 'session.close', session: id, reason: end, detail: detail.slice(0, 300) });
+    const full = end === 'robot-full' ? { maxOperators: this.#options.places.most } : {};
+    signaling.send({
+      type: 'session.close',
+      session: id,
+      reason: end,
+      ...full,
+      detail: detail.slice(0, 300),
+    });
   }
 }
 

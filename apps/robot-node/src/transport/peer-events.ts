@@ -12,6 +12,7 @@ export type PeerEnd =
   | 'grant-expired'
   | 'grant-revoked'
   | 'ended-by-supervisor'
+  | 'robot-full' // there is no place for it, or no longer
   | 'unproven-peer' // DTLS: another certificate than the answer names, or a key that it does not have
   | 'not-connected' // no connection came about
   | 'connection-lost' // ICE, DTLS or a channel ended

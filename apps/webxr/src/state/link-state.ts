@@ -37,7 +37,7 @@ export function linkState(client: RobotClient, samples: Sampler, signalingFault:
         return { text: `Signaling address: ${signalingFault}`, tone: 'bad' };
       return linkWords({
         ...{ phase: link.phase, signaling: link.signaling, robotListed: link.robotListed },
-        ...{ lastLoss: link.lastLoss, maxOperators: link.maxOperators },
+        ...{ lastLoss: link.lastLoss, maxOperators: link.maxOperators, lossDetail: link.lossDetail },
         grantLeftMs: link.session.grantEndsAtMs === null ? null : link.session.grantEndsAtMs - atMs,
         silentMs: link.silentMs(atMs),
         pointsSilentMs: atMs - client.pointsAtMs,

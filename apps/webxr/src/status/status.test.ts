@@ -9,6 +9,7 @@ const live = {
   robotListed: true,
   lastLoss: null,
   maxOperators: null,
+  lossDetail: null,
   grantLeftMs: null,
   silentMs: 20,
   pointsSilentMs: 20,
@@ -35,6 +36,8 @@ describe('words', () => {
     expect(wordsOfLoss('robot-full', unsaid)).toContain('full');
     const waiting = { ...live, phase: 'waiting', lastLoss: 'robot-full', maxOperators: 4 } as const;
     expect(linkWords(waiting).text).toContain('4 operators at most');
+    const lossDetail = 'somebody with a higher role needed the place';
+    expect(linkWords({ ...waiting, lossDetail }).text).toContain(lossDetail);
     expect(linkWords({ ...waiting, robotListed: false }).text).toContain('offline');
     expect(linkWords({ ...waiting, lastLoss: 'silent' }).text).toBe('Connecting…');
   });

@@ -134,14 +134,16 @@ export interface LossFacts {
 
 /** Why a session ended. */
 export function wordsOfLoss(loss: SessionLoss, { maxOperators, lossDetail }: LossFacts): string {
-  if (loss === 'robot-full') return fullWords(maxOperators);
+  if (loss === 'robot-full') return fullWords(maxOperators, lossDetail);
   // Who did it is what matters.
   if (loss === 'ended-by-supervisor' && lossDetail !== null)
     return `${lossDetail}. Choose the robot to connect again.`;
   return lossWords[loss];
 }
 
-function fullWords(maxOperators: number | null): string {
+function fullWords(maxOperators: number | null, detail: string | null): string {
+  // Why there is no place for this operator in particular.
+  if (detail !== null) return `The robot has no place for you: ${detail}. Trying again…`;
   if (maxOperators === null) return 'The robot is full: it accepts no more operators. Trying again…';
   const operators = maxOperators === 1 ? 'one operator' : `${maxOperators} operators`;
   return `The robot is full: it accepts ${operators} at most. Trying again…`;
@@ -158,6 +160,8 @@ export interface LinkFacts {
   lastLoss: SessionLoss | null;
   /** How many operators the robot takes; `null` if it has not said so. */
   maxOperators: number | null;
+  /** What the robot said about the last session's end; `null` if nothing. */
+  lossDetail: string | null;
   /** Until the operator's grant ends, ms; `null` if the robot asks for none. */
   grantLeftMs: number | null;
   /** Time since the last message or point from the robot, ms. */
@@ -184,7 +188,7 @@ export function linkWords(facts: LinkFacts): Words {
       if (facts.lastLoss !== null && finalLosses.has(facts.lastLoss))
         return { text: wordsOfLoss(facts.lastLoss, { maxOperators: null, lossDetail: null }), tone: 'bad' };
       return facts.lastLoss === 'robot-full'
-        ? { text: fullWords(facts.maxOperators), tone: 'warning' }
+        ? { text: fullWords(facts.maxOperators, facts.lossDetail), tone: 'warning' }
         : { text: 'Connecting…', tone: 'neutral' };
     case 'opening':
       return { text: 'Connecting to the robot…', tone: 'neutral' };
