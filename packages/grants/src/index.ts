@@ -28,13 +28,19 @@ export {
   parseGrantKeys,
   readJwkSet,
 } from './grant-keys.ts';
+export {
+  KnownRevocations,
+  MAX_KNOWN_REVOCATIONS,
+  missingFrom,
+  type RevocationEntries,
+  type RevocationsChange,
+} from './known-revocations.ts';
 export * from './operator-key.ts';
 export { MAX_PROOF_LENGTH, makeProof, PROOF_LEEWAY_S, type SessionFacts, verifyProof } from './proof.ts';
 export * from './refusal.ts';
 export {
   MAX_REVOCATIONS,
   type RevocableGrant,
-  RevocationList,
   type Revocations,
   type RevocationsPayload,
   type RevocationsRefusal,

@@ -5,10 +5,10 @@ import { beforeAll, describe, expect, it } from 'vitest';
 import { extendRevocations } from './extend-revocations.ts';
 import { issueGrant, verifyGrant } from './grant.ts';
 import { type GrantKeys, parseGrantKeys } from './grant-keys.ts';
+import { KnownRevocations } from './known-revocations.ts';
 import {
   MAX_REVOCATIONS,
   type RevocableGrant,
-  RevocationList,
   type RevocationsPayload,
   RevocationsRefusedError,
   readRevocations,
@@ -35,6 +35,12 @@ beforeAll(async () => {
   keys = await parseGrantKeys(JSON.stringify({ keys: [issuer.publicJwk] }));
   text = await signRevocations(payload, issuer.signingKey);
 });
+
+function knownFrom(list: RevocationsPayload, keyId = 'k1'): KnownRevocations {
+  const known = new KnownRevocations(keyId);
+  known.add(list, NOW);
+  return known;
+}
 
 /** `taken`, or the reason. Any other exception fails the test. */
 async function outcome(list: string): Promise<string> {
@@ -137,7 +143,7 @@ describe('lists', () => {
 
 describe('a list revokes', () => {
   const revoked = (change: Partial<RevocableGrant>, nowS = NOW, keyId = 'k1') =>
-    new RevocationList({ keyId, payload }).revokes({ ...grant, ...change }, nowS);
+    knownFrom(payload, keyId).revokes({ ...grant, ...change }, nowS);
 
   it.each([
     [true, { id: 'g1' }],
@@ -166,7 +172,7 @@ describe('a list revokes', () => {
       { sub: 'ada', before: NOW, exp: NOW + 1 },
       { sub: 'ada', before: NOW - 50, exp: NOW + 100 },
     ];
-    const list = new RevocationList({ keyId: 'k1', payload: { ...empty, subjects } });
+    const list = knownFrom({ ...empty, subjects });
     const ada = { ...grant, subject: 'ada' };
     expect(list.revokes({ ...ada, issuedAtS: NOW - 10 }, NOW)).toBe(true);
     expect(list.revokes({ ...ada, issuedAtS: NOW - 10 }, NOW + 1)).toBe(false);
@@ -209,7 +215,7 @@ describe('the next list', () => {
     const first = extendRevocations(null, { ...add, ids: [] }, 'i', NOW);
     const twice = extendRevocations(first, { ...add, ids: [] }, 'i', NOW + 5);
     expect(twice.subjects).toEqual([{ sub: 'eve', before: NOW + 6, exp: NOW + 1000 }]);
-    const list = new RevocationList({ keyId: 'k1', payload: first });
+    const list = knownFrom(first);
     const read = async (claims: typeof before.claims) =>
       verifyGrant(await issueGrant(claims, issuer.signingKey), { keys, robot: null, nowS: NOW + 1 });
     expect(list.revokes(await read(before.claims), NOW + 1)).toBe(true);

@@ -15,7 +15,7 @@ export const MAX_REVOCATIONS = 1024;
 export const revocationsRefusals = [
   'revocations-malformed', // not a list
   'revocations-untrusted', // not signed by a key that counts here
-  'revocations-older', // not newer than the list that is known from this key
+  'revocations-older', // not newer than the list that is known from this key, and nothing in it is new
 ] as const;
 export type RevocationsRefusal = (typeof revocationsRefusals)[number];
 
@@ -103,31 +103,3 @@ export function readRevocations(text: string): Revocations {
 
 /** A grant, as far as its revocation goes. */
 export type RevocableGrant = Pick<Grant, 'id' | 'subject' | 'keyId' | 'issuedAtS'>;
-
-/** The newest list of one key, ready to be asked about each operator many times a second. */
-export class RevocationList {
-  readonly keyId: string;
-  readonly sequence: number;
-  readonly #grants: ReadonlyMap<string, number>;
-  readonly #subjects = new Map<string, { before: number; exp: number }[]>();
-
-  constructor({ keyId, payload }: Revocations) {
-    this.keyId = keyId;
-    this.sequence = payload.seq;
-    const grants = new Map<string, number>();
-    for (const { jti, exp } of payload.grants) grants.set(jti, Math.max(exp, grants.get(jti) ?? 0));
-    this.#grants = grants;
-    for (const { sub, before, exp } of payload.subjects) {
-      const entries = this.#subjects.get(sub);
-      if (entries === undefined) this.#subjects.set(sub, [{ before, exp }]);
-      else entries.push({ before, exp });
-    }
-  }
-
-  /** @param nowS seconds since 1970 */
-  revokes({ id, subject, keyId, issuedAtS }: RevocableGrant, nowS: number): boolean {
-    if (keyId !== this.keyId) return false;
-    if ((this.#grants.get(id) ?? 0) > nowS) return true;
-    return this.#subjects.get(subject)?.some(({ before, exp }) => issuedAtS < before && exp > nowS) ?? false;
-  }
-}

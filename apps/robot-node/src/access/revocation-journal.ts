@@ -4,7 +4,12 @@
  */
 import { readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
-import { RevocationsRefusedError, readRevocations } from '@farpoint/grants';
+import {
+  MAX_KNOWN_REVOCATIONS,
+  MAX_SUBJECT_LENGTH,
+  RevocationsRefusedError,
+  readRevocations,
+} from '@farpoint/grants';
 import { makeFolder, replaceFile } from '@farpoint/service';
 import { z } from 'zod';
 
@@ -21,13 +26,28 @@ export type BlockedGrant = z.infer<typeof blockedSchema>;
 export const MAX_LISTS = 64;
 export const MAX_BLOCKED = 1024;
 
-const stateSchema = z.strictObject({
-  version: z.literal(1),
-  /** Compact JWS, one for each key. */
-  lists: z.array(z.string()).max(MAX_LISTS),
-  blocked: z.array(blockedSchema).max(MAX_BLOCKED),
+const dateSchema = z.int().min(0);
+/** What one key has revoked, by all its lists. */
+const revokedSchema = z.strictObject({
+  keyId: z.string().max(128),
+  /** Of the newest list. */
+  sequence: z.int().min(0),
+  grants: z.array(z.strictObject({ jti: z.string().max(64), exp: dateSchema })).max(MAX_KNOWN_REVOCATIONS),
+  subjects: z
+    .array(z.strictObject({ sub: z.string().max(MAX_SUBJECT_LENGTH), before: dateSchema, exp: dateSchema }))
+    .max(MAX_KNOWN_REVOCATIONS),
 });
-export type RevocationState = Omit<z.infer<typeof stateSchema>, 'version'>;
+
+const blocked = z.array(blockedSchema).max(MAX_BLOCKED);
+const stateSchema = z.union([
+  z.strictObject({ version: z.literal(2), revoked: z.array(revokedSchema).max(MAX_LISTS), blocked }),
+  /** As earlier versions wrote it: the newest list of each key, in its compact form. */
+  z.strictObject({ version: z.literal(1), lists: z.array(z.string()).max(MAX_LISTS), blocked }),
+]);
+export interface RevocationState {
+  revoked: z.infer<typeof revokedSchema>[];
+  blocked: BlockedGrant[];
+}
 
 /** What the robot remembered cannot be used: nobody can tell who was revoked. */
 export class RevocationJournalError extends Error {
@@ -50,9 +70,9 @@ export class RevocationJournal {
   }
 
   /** @throws {Error} of the system; what was written before is then still there */
-  write({ lists, blocked }: RevocationState): void {
+  write({ revoked, blocked }: RevocationState): void {
     makeFolder(dirname(this.#path), 0o750);
-    replaceFile(this.#path, `${JSON.stringify({ version: 1, lists, blocked })}\n`, 0o640);
+    replaceFile(this.#path, `${JSON.stringify({ version: 2, revoked, blocked })}\n`, 0o640);
   }
 }
 
@@ -61,13 +81,17 @@ function read(path: string): RevocationState {
   try {
     text = readFileSync(path, 'utf8');
   } catch (error) {
-    if ((error as NodeJS.ErrnoException).code === 'ENOENT') return { lists: [], blocked: [] };
+    if ((error as NodeJS.ErrnoException).code === 'ENOENT') return { revoked: [], blocked: [] };
     throw new RevocationJournalError(`${path}: ${(error as Error).message}`);
   }
   try {
-    const { lists, blocked } = stateSchema.parse(JSON.parse(text));
-    lists.forEach(readRevocations);
-    return { lists, blocked };
+    const state = stateSchema.parse(JSON.parse(text));
+    if (state.version === 2) return { revoked: state.revoked, blocked: state.blocked };
+    const revoked = state.lists.map((list) => {
+      const { keyId, payload } = readRevocations(list);
+      return { keyId, sequence: payload.seq, grants: payload.grants, subjects: payload.subjects };
+    });
+    return { revoked, blocked: state.blocked };
   } catch (error) {
     const known = error instanceof z.ZodError || error instanceof SyntaxError;
     if (!known && !(error instanceof RevocationsRefusedError)) throw error;

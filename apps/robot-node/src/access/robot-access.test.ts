@@ -25,7 +25,7 @@ async function setUp() {
   const log = { ...silentLogger(), warn: vi.fn(), info: vi.fn() };
   const refusals = new ReasonCounts();
   const access = new RobotAccess({
-    files: { keys: file, journal: { start: { lists: [], blocked: [] }, write: vi.fn() }, revocations: [] },
+    files: { keys: file, journal: { start: { revoked: [], blocked: [] }, write: vi.fn() }, revocations: [] },
     ...{ robot: 'r1', refusals, revocationLists: new ReasonCounts(), nowS: () => nowS, now: () => nowMs },
     log: log as unknown as ReturnType<typeof silentLogger>,
   });

@@ -1,9 +1,9 @@
 import {
   type GrantKeys,
+  KnownRevocations,
   type RevocableGrant,
-  RevocationList,
+  type Revocations,
   RevocationsRefusedError,
-  readRevocations,
   verifyRevocations,
 } from '@farpoint/grants';
 import type { Logger } from '@farpoint/service';
@@ -30,16 +30,16 @@ export const SIGNALING = 'signaling';
 /** Lists whose key is not known, yet: it may be read a moment later. */
 const MAX_WAITING = 16;
 
-interface KnownList {
-  list: RevocationList;
-  text: string;
-}
+/** Lists that were taken and are sent again at every welcome. */
+const MAX_SEEN = 64;
 
 /** Which grants the robot takes no more: its issuer has revoked them, or a supervisor has blocked them here. */
 export class RobotRevocations {
   readonly #options: RobotRevocationsOptions;
-  /** The newest list of each key, by `kid`. */
-  readonly #lists = new Map<string, KnownList>();
+  /** What each key has revoked, by `kid`. */
+  readonly #known = new Map<string, KnownRevocations>();
+  /** Lists that have been taken, the latest last. */
+  readonly #seen = new Set<string>();
   /** When blocked grants end, seconds since 1970, by `kid` and id. */
   readonly #blocked = new Map<string, Map<string, number>>();
   readonly #waiting = new Set<string>();
@@ -49,22 +49,23 @@ export class RobotRevocations {
 
   constructor(options: RobotRevocationsOptions) {
     this.#options = options;
-    const { lists, blocked } = options.journal.start;
-    for (const text of lists) {
-      const revocations = readRevocations(text);
-      this.#lists.set(revocations.keyId, { list: new RevocationList(revocations), text });
+    const { revoked, blocked } = options.journal.start;
+    for (const { keyId, sequence, ...entries } of revoked) {
+      const known = new KnownRevocations(keyId);
+      known.add({ seq: sequence, ...entries }, options.nowS());
+      this.#known.set(keyId, known);
     }
     for (const { keyId, id, expiresAtS } of blocked) this.#remember(keyId, id, expiresAtS);
   }
 
   /**
-   * Takes a list, if it is genuine and newer than the one that is known. Never rejects.
+   * Takes a list, if it is genuine. What was revoked before stays revoked, whatever the list says. Never rejects.
    *
    * @param from the signaling service, or the robot's own file: its path
    */
   async take(text: string, from: string): Promise<void> {
     const { keys, outcomes, log, now } = this.#options;
-    for (const known of this.#lists.values()) if (known.text === text) return;
+    if (this.#seen.has(text)) return;
     const sent = from === SIGNALING;
     // Whatever the service sends, the robot's own files are read.
     if (sent && !this.#work.take(now())) {
@@ -73,30 +74,14 @@ export class RobotRevocations {
     }
     try {
       const revocations = await verifyRevocations(text, keys());
-      const list = new RevocationList(revocations);
-      const known = this.#lists.get(list.keyId);
-      if (known !== undefined && list.sequence <= known.list.sequence) {
-        throw new RevocationsRefusedError(
-          'revocations-older',
-          `its sequence is ${list.sequence}, and ${known.list.sequence} is known`,
-        );
-      }
-      this.#lists.delete(list.keyId);
-      this.#lists.set(list.keyId, { list, text });
-      outcomes.add('taken');
-      const { grants, subjects, iss } = revocations.payload;
-      const facts = { keyId: list.keyId, sequence: list.sequence, issuer: iss };
-      log.info(
-        { from, ...facts, grants: grants.length, subjects: subjects.length },
-        'revoked grants: a newer list',
-      );
+      this.#add(revocations, text, from);
       this.#save();
     } catch (error) {
       if (!(error instanceof RevocationsRefusedError)) {
         log.error({ err: error, from }, 'a list of revoked grants could not be verified');
         return;
       }
-      if (sent && error.reason === 'revocations-untrusted') this.#wait(text);
+      if (sent && error.reason === 'revocations-untrusted') keepLatest(this.#waiting, text, MAX_WAITING);
       outcomes.add(error.reason);
       if (this.#reports.take(now()) !== null) {
         log.warn(
@@ -117,7 +102,7 @@ export class RobotRevocations {
   /** Why a grant is not taken any more; `null` if it is. */
   refusal(grant: RevocableGrant): 'grant-revoked' | 'grant-blocked' | null {
     const nowS = this.#options.nowS();
-    if (this.#lists.get(grant.keyId)?.list.revokes(grant, nowS) === true) return 'grant-revoked';
+    if (this.#known.get(grant.keyId)?.revokes(grant, nowS) === true) return 'grant-revoked';
     return (this.#blocked.get(grant.keyId)?.get(grant.id) ?? 0) > nowS ? 'grant-blocked' : null;
   }
 
@@ -134,35 +119,64 @@ export class RobotRevocations {
     return true;
   }
 
+  /** @throws {RevocationsRefusedError} if nothing in it is new */
+  #add({ keyId, payload }: Revocations, text: string, from: string): void {
+    const { outcomes, log, nowS } = this.#options;
+    const known = this.#known.get(keyId) ?? new KnownRevocations(keyId);
+    const sequence = known.sequence;
+    const { added, missing, dropped } = known.add(payload, nowS());
+    keepLatest(this.#seen, text, MAX_SEEN);
+    if (added === 0 && payload.seq <= sequence) {
+      const detail = `its sequence is ${payload.seq}, and ${sequence} is known`;
+      throw new RevocationsRefusedError('revocations-older', detail);
+    }
+    this.#known.set(keyId, known);
+    outcomes.add(missing === 0 ? 'taken' : 'taken-shrunk');
+    const { grants, subjects, seq, iss } = payload;
+    const facts = { from, keyId, sequence: seq, issuer: iss };
+    log.info({ ...facts, grants: grants.length, subjects: subjects.length, added }, 'revoked grants: a list');
+    if (missing > 0)
+      log.warn({ ...facts, missing }, 'a newer list leaves out what is revoked still: it stays revoked');
+    if (dropped > 0)
+      log.error(
+        { ...facts, dropped },
+        'too many revoked grants: remove the key and issue grants with another',
+      );
+  }
+
   #remember(keyId: string, id: string, expiresAtS: number): void {
     const ends = this.#blocked.get(keyId) ?? new Map<string, number>();
     ends.set(id, expiresAtS);
     this.#blocked.set(keyId, ends);
   }
 
-  #wait(text: string): void {
-    this.#waiting.delete(text);
-    this.#waiting.add(text);
-    for (const oldest of this.#waiting) {
-      if (this.#waiting.size <= MAX_WAITING) break;
-      this.#waiting.delete(oldest);
-    }
-  }
-
   #save(): void {
-    const { keys, journal, log } = this.#options;
+    const { keys, journal, log, nowS } = this.#options;
     // A list stays while its key is away, in case it comes back.
-    for (const keyId of this.#lists.keys()) {
-      if (this.#lists.size <= MAX_LISTS) break;
-      if (!keys().has(keyId)) this.#lists.delete(keyId);
+    for (const keyId of this.#known.keys()) {
+      if (this.#known.size <= MAX_LISTS) break;
+      if (!keys().has(keyId)) this.#known.delete(keyId);
     }
     const blocked = [...this.#blocked].flatMap(([keyId, ends]) =>
       [...ends].map(([id, expiresAtS]) => ({ keyId, id, expiresAtS })),
     );
     try {
-      journal.write({ lists: [...this.#lists.values()].map(({ text }) => text), blocked });
+      const revoked = [...this.#known.values()].map((known) => ({
+        ...{ keyId: known.keyId, sequence: known.sequence },
+        ...known.entries(nowS()),
+      }));
+      journal.write({ revoked, blocked });
     } catch (error) {
       log.error({ err: error }, 'revoked grants cannot be stored: a restart of the robot would forget them');
     }
+  }
+}
+
+function keepLatest(texts: Set<string>, text: string, most: number): void {
+  texts.delete(text);
+  texts.add(text);
+  for (const oldest of texts) {
+    if (texts.size <= most) break;
+    texts.delete(oldest);
   }
 }
