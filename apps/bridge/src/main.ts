@@ -30,5 +30,5 @@ await runProgram(program, async ({ options, log, health, metrics, shutdown, serv
   registerBridgeMetrics(metrics, bridge);
   health.add('signaling', () => ({ ok: true, detail: { connected: bridge.signalingOpen } }));
   health.add('robots', () => ({ ok: true, detail: { known: bridge.roster.size } }));
-  await serveAdmin({ host: options.adminHost, port: options.adminPort });
+  await serveAdmin({ host: options.adminHost, port: options.adminPort, names: options.adminNames });
 });

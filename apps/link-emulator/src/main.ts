@@ -108,5 +108,5 @@ await runProgram(program, async ({ options, log, health, metrics, shutdown, serv
   shutdown.onClose('rim statistics', () => clearInterval(rim));
 
   health.add('link', () => ({ ok: true, detail: { standIns: link.ports, packets: link.packets } }));
-  await serveAdmin({ host: options.adminHost, port: options.adminPort });
+  await serveAdmin({ host: options.adminHost, port: options.adminPort, names: options.adminNames });
 });

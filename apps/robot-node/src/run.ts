@@ -89,7 +89,7 @@ export async function run(): Promise<void> {
         ok: true,
         detail: { listening: recording.live?.listening, viewers: recording.live?.report?.clients ?? 0 },
       }));
-    await serveAdmin({ host: options.adminHost, port: options.adminPort });
+    await serveAdmin({ host: options.adminHost, port: options.adminPort, names: options.adminNames });
     // If this thread or the capture thread hangs, the watchdog is not fed, and systemd restarts the robot.
     systemd?.ready(
       () => robot.captureSilenceMs < MOST_CAPTURE_SILENCE_MS,

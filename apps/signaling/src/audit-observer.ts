@@ -8,6 +8,7 @@ const AUDITED: ReadonlySet<RejectReason> = new Set([
   'not-yours',
   'full',
   'origin',
+  'host',
   'too-many-connections',
   'too-many-connections-per-address',
   'too-many-faults',

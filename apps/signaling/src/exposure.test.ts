@@ -2,7 +2,7 @@ import { OptionsError } from '@farpoint/service';
 import { describe, expect, it } from 'vitest';
 import { AccessList } from './access.ts';
 import { checkExposure, type ExposureOptions } from './exposure.ts';
-import { isOriginAllowed, type OriginPolicy } from './origin-policy.ts';
+import { judgeOrigin, type OriginPolicy } from './origin-policy.ts';
 import { parseTokens } from './token-file.ts';
 
 const closed = new AccessList(parseTokens('["a-token-of-some-length"]', false));
@@ -56,8 +56,9 @@ describe('a service that others reach', () => {
 });
 
 describe('pages', () => {
-  const isLocal: OriginPolicy = { allowed: [], isLocal: true };
-  const served: OriginPolicy = { allowed: [], isLocal: false };
+  const ownNames = new Set(['x.org']);
+  const isLocal: OriginPolicy = { allowed: [], isLocal: true, ownNames };
+  const served: OriginPolicy = { allowed: [], isLocal: false, ownNames };
   it.each([
     // Programs that are no browsers.
     [undefined, 'x.org', served, true],
@@ -71,6 +72,10 @@ describe('pages', () => {
     ['https://x.org', undefined, served, false],
     ['https://evil.example', 'x.org', { ...served, allowed: ['https://evil.example'] }, true],
     ['https://evil.example', 'x.org', { ...served, allowed: ['*'] }, true],
+    ['http://evil.example:3000', 'evil.example:3000', served, false],
+    ['http://10.0.0.5.evil.example', '10.0.0.5.evil.example', served, false],
+    // By TLS, the browser has checked that the name is the service's.
+    ['https://any.example', 'any.example', { ...served, ownNames: null }, true],
     ['http://localhost:5173', 'localhost:3000', isLocal, true],
     ['http://127.0.0.1:5173', '[::1]:3000', isLocal, true],
     ['https://evil.example', '127.0.0.1:3000', isLocal, false],
@@ -81,6 +86,6 @@ describe('pages', () => {
     ['http://127.0.0.1.evil.example', 'localhost:3000', isLocal, false],
     ['file://', 'localhost:3000', isLocal, false],
   ] as const)('from %s at host %s', (origin, host, policy, allowed) => {
-    expect(isOriginAllowed(origin, host, policy)).toBe(allowed);
+    expect(judgeOrigin(origin, host, policy) === 'allowed').toBe(allowed);
   });
 });

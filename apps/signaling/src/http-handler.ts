@@ -1,10 +1,18 @@
 import type { IncomingMessage, RequestListener } from 'node:http';
 import { isLoopbackHost } from '@farpoint/protocol';
-import { type createAdminHandler, peerAddress } from '@farpoint/service';
+import { type createAdminHandler, peerAddress, refusesHost } from '@farpoint/service';
 import type { SignalingOptions } from './options.ts';
 import { webRoot } from './web-root.ts';
 
 type HttpOptions = Pick<SignalingOptions, 'webRoot' | 'mapOrigins' | 'connectOrigins' | 'publicMetrics'>;
+
+/** Refuses requests for names that are not the service's own. @param names `null`: for no name */
+export function forOwnNames(http: RequestListener, names: ReadonlySet<string> | null): RequestListener {
+  if (names === null) return http;
+  return (request, response) => {
+    if (!refusesHost(request, response, names, '--public-names')) http(request, response);
+  };
+}
 
 /** Serves health and metrics, then the files of the web root if there is one, otherwise 404. */
 export function httpHandler(

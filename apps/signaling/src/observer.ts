@@ -15,6 +15,7 @@ export type RejectReason =
   | 'too-many-connections-per-address'
   | 'too-many-sockets' // TCP connections of one address, closed before anything is read
   | 'origin'
+  | 'host'
   | 'unknown-path';
 
 /** Receives the core's events, to turn them into metrics and log lines. */

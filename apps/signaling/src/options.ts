@@ -1,7 +1,8 @@
-import { type IceServer, iceServerSchema, MAX_SIGNALING_BYTES, signInUrlSchema } from '@farpoint/protocol';
+import { type IceServer, iceServerSchema, signInUrlSchema } from '@farpoint/protocol';
 import { defineOption, defineProgram, type OptionValues, schema } from '@farpoint/service';
 import * as z from 'zod';
 import manifest from '../package.json' with { type: 'json' };
+import { limitOptions } from './limit-options.ts';
 
 const iceServers = z.preprocess((value, context) => {
   if (typeof value !== 'string') return value;
@@ -141,6 +142,12 @@ export const program = defineProgram({
       argument: 'ORIGIN,…',
       help: 'also accept pages of these origins, e.g. https://teleop.example, or * for any; pages that this service serves and programs without an origin are always accepted',
     }),
+    publicNames: defineOption({
+      schema: schema.list(schema.text({ max: 253 })),
+      default: [],
+      argument: 'NAME,…',
+      help: 'names by which browsers reach this service without TLS of its own, e.g. teleop.example behind a proxy; addresses, localhost and the machine’s own name always work',
+    }),
     signInUrl: defineOption({
       schema: schema.optional(signInUrlSchema),
       default: null,
@@ -178,91 +185,7 @@ export const program = defineProgram({
       argument: 'S',
       help: 'how long those credentials are valid',
     }),
-    maxConnections: defineOption({
-      schema: count,
-      default: 10_000,
-      argument: 'N',
-      help: 'maximum WebSockets on all ports together',
-    }),
-    maxConnectionsPerAddress: defineOption({
-      schema: count,
-      default: 256,
-      argument: 'N',
-      help: 'maximum WebSockets from one IPv4 address or one IPv6 /64',
-    }),
-    maxRobots: defineOption({
-      // A list of this many robots, each with the longest id and name, must fit into what operators accept (1 MiB).
-      schema: schema.integer({ min: 1, max: 4900 }),
-      default: 4000,
-      argument: 'N',
-      help: 'maximum robots of each protocol',
-    }),
-    maxSessionsPerOperator: defineOption({
-      schema: count,
-      default: 16,
-      argument: 'N',
-      help: 'maximum sessions of an operator',
-    }),
-    maxSessionsPerRobot: defineOption({
-      schema: count,
-      default: 16,
-      argument: 'N',
-      help: 'maximum sessions of a robot',
-    }),
-    maxMessageBytes: defineOption({
-      schema: schema.integer({ min: 1024, max: MAX_SIGNALING_BYTES }),
-      default: MAX_SIGNALING_BYTES,
-      argument: 'BYTES',
-      help: 'maximum length of a message',
-    }),
-    messagesPerSecond: defineOption({
-      schema: schema.number({ min: 1 }),
-      default: 50,
-      argument: 'N',
-      help: 'maximum messages a second from a peer, on average',
-    }),
-    messageBurst: defineOption({
-      schema: count,
-      default: 200,
-      argument: 'N',
-      help: 'maximum messages from a peer in one burst',
-    }),
-    maxFaults: defineOption({
-      schema: count,
-      default: 50,
-      argument: 'N',
-      help: 'disconnect a peer after this many refused messages',
-    }),
-    maxBacklogBytes: defineOption({
-      schema: schema.integer({ min: 65_536 }),
-      default: 4_194_304,
-      argument: 'BYTES',
-      help: 'disconnect a peer that does not read when this many bytes are waiting for it',
-    }),
-    helloTimeoutMs: defineOption({
-      schema: count,
-      default: 10_000,
-      argument: 'MS',
-      help: 'how long a peer may take to identify itself',
-    }),
-    heartbeatMs: defineOption({
-      schema: schema.integer({ min: 100 }),
-      default: 5000,
-      argument: 'MS',
-      help: 'interval between pings; a peer that does not answer one before the next is disconnected',
-    }),
-    listIntervalMs: defineOption({
-      schema: count,
-      default: 100,
-      argument: 'MS',
-      help: 'minimum interval between two updates of an operator’s list of robots',
-    }),
-    listBytesPerSecond: defineOption({
-      schema: schema.integer({ min: 100_000 }),
-      default: 20_000_000,
-      argument: 'BYTES',
-      help: 'maximum network rate of the robot lists and their updates, for all operators together',
-    }),
+    ...limitOptions,
     auditLog: defineOption({
       schema: schema.optional(schema.text()),
       default: null,

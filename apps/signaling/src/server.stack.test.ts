@@ -1,4 +1,5 @@
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { request } from 'node:http';
 import { connect } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -203,6 +204,21 @@ describe('tokens', () => {
   });
 });
 
+/** What the service answers under a name. `fetch` sets its own. */
+function ask(port: number, path: string, host: string): Promise<{ status: number; text: string }> {
+  return new Promise((resolve, reject) => {
+    request({ port, path, host: '127.0.0.1', headers: { host } }, (response) => {
+      let text = '';
+      response.setEncoding('utf8').on('data', (part: string) => {
+        text += part;
+      });
+      response.on('end', () => resolve({ status: response.statusCode ?? 0, text }));
+    })
+      .on('error', reject)
+      .end();
+  });
+}
+
 describe('admission', () => {
   test('refuses unknown paths, foreign origins, and too many connections from one address', async () => {
     await start({ allowedOrigins: ['https://teleop.example'], maxConnectionsPerAddress: 2 });
@@ -229,6 +245,29 @@ describe('admission', () => {
     await from(`http://localhost:5173`);
     await from(service.http('').replace(/\/$/, ''));
     await service.operator();
+  });
+
+  test('open to the network, is no part of a site whose name was let point here', async () => {
+    await start({ host: '0.0.0.0', open: true, publicNames: ['teleop.example'] });
+    const { signaling: port } = service.service.ports;
+    const from = (name: string) =>
+      service.open(service.url('/operator'), {
+        origin: `http://${name}:${port}`,
+        headers: { host: `${name}:${port}` },
+      });
+    await expect(from('evil.example')).rejects.toThrow('421');
+    await from('teleop.example');
+    await from('127.0.0.1');
+    const page = async (name: string, path = '/') => {
+      const answer = await ask(port, path, `${name}:${port}`);
+      return [answer.status, answer.text.includes('--public-names')];
+    };
+    for (const path of ['/', '/healthz', '/metrics'])
+      expect(await page('evil.example', path)).toEqual([421, true]);
+    expect(await page('teleop.example', '/healthz')).toEqual([200, false]);
+    expect(await page('192.0.2.1', '/healthz')).toEqual([200, false]);
+    // A robot is no browser, and may know the service by any name.
+    await service.open(service.url('/robot'), { headers: { host: 'evil.example' } });
   });
 
   test('does not start open to the network, and stays as it was if a reload would open it', async () => {

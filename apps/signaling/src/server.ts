@@ -6,7 +6,9 @@ import {
   createAdminHandler,
   createMetrics,
   Health,
+  hostRefusal,
   type Logger,
+  ownNames,
   peerAddress,
   type Registry,
   silentLogger,
@@ -16,14 +18,14 @@ import { auditObserver } from './audit-observer.ts';
 import { systemClock } from './clock.ts';
 import { checkExposure } from './exposure.ts';
 import { FarpointHub } from './farpoint-hub.ts';
-import { httpHandler, notFound } from './http-handler.ts';
+import { forOwnNames, httpHandler, notFound } from './http-handler.ts';
 import { turnCredentials } from './ice-servers.ts';
 import { Listener, type UpgradeDecision } from './listener.ts';
 import { LiveSockets } from './live-sockets.ts';
 import { createObserver } from './metrics.ts';
 import type { Observer, Role } from './observer.ts';
 import { defaultOptions, type SignalingOptions } from './options.ts';
-import { isOriginAllowed } from './origin-policy.ts';
+import { judgeOrigin } from './origin-policy.ts';
 import type { Connection, Peer } from './peer.ts';
 import { ReferenceHub } from './reference-hub.ts';
 import { RevocationFiles } from './revocation-files.ts';
@@ -82,12 +84,14 @@ class SignalingService implements RunningSignaling {
   readonly #revocations: RevocationFiles;
   readonly #observer: Observer;
   readonly #audit: Audit;
+  readonly #ownNames: ReadonlySet<string>;
   #files: ServiceFiles;
   #listeners: Listener[] = [];
   #closing: Promise<void> | null = null;
 
   constructor(options: SignalingOptions, rim: SignalingRim) {
     this.#options = options;
+    this.#ownNames = ownNames(options.publicNames);
     this.#log = rim.log ?? silentLogger();
     const metrics = rim.metrics ?? createMetrics();
     const health = rim.health ?? new Health();
@@ -214,7 +218,7 @@ class SignalingService implements RunningSignaling {
         maxSocketsPerAddress: trustProxy ? null : maxConnectionsPerAddress + SPARE_SOCKETS,
         onSocketRefused: (address) => this.#observer.rejected('operator', 'too-many-sockets', address),
         closeTimeoutMs: shutdownMs,
-        http: this.#files.tls === null ? http : strictTransport(http),
+        http: this.#files.tls === null ? forOwnNames(http, this.#ownNames) : strictTransport(http),
         upgrade: (request) => {
           const url = URL.parse(request.url ?? '', 'http://service');
           return url === null ? { status: 400, reason: 'not a URL' } : decide(request, url);
@@ -255,10 +259,14 @@ class SignalingService implements RunningSignaling {
     const { allowedOrigins: allowed, trustProxy, host } = this.#options;
     if (this.#closing !== null) return { status: 503, reason: 'shutting down' };
     const { origin = '', host: name } = request.headers;
-    const policy = { allowed, isLocal: isLoopbackHost(host) && !trustProxy };
-    if (!isOriginAllowed(request.headers.origin, name, policy)) {
-      this.#observer.rejected(role, 'origin', origin.slice(0, 100));
-      return { status: 403, reason: 'not from this origin: see --allowed-origins' };
+    const isLocal = isLoopbackHost(host) && !trustProxy;
+    const policy = { allowed, isLocal, ownNames: this.#files.tls === null ? this.#ownNames : null };
+    const verdict = judgeOrigin(request.headers.origin, name, policy);
+    if (verdict !== 'allowed') {
+      this.#observer.rejected(role, verdict, origin.slice(0, 100));
+      return verdict === 'host'
+        ? { status: 421, reason: hostRefusal(name, '--public-names') }
+        : { status: 403, reason: 'not from this origin: see --allowed-origins' };
     }
     const address = peerAddress(request, trustProxy);
     const refusal = this.#admission.refusal(address);

@@ -24,7 +24,7 @@ describe('LiveListener', () => {
       { onInterest: () => onInterest(), onKeyNeeded: () => undefined },
     );
     server.addChannel(CHANNEL);
-    const options = { host: '127.0.0.1', port: 0, allowedOrigins: [], mostClients: 3 };
+    const options = { host: '127.0.0.1', port: 0, allowedOrigins: [], ownNames: [], mostClients: 3 };
     listener = await LiveListener.open(options, server);
   });
 
@@ -152,7 +152,10 @@ describe('LiveListener', () => {
 
   it('says that the port is taken', async () => {
     const { port } = listener;
-    const second = LiveListener.open({ host: '127.0.0.1', port, allowedOrigins: [], mostClients: 1 }, server);
+    const second = LiveListener.open(
+      { host: '127.0.0.1', port, allowedOrigins: [], ownNames: [], mostClients: 1 },
+      server,
+    );
     await expect(second).rejects.toMatchObject({ code: 'EADDRINUSE' });
   });
 });

@@ -14,6 +14,8 @@ export interface LiveListenerOptions {
   port: number;
   /** Origins of web pages that may connect, in addition to Foxglove's own and pages of this machine; `*` for all. */
   allowedOrigins: readonly string[];
+  /** Names of this machine, by which its own pages may connect. */
+  ownNames: readonly string[];
   /** Viewers at the same time. */
   mostClients: number;
 }
@@ -102,12 +104,12 @@ export class LiveListener {
     await closed;
   }
 
-  #refusalOf(
-    { headers }: IncomingMessage,
-    { allowedOrigins, mostClients }: LiveListenerOptions,
-  ): Refusal | null {
-    if (!isAllowedOrigin(headers.origin, allowedOrigins))
-      return { why: 'origin', code: 403, sentence: 'pages of this origin may not connect\n' };
+  #refusalOf({ headers }: IncomingMessage, { mostClients, ...rules }: LiveListenerOptions): Refusal | null {
+    if (!isAllowedOrigin(headers.origin, headers.host, rules)) {
+      const sentence =
+        'pages of this origin may not connect, or not by this name: see --foxglove-origins and --admin-names\n';
+      return { why: 'origin', code: 403, sentence };
+    }
     const offered = (headers['sec-websocket-protocol'] ?? '').split(',').map((name) => name.trim());
     if (!offered.some((name) => SUBPROTOCOLS.includes(name)))
       return { why: 'protocol', code: 400, sentence: `offer one of ${SUBPROTOCOLS.join(', ')}\n` };

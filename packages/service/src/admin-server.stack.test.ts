@@ -1,3 +1,4 @@
+import { request } from 'node:http';
 import { afterEach, expect, test } from 'vitest';
 import {
   type AdminServer,
@@ -76,6 +77,24 @@ test('other paths 404, other methods 405, HEAD without a body', async () => {
   expect((await get('/healthz', { method: 'POST', body: 'x' })).status).toBe(405);
   const head = await get('/healthz', { method: 'HEAD' });
   expect([head.status, await head.text()]).toEqual([200, '']);
+});
+
+test('is asked only by names of this machine', async () => {
+  const handler = createAdminHandler(new Health(), createMetrics());
+  server = await startAdminServer(handler, { host: '127.0.0.1', port: 0, names: ['robot.example'] });
+  const { port } = server;
+  const status = (host: string) =>
+    new Promise<number | undefined>((resolve, reject) => {
+      request({ port, path: '/metrics', host: '127.0.0.1', headers: { host } }, (response) => {
+        response.resume();
+        resolve(response.statusCode);
+      })
+        .on('error', reject)
+        .end();
+    });
+  expect(await status('evil.example')).toBe(421);
+  expect(await status(`localhost:${port}`)).toBe(200);
+  expect(await status('robot.example')).toBe(200);
 });
 
 test('a port that is in use is an error', async () => {

@@ -3,6 +3,7 @@ import type { AddressInfo } from 'node:net';
 import { collectDefaultMetrics, Registry } from 'prom-client';
 import type { Health } from './health.ts';
 import { listen } from './listen.ts';
+import { ownNames, refusesHost } from './own-names.ts';
 
 export { Counter, Gauge, Histogram, Registry } from 'prom-client';
 
@@ -53,6 +54,13 @@ export function createAdminHandler(health: Health, metrics: Registry): AdminHand
   };
 }
 
+export interface AdminAddress {
+  host: string;
+  port: number;
+  /** Names of this machine, besides those that it knows. */
+  names?: readonly string[];
+}
+
 export interface AdminServer {
   readonly port: number;
   close(): Promise<void>;
@@ -65,9 +73,11 @@ export interface AdminServer {
  */
 export async function startAdminServer(
   handler: AdminHandler,
-  address: { host: string; port: number },
+  { names, ...address }: AdminAddress,
 ): Promise<AdminServer> {
+  const own = ownNames(names);
   const server = createServer((request, response) => {
+    if (refusesHost(request, response, own, '--admin-names')) return;
     if (!handler(request, response)) {
       reply(request, response, 404, 'text/plain; charset=utf-8', 'this port serves /healthz and /metrics\n');
     }

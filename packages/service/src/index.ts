@@ -11,6 +11,7 @@ export * from './option-errors.ts';
 export * as schema from './option-schemas.ts';
 export * from './option-table.ts';
 export * from './options.ts';
+export * from './own-names.ts';
 export * from './peer-address.ts';
 export * from './port-holder.ts';
 export * from './program.ts';

@@ -16,7 +16,7 @@ const definition = defineProgram({
 
 await runProgram(definition, async ({ options, log, shutdown, serveAdmin }) => {
   shutdown.onClose('fixture', () => log.info('closed the fixture'));
-  await serveAdmin({ host: options.adminHost, port: options.adminPort });
+  await serveAdmin({ host: options.adminHost, port: options.adminPort, names: options.adminNames });
   log.info('up');
   if (options.fail) void Promise.reject(new Error('on purpose'));
 });

@@ -1,9 +1,15 @@
 import type { Registry } from 'prom-client';
-import { type AdminServer, createAdminHandler, createMetrics, startAdminServer } from './admin-server.ts';
+import {
+  type AdminAddress,
+  type AdminServer,
+  createAdminHandler,
+  createMetrics,
+  startAdminServer,
+} from './admin-server.ts';
 import { Health } from './health.ts';
 import { createLogger, type Logger } from './logger.ts';
 import { OptionsError } from './option-errors.ts';
-import { port, text } from './option-schemas.ts';
+import { list, port, text } from './option-schemas.ts';
 import {
   type CommonValues,
   defineOption,
@@ -25,10 +31,10 @@ export interface ProgramContext<Table extends OptionTable> {
   readonly metrics: Registry;
   readonly shutdown: Shutdown;
   /** Serves `/healthz` and `/metrics` until shutdown, for programs without an HTTP server of their own. */
-  serveAdmin(address: { host: string; port: number }): Promise<AdminServer>;
+  serveAdmin(address: AdminAddress): Promise<AdminServer>;
 }
 
-/** The two options of a program that calls `serveAdmin`. */
+/** The options of a program that calls `serveAdmin`. */
 export function adminOptions(defaultPort: number) {
   return {
     adminHost: defineOption({
@@ -44,6 +50,13 @@ export function adminOptions(defaultPort: number) {
       argument: 'PORT',
       file: 'admin.port',
       help: 'port for /healthz and /metrics; 0 takes a free one',
+    }),
+    adminNames: defineOption({
+      schema: list(text({ max: 253 })),
+      default: [],
+      argument: 'NAME,…',
+      file: 'admin.names',
+      help: 'other names under which this machine may be asked, e.g. robot.example; addresses, localhost and its own name always work',
     }),
   } satisfies OptionTable;
 }

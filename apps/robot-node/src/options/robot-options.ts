@@ -3,7 +3,7 @@ import { randomBytes } from 'node:crypto';
 import { join } from 'node:path';
 import { MOST_RESUME_MS } from '@farpoint/protocol';
 import { RosFault, type TopicEntry, topicAs } from '@farpoint/ros';
-import { type OptionMistake, OptionsError } from '@farpoint/service';
+import { type OptionMistake, OptionsError, ownNames } from '@farpoint/service';
 import { BitRate } from '@farpoint/timing';
 import { SIM_FIX, SIM_MOTORS } from '../base/sim-topics.ts';
 import type { SinkOptions } from '../drive/open-sink.ts';
@@ -132,6 +132,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
             port: values.foxglovePort,
             reach: values.foxgloveReach,
             allowedOrigins: values.foxgloveOrigins,
+            ownNames: [...ownNames(values.adminNames)],
             cloudsPerSecond: values.foxgloveFps,
           },
     record:

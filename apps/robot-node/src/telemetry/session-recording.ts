@@ -52,6 +52,8 @@ export interface LiveOptions {
   reach: (typeof FOXGLOVE_REACHES)[number];
   /** Origins of web pages that may connect, besides the viewers' own and pages of this machine. */
   allowedOrigins: readonly string[];
+  /** Of this machine, by which its own pages may connect. */
+  ownNames: readonly string[];
   /** Highest number of clouds of each kind per second. */
   cloudsPerSecond: number;
 }
@@ -105,6 +107,7 @@ export class SessionRecording implements VideoTaker {
         : {
             ...{ host: HOSTS[foxglove.reach], port: foxglove.port, mostClients: MOST_VIEWERS },
             allowedOrigins: foxglove.allowedOrigins,
+            ownNames: foxglove.ownNames,
           };
     const recorder = await SessionRecorder.open({ path, compression, robotId, epochNs, mostBytes, live });
     recorder.onFailure = (error) => log.error({ err: error }, 'the recording ends; the robot goes on');

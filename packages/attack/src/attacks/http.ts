@@ -29,7 +29,7 @@ async function atAll(scene: Scene, request: string): Promise<string[]> {
 }
 
 const get = (path: string, more = '') =>
-  `GET ${path} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n${more}\r\n`;
+  `GET ${path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n${more}\r\n`;
 
 /** A WebSocket on the ports for peers, from a page that is not ours, is not opened. */
 async function expectNoSocket({ stack }: Scene, headers: string, what: string): Promise<void> {
@@ -80,14 +80,14 @@ export const httpAttacks = attacks('http', {
   },
   'methods other than GET': async (scene) => {
     for (const method of ['POST', 'PUT', 'DELETE', 'TRACE', 'OPTIONS', 'CONNECT', 'PATCH', 'LOCK']) {
-      const request = `${method} /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Length: 1\r\n\r\nx`;
+      const request = `${method} /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nContent-Length: 1\r\n\r\nx`;
       for (const answer of await atAll(scene, request))
         mustHold(!/^HTTP\/1.1 5/.test(answer), `${method} fails`);
     }
   },
   'two lengths for one body': async (scene) => {
-    const body = '0\r\n\r\nGET /metrics HTTP/1.1\r\nHost: x\r\n\r\n';
-    const request = `POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 4\r\nTransfer-Encoding: chunked\r\n\r\n${body}`;
+    const body = '0\r\n\r\nGET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n';
+    const request = `POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 4\r\nTransfer-Encoding: chunked\r\n\r\n${body}`;
     for (const answer of await atAll(scene, request))
       mustHold(!answer.includes('farpoint_'), 'a second request was read');
   },
@@ -102,6 +102,13 @@ export const httpAttacks = attacks('http', {
   },
   'a name of the attacker’s that points to this machine': (scene) =>
     expectNoSocket(scene, 'Host: evil.example:3000\r\nOrigin: http://evil.example:3000\r\n', 'rebinding'),
+  'health, metrics and pages by a name of the attacker’s': async ({ stack }) => {
+    for (const path of ['/', '/healthz', '/metrics']) {
+      const request = `GET ${path} HTTP/1.1\r\nHost: evil.example:3000\r\nConnection: close\r\n\r\n`;
+      const answer = await raw(stack.ports.signaling, request);
+      mustHold(answer.startsWith('HTTP/1.1 421'), `${path} is answered to another site`);
+    }
+  },
   'metrics through a proxy': async ({ stack }) => {
     for (const forwarded of ['X-Forwarded-For: 203.0.113.9', 'Forwarded: for=203.0.113.9']) {
       const answer = await raw(stack.ports.signaling, get('/metrics', `${forwarded}\r\n`));
