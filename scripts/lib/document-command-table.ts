@@ -185,7 +185,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'docker build -f apps/signaling/Dockerfile -t farpoint-signaling .': {
     because: 'needs a container engine',
   },
-  'docker run -d --name farpoint-signaling --restart unless-stopped --read-only --cap-drop ALL -p 127.0.0.1:3000:3000 -v /etc/farpoint:/etc/farpoint:ro -e FARPOINT_SIGNALING_OPERATOR_TOKENS=/etc/farpoint/operator-tokens.yaml -e FARPOINT_SIGNALING_ROBOT_TOKENS=/etc/farpoint/robot-tokens.yaml -e FARPOINT_SIGNALING_TRUST_PROXY=true farpoint-signaling':
+  'docker run -d --name farpoint-signaling --restart unless-stopped --read-only --cap-drop ALL -p 127.0.0.1:3000:3000 -v /etc/farpoint:/etc/farpoint:ro -e FARPOINT_SIGNALING_OPERATOR_TOKENS=/etc/farpoint/operator-tokens.yaml -e FARPOINT_SIGNALING_ROBOT_TOKENS=/etc/farpoint/robot-tokens.yaml -e FARPOINT_SIGNALING_TRUST_PROXY=private -e FARPOINT_SIGNALING_PUBLIC_NAMES=teleop.example.org farpoint-signaling':
     { because: 'needs a container engine' },
 
   // Building, and its prerequisites.

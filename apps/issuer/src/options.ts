@@ -1,4 +1,11 @@
-import { adminOptions, defineOption, defineProgram, type OptionValues, schema } from '@farpoint/service';
+import {
+  adminOptions,
+  defineOption,
+  defineProgram,
+  type OptionValues,
+  proxies,
+  schema,
+} from '@farpoint/service';
 import manifest from '../package.json' with { type: 'json' };
 import { addressSchema, robotKeysOption, rulesSchema } from './option-values.ts';
 
@@ -99,9 +106,10 @@ export const program = defineProgram({
       help: 'how long the provider may take to answer',
     }),
     trustProxy: defineOption({
-      schema: schema.boolean(),
-      default: false,
-      help: "take the browser's address from X-Forwarded-For; use only behind a proxy that sets it",
+      schema: proxies(),
+      default: [],
+      argument: 'ADDRESS,…',
+      help: "take the browser's address from X-Forwarded-For of these proxies: addresses, networks, loopback, private",
     }),
     ...adminOptions(9700),
   },

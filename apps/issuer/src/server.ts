@@ -1,7 +1,7 @@
 /** The issuer's HTTP server: `/sign-in` and `/callback`, below the path of its public address. */
 import { createServer, type IncomingMessage, type ServerResponse } from 'node:http';
 import type { AddressInfo } from 'node:net';
-import { listen, peerAddress } from '@farpoint/service';
+import { listen, peerAddress, TrustedProxies } from '@farpoint/service';
 import { BrowserCookie } from './browser-cookie.ts';
 import type { Reply, SignInDesk } from './sign-in-desk.ts';
 
@@ -10,7 +10,8 @@ export interface ServerOptions {
   readonly port: number;
   /** The address by which browsers reach this server. */
   readonly url: string;
-  readonly trustProxy: boolean;
+  /** The proxies whose `X-Forwarded-For` counts. */
+  readonly trustProxy: readonly string[];
   /** Milliseconds since 1970. */
   readonly now: () => number;
   /** A fault of this program. The request gets no answer. */
@@ -32,6 +33,7 @@ export async function startServer(desk: SignInDesk, options: ServerOptions): Pro
   const isHttps = url.startsWith('https:');
   const cookie = new BrowserCookie(isHttps);
   const headers = securityHeaders(isHttps);
+  const proxies = new TrustedProxies(trustProxy);
 
   async function handle(
     request: IncomingMessage,
@@ -42,7 +44,7 @@ export async function startServer(desk: SignInDesk, options: ServerOptions): Pro
     if (address === null || (path !== '/sign-in' && path !== '/callback')) return NOTHING;
     if (request.method !== 'GET') return { status: 405, text: 'Only GET.' };
     const caller = {
-      address: peerAddress(request, trustProxy),
+      address: peerAddress(request, proxies),
       browser: cookie.read(request.headers.cookie),
     };
     return path === '/sign-in'

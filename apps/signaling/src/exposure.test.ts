@@ -10,7 +10,7 @@ const open = new AccessList(null);
 const tls = { cert: '', key: '' };
 const local: ExposureOptions = {
   ...{ host: '127.0.0.1', open: false, plaintextTokens: false },
-  ...{ reference: false, referenceOpen: false, trustProxy: false },
+  ...{ reference: false, referenceOpen: false, trustProxy: [] },
 };
 const everywhere = { ...local, host: '0.0.0.0' };
 
@@ -27,7 +27,11 @@ function refusal(options: ExposureOptions, files: Parameters<typeof checkExposur
 describe('a service that others reach', () => {
   it('needs tokens for robots and operators, or to be told that it is open', () => {
     expect(refusal(local, { tls: null, robots: open, operators: open })).toBeNull();
-    for (const options of [everywhere, { ...everywhere, host: '::' }, { ...local, trustProxy: true }]) {
+    for (const options of [
+      everywhere,
+      { ...everywhere, host: '::' },
+      { ...local, trustProxy: ['loopback'] },
+    ]) {
       const both = refusal(options, { tls, robots: open, operators: open });
       expect(both).toContain('set --robot-tokens and --operator-tokens, or --open');
       expect(refusal(options, { tls, robots: closed, operators: open })).toContain(
@@ -42,7 +46,7 @@ describe('a service that others reach', () => {
     const files = { tls: null, robots: closed, operators: closed };
     expect(refusal(everywhere, files)).toContain('--tls-cert');
     expect(refusal(local, files)).toBeNull();
-    for (const cure of [{ trustProxy: true }, { plaintextTokens: true }])
+    for (const cure of [{ trustProxy: ['loopback'] }, { plaintextTokens: true }])
       expect(refusal({ ...everywhere, ...cure }, files)).toBeNull();
   });
 

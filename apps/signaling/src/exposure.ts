@@ -20,15 +20,16 @@ export function checkExposure(
 ): void {
   const { host, open, plaintextTokens, reference, referenceOpen, trustProxy } = options;
   // Behind a proxy on the same machine, loopback is not private either.
-  if (isLoopbackHost(host) && !trustProxy) return;
-  const where = trustProxy ? 'behind a proxy' : `at ${host}`;
+  const isBehindProxy = trustProxy.length > 0;
+  if (isLoopbackHost(host) && !isBehindProxy) return;
+  const where = isBehindProxy ? 'behind a proxy' : `at ${host}`;
   const { robots, operators, tls } = files;
   if (!open && (robots.open || operators.open)) {
     const missing = [robots.open ? '--robot-tokens' : null, operators.open ? '--operator-tokens' : null]
       .filter((each) => each !== null)
       .join(' and ');
     throw new OptionsError(
-      trustProxy ? '--trust-proxy' : '--host',
+      isBehindProxy ? '--trust-proxy' : '--host',
       `lets everybody in who reaches the service ${where}: set ${missing}, or --open if that is what you want (because every robot asks for grants, for example)`,
     );
   }
@@ -38,7 +39,7 @@ export function checkExposure(
       `lets everybody drive the reference system's robots ${where}: leave it out, or set --open if that is what you want`,
     );
   const hasTokens = !robots.open || !operators.open;
-  if (hasTokens && tls === null && !trustProxy && !plaintextTokens)
+  if (hasTokens && tls === null && !isBehindProxy && !plaintextTokens)
     throw new OptionsError(
       '--host',
       `would have tokens sent to ${host} in the clear: set --tls-cert and --tls-key, put a proxy with TLS in front (--trust-proxy), or allow it with --plaintext-tokens`,

@@ -1,6 +1,6 @@
 import type { IncomingMessage, RequestListener } from 'node:http';
 import { isLoopbackHost } from '@farpoint/protocol';
-import { type createAdminHandler, peerAddress, refusesHost } from '@farpoint/service';
+import { type createAdminHandler, plainAddress, refusesHost } from '@farpoint/service';
 import type { SignalingOptions } from './options.ts';
 import { webRoot } from './web-root.ts';
 
@@ -34,7 +34,7 @@ export function httpHandler(
 function isOwnMachine(request: IncomingMessage): boolean {
   const { headers } = request;
   const isForwarded = headers['x-forwarded-for'] !== undefined || headers.forwarded !== undefined;
-  return !isForwarded && isLoopbackHost(peerAddress(request, false));
+  return !isForwarded && isLoopbackHost(plainAddress(request.socket.remoteAddress ?? ''));
 }
 
 export const notFound: RequestListener = (_request, response) => {

@@ -28,8 +28,10 @@ export interface ListenerOptions {
   /** Longer messages close the connection (1009). */
   readonly maxPayload: number;
   readonly maxSockets: number;
-  /** Of TCP connections; `null` behind a proxy, from whose address all of them come. */
-  readonly maxSocketsPerAddress: number | null;
+  /** Of TCP connections. */
+  readonly maxSocketsPerAddress: number;
+  /** Whether an address is a proxy's, from which all of them come. */
+  readonly isProxy: (address: string) => boolean;
   /** A connection was closed because its address has too many. */
   readonly onSocketRefused: (address: string) => void;
   readonly closeTimeoutMs: number;
@@ -60,9 +62,7 @@ export class Listener {
         ? createServer(timeouts, options.http)
         : createTlsServer({ ...timeouts, ...options.tls }, options.http);
     server.maxConnections = options.maxSockets;
-    if (options.maxSocketsPerAddress !== null) {
-      limitSocketsPerAddress(server, options.maxSocketsPerAddress, options.onSocketRefused);
-    }
+    limitSocketsPerAddress(server, options.maxSocketsPerAddress, options.isProxy, options.onSocketRefused);
     // The types of ws lack `closeTimeout`.
     const webSocketOptions: ServerOptions & { closeTimeout: number } = {
       noServer: true,

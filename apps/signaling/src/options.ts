@@ -1,5 +1,5 @@
 import { type IceServer, iceServerSchema, signInUrlSchema } from '@farpoint/protocol';
-import { defineOption, defineProgram, type OptionValues, schema } from '@farpoint/service';
+import { defineOption, defineProgram, type OptionValues, proxies, schema } from '@farpoint/service';
 import * as z from 'zod';
 import manifest from '../package.json' with { type: 'json' };
 import { limitOptions } from './limit-options.ts';
@@ -155,9 +155,10 @@ export const program = defineProgram({
       help: 'where operators sign in for a grant: the address of farpoint-issuer, e.g. https://issuer.example/sign-in',
     }),
     trustProxy: defineOption({
-      schema: schema.boolean(),
-      default: false,
-      help: "take the peer's address from X-Forwarded-For; use only behind a proxy that sets it",
+      schema: proxies(),
+      default: [],
+      argument: 'ADDRESS,…',
+      help: "take the peer's address from X-Forwarded-For of these proxies: addresses, networks such as 10.0.0.0/8, loopback, private",
     }),
     iceServers: defineOption({
       schema: iceServers,

@@ -293,12 +293,25 @@ describe('admission', () => {
   });
 
   test('uses the addresses that the proxy saw', async () => {
-    await start({ maxConnectionsPerAddress: 1, trustProxy: true, open: true });
+    await start({ maxConnectionsPerAddress: 1, trustProxy: ['loopback'], open: true });
     const via = (forwarded: string) =>
       service.open(service.url('/operator'), { headers: { 'x-forwarded-for': forwarded } });
     await via('203.0.113.9, 192.0.2.1');
     await expect(via('203.0.113.8, 192.0.2.1')).rejects.toThrow('429');
     await via('192.0.2.2');
+    // Some gateways add the port, which is another for each connection.
+    await via('203.0.113.10:4711');
+    await expect(via('203.0.113.10:4712')).rejects.toThrow('429');
+    await via('[2001:db8::1]:443');
+    await expect(via('[2001:db8:0:0::2]:444')).rejects.toThrow('429');
+  });
+
+  test('takes nobody’s word for an address but a named proxy’s', async () => {
+    await start({ maxConnectionsPerAddress: 1, trustProxy: ['192.0.2.1'], open: true });
+    const via = (forwarded: string) =>
+      service.open(service.url('/operator'), { headers: { 'x-forwarded-for': forwarded } });
+    await via('203.0.113.9');
+    await expect(via('203.0.113.10')).rejects.toThrow('429');
   });
 
   test('fails on a port in use, and leaves nothing open', async () => {

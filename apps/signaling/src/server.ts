@@ -12,6 +12,7 @@ import {
   peerAddress,
   type Registry,
   silentLogger,
+  TrustedProxies,
 } from '@farpoint/service';
 import { Admission } from './admission.ts';
 import { auditObserver } from './audit-observer.ts';
@@ -85,6 +86,7 @@ class SignalingService implements RunningSignaling {
   readonly #observer: Observer;
   readonly #audit: Audit;
   readonly #ownNames: ReadonlySet<string>;
+  readonly #proxies: TrustedProxies;
   #files: ServiceFiles;
   #listeners: Listener[] = [];
   #closing: Promise<void> | null = null;
@@ -92,6 +94,7 @@ class SignalingService implements RunningSignaling {
   constructor(options: SignalingOptions, rim: SignalingRim) {
     this.#options = options;
     this.#ownNames = ownNames(options.publicNames);
+    this.#proxies = new TrustedProxies(options.trustProxy);
     this.#log = rim.log ?? silentLogger();
     const metrics = rim.metrics ?? createMetrics();
     const health = rim.health ?? new Health();
@@ -205,8 +208,7 @@ class SignalingService implements RunningSignaling {
     http: RequestListener,
     decide: (request: IncomingMessage, url: URL) => UpgradeDecision,
   ): Promise<void> {
-    const { host, maxMessageBytes, maxConnections, maxConnectionsPerAddress, trustProxy, shutdownMs } =
-      this.#options;
+    const { host, maxMessageBytes, maxConnections, maxConnectionsPerAddress, shutdownMs } = this.#options;
     this.#listeners.push(
       await Listener.open({
         host,
@@ -215,7 +217,8 @@ class SignalingService implements RunningSignaling {
         // A message slightly above the limit gets an error; one far above it closes the connection.
         maxPayload: 2 * maxMessageBytes,
         maxSockets: maxConnections + 256,
-        maxSocketsPerAddress: trustProxy ? null : maxConnectionsPerAddress + SPARE_SOCKETS,
+        maxSocketsPerAddress: maxConnectionsPerAddress + SPARE_SOCKETS,
+        isProxy: (address) => this.#proxies.has(address),
         onSocketRefused: (address) => this.#observer.rejected('operator', 'too-many-sockets', address),
         closeTimeoutMs: shutdownMs,
         http: this.#files.tls === null ? forOwnNames(http, this.#ownNames) : strictTransport(http),
@@ -259,7 +262,7 @@ class SignalingService implements RunningSignaling {
     const { allowedOrigins: allowed, trustProxy, host } = this.#options;
     if (this.#closing !== null) return { status: 503, reason: 'shutting down' };
     const { origin = '', host: name } = request.headers;
-    const isLocal = isLoopbackHost(host) && !trustProxy;
+    const isLocal = isLoopbackHost(host) && trustProxy.length === 0;
     const policy = { allowed, isLocal, ownNames: this.#files.tls === null ? this.#ownNames : null };
     const verdict = judgeOrigin(request.headers.origin, name, policy);
     if (verdict !== 'allowed') {
@@ -268,7 +271,7 @@ class SignalingService implements RunningSignaling {
         ? { status: 421, reason: hostRefusal(name, '--public-names') }
         : { status: 403, reason: 'not from this origin: see --allowed-origins' };
     }
-    const address = peerAddress(request, trustProxy);
+    const address = peerAddress(request, this.#proxies);
     const refusal = this.#admission.refusal(address);
     if (refusal !== null) {
       this.#observer.rejected(role, refusal, address);

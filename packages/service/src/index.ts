@@ -22,4 +22,5 @@ export * from './shutdown.ts';
 export { StartFailure } from './start-failure.ts';
 export { fileFault } from './system-error.ts';
 export * from './text-file.ts';
+export { proxies, TrustedProxies } from './trusted-proxies.ts';
 export { WatchedText, type WatchedTextOptions } from './watched-text.ts';
