@@ -52,7 +52,7 @@ export const program = defineProgram({
       help: 'the name of this program at the provider',
     }),
     clientSecret: defineOption({
-      schema: schema.optional(schema.text({ max: 4096 })),
+      schema: schema.optional(schema.secret(schema.text({ max: 4096 }))),
       default: null,
       argument: 'SECRET',
       help: 'its password there, unless it is a public client; set it in the environment or the file rather than as a flag',

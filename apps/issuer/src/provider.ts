@@ -1,5 +1,7 @@
 /** The OpenID Connect provider: the code flow with PKCE, by openid-client. */
+
 import { isProtectedUrl } from '@farpoint/protocol';
+import type { Secret } from '@farpoint/service';
 import {
   allowInsecureRequests,
   authorizationCodeGrant,
@@ -20,7 +22,7 @@ export interface ProviderOptions {
   /** The provider's issuer: an https address (http on loopback only). */
   provider: string;
   clientId: string;
-  clientSecret: string | null;
+  clientSecret: Secret | null;
   /** Scopes, separated by spaces. */
   scope: string;
   /** Also asks the provider's UserInfo endpoint. */
@@ -122,7 +124,7 @@ export class Provider {
     const { provider, clientId, clientSecret, timeoutMs } = this.#options;
     const url = new URL(provider);
     const onLoopback = url.protocol === 'http:' && isProtectedUrl(provider);
-    return discovery(url, clientId, clientSecret ?? undefined, clientSecret === null ? None() : undefined, {
+    return discovery(url, clientId, clientSecret?.reveal(), clientSecret === null ? None() : undefined, {
       execute: [enableNonRepudiationChecks, ...(onLoopback ? [allowInsecureRequests] : [])],
       timeout: timeoutMs / 1000,
     });

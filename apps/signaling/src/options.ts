@@ -174,7 +174,7 @@ export const program = defineProgram({
       help: 'TURN servers that share --turn-secret with this service (coturn: use-auth-secret)',
     }),
     turnSecret: defineOption({
-      schema: schema.optional(schema.text()),
+      schema: schema.optional(schema.secret(schema.text())),
       default: null,
       argument: 'SECRET',
       help: 'secret from which the credentials for --turn-urls are made; set it in the environment or the file rather than as a flag',

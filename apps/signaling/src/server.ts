@@ -116,7 +116,11 @@ class SignalingService implements RunningSignaling {
           ? []
           : [
               turnCredentials(
-                { urls: options.turnUrls, secret: options.turnSecret, ttlSeconds: options.turnTtlSeconds },
+                {
+                  urls: options.turnUrls,
+                  secret: options.turnSecret.reveal(),
+                  ttlSeconds: options.turnTtlSeconds,
+                },
                 name,
                 Date.now() / 1000,
               ),

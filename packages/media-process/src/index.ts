@@ -1,6 +1,7 @@
 export { gstPipelineSchema } from './gst-pipeline.ts';
 export { type Child, KeptChild, type Retry } from './kept-child.ts';
 export { type ChildEnd, MediaChild, type MediaChildEvents } from './media-child.ts';
+export { mediaEnvironment } from './media-environment.ts';
 export { WireError, type WireErrorCode } from './wire-error.ts';
 export { type LogLine, parseLogLine, parseWireJson } from './wire-json.ts';
 export {

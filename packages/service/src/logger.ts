@@ -2,6 +2,7 @@ import { type DestinationStream, destination, type Logger, pino } from 'pino';
 import { isJournal, toJournal } from './journal.ts';
 import { formatLogLine } from './log-format.ts';
 import type { CommonValues } from './option-table.ts';
+import { withoutCredentials } from './without-credentials.ts';
 
 export type { Logger } from 'pino';
 
@@ -16,11 +17,13 @@ export interface LoggerOptions {
 
 /**
  * One JSON object per line for machines, or one readable line on a terminal. Errors are under the key `err`, remedies
- * under `remedy`. In systemd's journal, each line has its level as priority.
+ * under `remedy`. No line shows user names, passwords and tokens in URLs. In systemd's journal, each line has its level as priority.
  */
 export function createLogger(options: LoggerOptions): Logger {
   const tty = options.stream === undefined ? process.stdout.isTTY === true : options.stream.isTTY === true;
-  const out = options.stream ?? standardOutput();
+  const plain = options.stream ?? standardOutput();
+  // Here, where every line passes: an address may be in any message, detail or stack.
+  const out = { write: (line: string) => void plain.write(withoutCredentials(line)) };
   const readable = options.format === 'text' || (options.format === 'auto' && tty);
   return pino(
     {

@@ -1,4 +1,5 @@
 import * as z from 'zod';
+import { Secret } from './secret.ts';
 
 /**
  * Schemas for options. Each accepts both text from a flag or the environment and typed values from YAML. Its messages
@@ -80,6 +81,14 @@ export function list<T>(element: z.core.$ZodType<T>): z.ZodType<T[]> {
         : value,
     z.array(element, 'must be a list'),
   ) as z.ZodType<T[]>;
+}
+
+/** A text that is never shown. */
+export function secret(schema: z.core.$ZodType<string>): z.ZodType<Secret> {
+  return z.pipe(
+    schema,
+    z.transform((text: string) => new Secret(text)),
+  );
 }
 
 /** An option that may be omitted. Its default is `null`. */

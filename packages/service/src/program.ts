@@ -20,6 +20,7 @@ import {
 import { resolveOptions } from './options.ts';
 import { Shutdown } from './shutdown.ts';
 import { startFailureOf } from './start-failure.ts';
+import { withoutCredentials } from './without-credentials.ts';
 
 /** What the framework provides to a running program. */
 export interface ProgramContext<Table extends OptionTable> {
@@ -130,7 +131,8 @@ export async function runProgram<const Table extends OptionTable>(
 
 /** For standard error: one sentence, or a list of them. */
 export function mistakesText(program: string, { message, mistakes }: OptionsError): string {
-  if (mistakes.length === 1) return `${program}: ${message}\n`;
-  const lines = message.split('\n').map((line) => `  ${line}\n`);
+  const shown = withoutCredentials(message);
+  if (mistakes.length === 1) return `${program}: ${shown}\n`;
+  const lines = shown.split('\n').map((line) => `  ${line}\n`);
   return `${program}: ${mistakes.length} mistakes in the options:\n${lines.join('')}`;
 }

@@ -1,11 +1,10 @@
 import type { OptionTable } from './option-table.ts';
+import { withoutCredentials } from './without-credentials.ts';
 
 type Json = null | boolean | number | string | readonly Json[] | { readonly [key: string]: Json };
 
 /** Members of nested values that are secrets, whatever option they are in. */
 const SECRET_MEMBER = /credential|password|passwd|secret|token|(^|[a-z])key$/i;
-/** User name and password in a URL (RFC 3986, 3.2.1). */
-const USER_INFO = /(\/\/)[^/?#@\s]*@/g;
 
 /**
  * The values that differ from their defaults, as JSON, without secrets: of a secret option, or a nested member whose
@@ -33,7 +32,7 @@ function toJson(value: unknown): Json {
 }
 
 function withoutSecrets(value: Json): Json {
-  if (typeof value === 'string') return value.replaceAll(USER_INFO, '$1…@');
+  if (typeof value === 'string') return withoutCredentials(value);
   if (typeof value !== 'object' || value === null) return value;
   if (isList(value)) return value.map(withoutSecrets);
   return Object.fromEntries(

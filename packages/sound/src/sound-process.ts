@@ -4,6 +4,7 @@ import {
   KeptChild,
   type LogLine,
   MediaChild,
+  mediaEnvironment,
   type Retry,
   type WireMessage,
   writeOpen,
@@ -94,7 +95,7 @@ export class SoundProcess {
   }
 
   #start(): MediaChild {
-    const { role, onLog, program = ADDON_FILE, env = process.env } = this.#options;
+    const { role, onLog, program = ADDON_FILE, env = mediaEnvironment(process.env) } = this.#options;
     let failure: SoundFailure | null = null;
     const child = new MediaChild(program, env, new MessageParser(), {
       onMessage: (message) => {

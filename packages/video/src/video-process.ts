@@ -1,4 +1,5 @@
 /** The encoded pictures of one camera, from a process of its own that is started again when it ends. */
+import { mediaEnvironment } from '@farpoint/media-process';
 import { Backoff } from '@farpoint/timing';
 import { ADDON_FILE } from './build.ts';
 import { EncoderChild } from './encoder-child.ts';
@@ -169,7 +170,13 @@ export class VideoProcess {
   }
 
   #start(): void {
-    const { onFrame, onState, onLog, program = ADDON_FILE, env = process.env } = this.#options;
+    const {
+      onFrame,
+      onState,
+      onLog,
+      program = ADDON_FILE,
+      env = mediaEnvironment(process.env),
+    } = this.#options;
     this.#starts++;
     this.#firstFrameMs = null;
     this.#child = new EncoderChild(program, env, {

@@ -1,13 +1,15 @@
+import type { Secret } from '@farpoint/service';
+
 /** Where a robot's broadcast goes, and what it may take. */
 export interface BroadcastOptions {
   /** Janus' WebSocket. */
   url: string;
   /** Whoever has it may create mountpoints; `null` if Janus asks for none. */
-  adminKey: string | null;
+  adminKey: Secret | null;
   /** The mountpoint's number in Janus. */
   mountpoint: number;
   /** Asked of those who watch; `null` for none. */
-  pin: string | null;
+  pin: Secret | null;
   /** Where Janus takes the packets, if not at the WebSocket's host. */
   host: string | null;
   /** On the wire, at most, bit/s. */

@@ -71,7 +71,7 @@ export class MountpointKeeper {
     this.#parts = parts;
     this.#events = events;
     const { adminKey, mountpoint } = parts.options;
-    this.#secret = createHmac('sha256', adminKey ?? '')
+    this.#secret = createHmac('sha256', adminKey?.reveal() ?? '')
       .update(`farpoint mountpoint ${mountpoint}`)
       .digest('hex');
   }
@@ -166,7 +166,15 @@ export class MountpointKeeper {
     // Janus listens at 127.0.0.1 rather than at ::1.
     const { address } = await lookup(target, target === 'localhost' ? { family: 4 } : {});
     const { ports } = await client.create({
-      ...{ id, adminKey, pin, media, srtp, secret: this.#secret, metadata: metadata() },
+      ...{
+        id,
+        adminKey: adminKey?.reveal() ?? null,
+        pin: pin?.reveal() ?? null,
+        media,
+        srtp,
+        secret: this.#secret,
+        metadata: metadata(),
+      },
       ...{ name: `farpoint-${id}`, description: name, address: here ? address : null },
     });
     const byMid = new Map(

@@ -7,6 +7,7 @@ import { type AddressInfo, createServer } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { freePorts, hasTurnServer, LocalStack, TURN_REMEDY, TurnServer } from '@farpoint/local-stack';
+import { Secret } from '@farpoint/service';
 import { selfSigned } from '@farpoint/service/testing/self-signed';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { WebSocketServer } from 'ws';
@@ -39,7 +40,17 @@ describe('a real signaling service', () => {
   });
 
   const probe = (id: string, token: string | null) =>
-    probeSignaling({ url: stack.signalingUrl, id, name: 'Rover', token, ca: null }, LONG_MS, now);
+    probeSignaling(
+      {
+        url: stack.signalingUrl,
+        id,
+        name: 'Rover',
+        token: token === null ? null : new Secret(token),
+        ca: null,
+      },
+      LONG_MS,
+      now,
+    );
 
   it('accepts a robot with its token, and gives the ICE servers and the time', async () => {
     const answer = await probe('rover-1', 'the-token');

@@ -1,4 +1,5 @@
 /** The doctor's report for people and for programs. */
+import { withoutCredentials } from '@farpoint/service';
 import type { Finding, Verdict } from './finding.ts';
 
 const SIGNS: Record<Verdict, string> = { ok: '✓', warn: '!', fail: '✗' };
@@ -8,7 +9,7 @@ const NAME_WIDTH = 15;
 export function findingLine({ check, verdict, detail, remedy }: Finding): string {
   const what = remedy === undefined ? detail : `${detail} → ${remedy}`;
   // A message from another program may contain newlines.
-  return `${SIGNS[verdict]} ${check.padEnd(NAME_WIDTH)} ${what.replaceAll(/\s*\n\s*/g, '; ')}\n`;
+  return `${SIGNS[verdict]} ${check.padEnd(NAME_WIDTH)} ${withoutCredentials(what.replaceAll(/\s*\n\s*/g, '; '))}\n`;
 }
 
 export function summaryLine(findings: readonly Finding[]): string {
@@ -20,7 +21,7 @@ export function summaryLine(findings: readonly Finding[]): string {
 /** `--json`: a single object. */
 export function jsonReport(findings: readonly Finding[]): string {
   const { fail } = countVerdicts(findings);
-  return `${JSON.stringify({ ready: fail === 0, findings }, null, 2)}\n`;
+  return `${withoutCredentials(JSON.stringify({ ready: fail === 0, findings }, null, 2))}\n`;
 }
 
 export function countVerdicts(findings: readonly Finding[]): Record<Verdict, number> {

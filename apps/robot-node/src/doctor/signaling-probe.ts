@@ -73,7 +73,9 @@ export function probeSignaling(
     socket.on('open', () => {
       const key = randomBytes(16).toString('hex');
       const hello = { type: 'robot.hello', protocol: PROTOCOL_VERSION, id, name, key } as const;
-      socket.send(encodeJson(robotToServiceCodec, { ...hello, ...(token === null ? {} : { token }) }));
+      socket.send(
+        encodeJson(robotToServiceCodec, { ...hello, ...(token === null ? {} : { token: token.reveal() }) }),
+      );
     });
     socket.on('message', (data: Buffer, binary: boolean) => {
       try {

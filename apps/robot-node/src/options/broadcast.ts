@@ -13,7 +13,7 @@ export const broadcastOptions = optionGroup('broadcast', {
     help: 'feed this Janus once, for any number of viewers (docs/janus.md): address of its WebSocket',
   }),
   broadcastAdminKey: defineOption({
-    schema: schema.optional(schema.text({ max: 256 })),
+    schema: schema.optional(schema.secret(schema.text({ max: 256 }))),
     default: null,
     argument: 'KEY',
     file: 'adminKey',
@@ -28,7 +28,7 @@ export const broadcastOptions = optionGroup('broadcast', {
     help: 'number of the robot’s mountpoint, different for each robot at one Janus',
   }),
   broadcastPin: defineOption({
-    schema: schema.optional(schema.text({ max: 64 })),
+    schema: schema.optional(schema.secret(schema.text({ max: 64 }))),
     default: null,
     argument: 'PIN',
     file: 'pin',

@@ -3,7 +3,7 @@ import { randomBytes } from 'node:crypto';
 import { join } from 'node:path';
 import { MOST_RESUME_MS } from '@farpoint/protocol';
 import { RosFault, type TopicEntry, topicAs } from '@farpoint/ros';
-import { type OptionMistake, OptionsError, ownNames } from '@farpoint/service';
+import { type OptionMistake, OptionsError, ownNames, Secret } from '@farpoint/service';
 import { BitRate } from '@farpoint/timing';
 import { SIM_FIX, SIM_MOTORS } from '../base/sim-topics.ts';
 import type { SinkOptions } from '../drive/open-sink.ts';
@@ -61,7 +61,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     name: values.name,
     signaling: {
       url: values.signaling,
-      key: values.key ?? randomBytes(16).toString('hex'),
+      key: values.key ?? new Secret(randomBytes(16).toString('hex')),
       token: values.token,
       ca,
     },

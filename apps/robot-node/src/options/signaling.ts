@@ -22,7 +22,7 @@ export const signalingOptions = optionGroup('signaling', {
     help: 'PEM file with the certificate authorities to trust for wss://, instead of the system’s',
   }),
   token: defineOption({
-    schema: schema.optional(tokenSchema),
+    schema: schema.optional(schema.secret(tokenSchema)),
     default: null,
     argument: 'TOKEN',
     secret: true,
@@ -34,7 +34,7 @@ export const signalingOptions = optionGroup('signaling', {
     help: 'send the token even over ws:// to another machine, where others on the way can read it',
   }),
   key: defineOption({
-    schema: schema.optional(handleSchema),
+    schema: schema.optional(schema.secret(handleSchema)),
     default: null,
     argument: 'KEY',
     secret: true,

@@ -6,7 +6,7 @@ import {
   robotToServiceCodec,
   type ServiceToRobot,
 } from '@farpoint/protocol';
-import { createLogger, silentLogger } from '@farpoint/service';
+import { createLogger, Secret, silentLogger } from '@farpoint/service';
 import { afterEach, describe, expect, it } from 'vitest';
 import { type WebSocket, WebSocketServer } from 'ws';
 import { SignalingClient } from './signaling-client.ts';
@@ -35,8 +35,9 @@ async function service(port = 0) {
 
 function client(port: number, token: string | null = null, log = silentLogger(), base = '') {
   const url = `ws://127.0.0.1:${port}${base}`;
-  const options = { url, id: 'r1', name: 'Robot', key: 'k1', token, ca: null };
-  const made = new SignalingClient(options, log);
+  const options = { url, id: 'r1', name: 'Robot', key: new Secret('k1'), ca: null };
+  const shown = token === null ? null : new Secret(token);
+  const made = new SignalingClient({ ...options, token: shown }, log);
   cleanups.push(() => made.close());
   return made;
 }

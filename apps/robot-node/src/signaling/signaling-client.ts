@@ -10,7 +10,7 @@ import {
   serviceToRobotCodec,
   signalingEndpoint,
 } from '@farpoint/protocol';
-import type { Logger } from '@farpoint/service';
+import type { Logger, Secret } from '@farpoint/service';
 import { Reconnect } from '@farpoint/timing';
 import { WebSocket } from 'ws';
 
@@ -20,8 +20,8 @@ export interface SignalingOptions {
   id: string;
   name: string;
   /** Proves after a reconnect that this is the same robot. */
-  key: string;
-  token: string | null;
+  key: Secret;
+  token: Secret | null;
   /** PEM of certificate authorities to trust instead of the system's. */
   ca: string | null;
 }
@@ -146,8 +146,8 @@ export class SignalingClient {
         protocol: PROTOCOL_VERSION,
         id,
         name,
-        key,
-        ...(token === null ? {} : { token }),
+        key: key.reveal(),
+        ...(token === null ? {} : { token: token.reveal() }),
       };
       socket.send(encodeJson(robotToServiceCodec, hello));
       this.#heartbeat = setInterval(() => {

@@ -40,13 +40,16 @@ it('ROS is sourced if both of its variables are set', () => {
 });
 
 describe('the environment of its process', () => {
-  it('equals ours by default, without systemd’s variables', () => {
+  it('is what ROS needs of ours, without systemd’s variables and secrets', () => {
     const env = {
       PATH: '/bin',
       ROS_DOMAIN_ID: '3',
       NOTIFY_SOCKET: '/n',
       WATCHDOG_USEC: '1',
       WATCHDOG_PID: '2',
+      FARPOINT_ROBOT_TOKEN: 'hunter2',
+      AWS_SECRET_ACCESS_KEY: 'hunter2',
+      ROS_TOKEN: 'hunter2',
     };
     expect(rclEnvironment({}, env)).toEqual({ PATH: '/bin', ROS_DOMAIN_ID: '3' });
   });

@@ -62,12 +62,29 @@ export interface RclOptions {
   localhostOnly?: boolean | undefined;
 }
 
+/** What ROS, its middleware and Node need of our environment. Everything else stays here: it may hold tokens. */
+const NAMES: ReadonlySet<string> = new Set([
+  ...['PATH', 'HOME', 'USER', 'LOGNAME', 'SHELL', 'LANG', 'LANGUAGE', 'TZ', 'TMPDIR', 'HOSTNAME'],
+  ...['LD_LIBRARY_PATH', 'LD_PRELOAD', 'PYTHONPATH', 'NODE_PATH', 'CYCLONEDDS_URI', 'CMAKE_PREFIX_PATH'],
+]);
+const BEGINNINGS: readonly string[] = [
+  ...['LC_', 'XDG_', 'ROS_', 'RMW_', 'RCL_', 'RCUTILS_', 'AMENT_', 'COLCON_', 'RCLNODEJS_'],
+  ...['CYCLONEDDS_', 'FASTRTPS_', 'FASTDDS_', 'ZENOH_', 'NDDS', 'CONNEXTDDS_', 'IGN_', 'GZ_', 'ICEORYX_'],
+];
+/** Names that say that the value is a secret, whatever they begin with. */
+const SECRET = /token|secret|passw|credential|api_?key/i;
+
+function isOfRos(name: string): boolean {
+  if (SECRET.test(name)) return false;
+  return NAMES.has(name) || BEGINNINGS.some((beginning) => name.startsWith(beginning));
+}
+
 /**
  * The environment of a process that uses rcl: options become ROS's variables, and systemd's variables for this service
  * are removed.
  */
 export function rclEnvironment({ domain, peers, localhostOnly }: RclOptions, env: Environment): Environment {
-  const { NOTIFY_SOCKET: _, WATCHDOG_USEC: __, WATCHDOG_PID: ___, ...rest } = env;
+  const passed = Object.entries(env).filter(([name]) => isOfRos(name));
   // ROS_AUTOMATIC_DISCOVERY_RANGE came with Iron; later versions warn about the older variable.
   const reach =
     localhostOnly === undefined
@@ -76,7 +93,7 @@ export function rclEnvironment({ domain, peers, localhostOnly }: RclOptions, env
         ? { ROS_LOCALHOST_ONLY: localhostOnly ? '1' : '0' }
         : { ROS_AUTOMATIC_DISCOVERY_RANGE: localhostOnly ? 'LOCALHOST' : 'SUBNET' };
   return {
-    ...rest,
+    ...Object.fromEntries(passed),
     ...(domain === undefined ? {} : { ROS_DOMAIN_ID: String(domain) }),
     ...(peers === undefined ? {} : { ROS_STATIC_PEERS: peers.join(';') }),
     ...reach,
