@@ -7,6 +7,8 @@ const limits = {
   maxMessageBytes: 4096,
   messagesPerSecond: 10,
   messageBurst: 20,
+  relayBytesPerSecond: 1e6,
+  relayMessagesPerSecond: 1000,
   maxFaults: 5,
   maxSessionsPerOperator: 2,
   maxSessionsPerRobot: 2,

@@ -10,14 +10,18 @@ import {
 } from '@farpoint/protocol';
 import type { AccessList } from './access.ts';
 import { HubConnection, type HubConnectionOptions, type Refuse } from './farpoint-connection.ts';
-import { FarpointSessions, type OperatorEntry, toOperator, toRobot } from './farpoint-sessions.ts';
+import { FarpointSessions, type OperatorEntry } from './farpoint-sessions.ts';
 import { ListingFeed } from './listing-feed.ts';
 import { type Connection, closeCodes, type Peer } from './peer.ts';
+import { toOperator, toRobot } from './peer-messages.ts';
+import type { RelayLimits } from './relay-budget.ts';
 import { type RobotEntry, RobotRegistry } from './robot-registry.ts';
 import type { SessionLimits } from './session-table.ts';
 
 export interface FarpointHubOptions extends HubConnectionOptions {
-  readonly limits: HubConnectionOptions['limits'] & SessionLimits & { readonly maxRobots: number };
+  readonly limits: HubConnectionOptions['limits'] &
+    SessionLimits &
+    RelayLimits & { readonly maxRobots: number };
   readonly listIntervalMs: number;
   readonly listBytesPerSecond: number;
   readonly access: () => { readonly robots: AccessList; readonly operators: AccessList };

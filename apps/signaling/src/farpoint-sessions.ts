@@ -5,13 +5,15 @@ import {
   type RobotEndReason,
   type RobotToService,
   type ServiceToOperator,
-  type ServiceToRobot,
   serviceToOperatorCodec,
   serviceToRobotCodec,
 } from '@farpoint/protocol';
+import type { Clock } from './clock.ts';
 import type { Refuse } from './farpoint-connection.ts';
 import type { Observer } from './observer.ts';
 import type { Peer } from './peer.ts';
+import { toOperator, toRobot } from './peer-messages.ts';
+import { RelayBudgets, type RelayLimits } from './relay-budget.ts';
 import { type ResumeClaim, ResumeClaims } from './resume-claims.ts';
 import type { RobotEntry, RobotRegistry } from './robot-registry.ts';
 import { type Session, type SessionLimits, SessionTable } from './session-table.ts';
@@ -26,7 +28,8 @@ export interface OperatorEntry {
 export interface FarpointSessionsOptions {
   readonly registry: RobotRegistry;
   readonly observer: Observer;
-  readonly limits: SessionLimits;
+  readonly limits: SessionLimits & RelayLimits;
+  readonly clock: Pick<Clock, 'now'>;
   readonly makeHandle: () => string;
 }
 
@@ -34,6 +37,9 @@ type FromRobot = Exclude<RobotToService, { type: 'robot.hello' }>;
 type FromOperator = Exclude<OperatorToService, { type: 'operator.hello' }>;
 type HubSession = Session<RobotEntry, OperatorEntry>;
 type Claim = ResumeClaim<RobotEntry, OperatorEntry>;
+
+/** What a request for a session takes of the budgets: more than its bytes, because the robot has work with it. */
+const REQUEST_BYTES = 1024;
 
 /** What an operator is told if its session is not resumed. */
 const refusalWords = {
@@ -47,11 +53,13 @@ export class FarpointSessions {
   readonly #sessions: SessionTable<RobotEntry, OperatorEntry>;
   readonly #claims: ResumeClaims<RobotEntry, OperatorEntry>;
   readonly #unanswered = new UnansweredSessions<HubSession>();
+  readonly #budgets: RelayBudgets;
 
   constructor(options: FarpointSessionsOptions) {
     this.#options = options;
     const { limits, makeHandle } = options;
     this.#sessions = new SessionTable(limits, makeHandle);
+    this.#budgets = new RelayBudgets(limits);
     this.#claims = new ResumeClaims(limits.maxSessionsPerOperator, makeHandle);
   }
 
@@ -80,8 +88,7 @@ export class FarpointSessions {
       });
       return null;
     }
-    toOperator(session.operator.peer, message);
-    return message.type;
+    return this.#relayToOperator(session, message, refuse);
   }
 
   /** @returns the type of the message if it was relayed */
@@ -105,8 +112,10 @@ export class FarpointSessions {
       });
       return null;
     }
+    const text = encodeJson(serviceToRobotCodec, message);
+    if (!this.#mayRelay(operator, session.robot, text.length, refuse, session.handle)) return null;
     if (message.type === 'session.answer') this.#unanswered.remove(session);
-    toRobot(session.robot.peer, message);
+    session.robot.peer.send(text);
     return message.type;
   }
 
@@ -119,8 +128,42 @@ export class FarpointSessions {
     const claim = claimed === undefined ? null : this.#claims.take(claimed, handle, robot);
     const session = claim === null ? this.#find(robot, handle, refuse) : this.#bind(claim, refuse);
     if (session === null) return null;
-    toOperator(session.operator.peer, { ...offer, session: handle });
+    return this.#relayToOperator(session, { ...offer, session: handle }, refuse);
+  }
+
+  #relayToOperator(
+    { operator, handle }: HubSession,
+    message: Extract<ServiceToOperator, { type: 'session.offer' | 'session.candidate' }>,
+    refuse: Refuse,
+  ): string | null {
+    const text = encodeJson(serviceToOperatorCodec, message);
+    if (this.#budgets.refusal(null, operator.peer, text.length, this.#options.clock.now()) !== null) {
+      refuse('rate-limited', 'too much for this operator: slow down', { session: handle, fault: false });
+      return null;
+    }
+    operator.peer.send(text);
     return message.type;
+  }
+
+  /** Whether budgets allow a message to a robot. What an operator sends beyond its own share is a fault. */
+  #mayRelay(
+    operator: OperatorEntry,
+    robot: RobotEntry,
+    bytes: number,
+    refuse: Refuse,
+    session?: string,
+  ): boolean {
+    const refusal = this.#budgets.refusal(operator.peer, robot.peer, bytes, this.#options.clock.now());
+    if (refusal === null) return true;
+    const words =
+      refusal === 'sender'
+        ? 'you send too much: slow down'
+        : `too much for robot ${robot.id}: try again in a moment`;
+    refuse('rate-limited', words, {
+      ...(session === undefined ? {} : { session }),
+      fault: refusal === 'sender',
+    });
+    return false;
   }
 
   #open(operator: OperatorEntry, robotId: string, refuse: Refuse): void {
@@ -130,6 +173,7 @@ export class FarpointSessions {
       refuse('unknown-robot', `robot ${robotId} is not connected`, { fault: false });
       return;
     }
+    if (!this.#mayRelay(operator, robot, REQUEST_BYTES, refuse)) return;
     const room = this.#unanswered.hasRoom(robotId, operator.peer.address);
     const session = room ? this.#sessions.open(robot, operator) : null;
     if (session === null) {
@@ -167,6 +211,7 @@ export class FarpointSessions {
       this.#tooMany(robotId, refuse, handle);
       return;
     }
+    if (!this.#mayRelay(operator, robot, REQUEST_BYTES, refuse, handle)) return;
     const claim = this.#claims.add(handle, robot, operator);
     toOperator(operator.peer, { type: 'session.resuming', session: handle });
     toRobot(robot.peer, {
@@ -251,14 +296,4 @@ export class FarpointSessions {
       else toRobot(robot.peer, { type: 'session.closed', session: handle, reason });
     }
   }
-}
-
-// Encodes the validated message again. The original text could contain a key twice, and readers disagree on which one
-// counts.
-export function toRobot(peer: Peer, message: ServiceToRobot): void {
-  peer.send(encodeJson(serviceToRobotCodec, message));
-}
-
-export function toOperator(peer: Peer, message: ServiceToOperator): void {
-  peer.send(encodeJson(serviceToOperatorCodec, message));
 }

@@ -54,6 +54,18 @@ export const limitOptions = {
     argument: 'N',
     help: 'maximum messages from a peer in one burst',
   }),
+  relayBytesPerSecond: defineOption({
+    schema: schema.integer({ min: 16_384 }),
+    default: 250_000,
+    argument: 'BYTES',
+    help: 'maximum bytes a second that are passed on to a robot from all operators together, and to an operator, on average; an operator may use a quarter of it',
+  }),
+  relayMessagesPerSecond: defineOption({
+    schema: schema.number({ min: 4 }),
+    default: 200,
+    argument: 'N',
+    help: 'the same in messages a second',
+  }),
   maxFaults: defineOption({
     schema: count,
     default: 50,

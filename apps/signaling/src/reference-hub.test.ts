@@ -11,6 +11,8 @@ function setup() {
     limits: {
       maxMessageBytes: 4096,
       messagesPerSecond: 10,
+      relayBytesPerSecond: 1e6,
+      relayMessagesPerSecond: 1000,
       messageBurst: 20,
       maxFaults: 5,
       maxRobots: 3,

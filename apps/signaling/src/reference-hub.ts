@@ -14,13 +14,15 @@ import {
 import { MessageGuard, type MessageLimits } from './message-guard.ts';
 import { type Connection, closeCodes, type Peer } from './peer.ts';
 import { ReferenceConnection, type ReferenceConnectionOptions } from './reference-connection.ts';
+import { RelayBudgets, type RelayLimits } from './relay-budget.ts';
 
 export interface ReferenceHubOptions extends ReferenceConnectionOptions {
-  readonly limits: MessageLimits & {
-    readonly maxRobots: number;
-    /** Number of candidates buffered for late clients in each direction; the oldest are dropped first. */
-    readonly maxCandidatesPerRobot: number;
-  };
+  readonly limits: MessageLimits &
+    RelayLimits & {
+      readonly maxRobots: number;
+      /** Number of candidates buffered for late clients in each direction; the oldest are dropped first. */
+      readonly maxCandidatesPerRobot: number;
+    };
 }
 
 interface Entry {
@@ -41,9 +43,11 @@ export class ReferenceHub {
   readonly #clients = new Set<Peer>();
   #nextId = 0;
   #listing: Uint8Array | null = null;
+  readonly #budgets: RelayBudgets;
 
   constructor(options: ReferenceHubOptions) {
     this.#options = options;
+    this.#budgets = new RelayBudgets(options.limits);
   }
 
   get counts(): { robots: number; clients: number } {
@@ -99,8 +103,9 @@ export class ReferenceHub {
   }
 
   /** @returns why nothing has changed, or `null` */
-  answer(id: number, sdpAnswer: string): 'unknown-robot' | 'no-offer' | null {
+  answer(from: Peer, id: number, sdpAnswer: string): 'unknown-robot' | 'no-offer' | 'rate-limited' | null {
     if (this.#robots.get(id)?.record.sdpOffer === null) return 'no-offer';
+    if (!this.#mayRelay(from, id, sdpAnswer.length)) return 'rate-limited';
     const record = this.#change(id);
     if (record === null) return 'unknown-robot';
     record.sdpAnswer = sdpAnswer;
@@ -108,13 +113,20 @@ export class ReferenceHub {
     return null;
   }
 
-  /** @returns false if there is no such robot */
-  clientCandidate(id: number, candidate: string): boolean {
+  /** @returns why nothing has changed, or `null` */
+  clientCandidate(from: Peer, id: number, candidate: string): 'unknown-robot' | 'rate-limited' | null {
+    if (!this.#mayRelay(from, id, candidate.length)) return 'rate-limited';
     const record = this.#change(id);
-    if (record === null) return false;
+    if (record === null) return 'unknown-robot';
     this.#buffer(record.clientCandidates, candidate);
     toRobot(this.#robots.get(id)!.peer, { type: 'candidate', candidate });
-    return true;
+    return null;
+  }
+
+  #mayRelay(from: Peer, id: number, bytes: number): boolean {
+    const robot = this.#robots.get(id);
+    if (robot === undefined) return true;
+    return this.#budgets.refusal(from, robot.peer, bytes, this.#options.clock.now()) === null;
   }
 
   /** The message `robots`, encoded once per change. */
@@ -227,18 +239,21 @@ class ClientConnection extends ReferenceConnection<ReferenceClientToService> {
         this.peer.send(this.#hub.listing());
         return null;
       case 'answer': {
-        const refusal = this.#hub.answer(message.robotId, message.sdpAnswer);
+        const refusal = this.#hub.answer(this.peer, message.robotId, message.sdpAnswer);
         return refusal === null ? 'reference.answer' : this.#refuse(refusal, message);
       }
-      case 'candidate':
-        return this.#hub.clientCandidate(message.robotId, message.candidate)
-          ? 'reference.candidate'
-          : this.#refuse('unknown-robot', message);
+      case 'candidate': {
+        const refusal = this.#hub.clientCandidate(this.peer, message.robotId, message.candidate);
+        return refusal === null ? 'reference.candidate' : this.#refuse(refusal, message);
+      }
     }
   }
 
   /** Not a fault: the robot may have left a moment ago. */
-  #refuse(reason: 'unknown-robot' | 'no-offer', { type, robotId }: { type: string; robotId: number }): null {
+  #refuse(
+    reason: 'unknown-robot' | 'no-offer' | 'rate-limited',
+    { type, robotId }: { type: string; robotId: number },
+  ): null {
     return this.refuse(reason, `${type} for robot ${robotId}`, false);
   }
 

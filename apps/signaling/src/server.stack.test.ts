@@ -88,9 +88,49 @@ describe('Farpoint over real sockets', () => {
     });
   });
 
+  test('ten operators cannot flood a robot', async () => {
+    await start();
+    const robot = await service.robot('r1');
+    const flood = await Promise.all(
+      Array.from({ length: 10 }, async () => {
+        const operator = await service.operator();
+        operator.send({ type: 'session.open', robotId: 'r1' });
+        return { operator, session: (await operator.until('session.opened')).session };
+      }),
+    );
+    let bytes = 0;
+    robot.socket.on('message', (data: Buffer) => {
+      bytes += data.length;
+    });
+    for (let i = 0; i < 40; i++)
+      for (const { operator, session } of flood)
+        operator.send({ type: 'session.answer', session, sdp: 'x'.repeat(50_000) });
+    const begun = performance.now();
+    for (const { operator } of flood) operator.send({ type: 'session.open', robotId: 'nobody' });
+    const codes = await Promise.all(
+      flood.map(async ({ operator }) => {
+        const seen: unknown[] = [];
+        // The last message has been judged when this has been.
+        while (seen.at(-1) !== 'unknown-robot') seen.push((await operator.until('error')).code);
+        return seen;
+      }),
+    );
+    expect(codes.every((each) => each.includes('rate-limited'))).toBe(true);
+    const [first] = flood;
+    first?.operator.send({ type: 'session.close', session: first.session });
+    // All that was relayed before has arrived by then.
+    await robot.until('session.closed');
+    const seconds = (performance.now() - begun) / 1000;
+    // 20 MB were sent.
+    expect(bytes).toBeLessThan(1_100_000 + 260_000 * (seconds + 1));
+  });
+
   test('disconnects a peer that does not read, and only that one', async () => {
     const metrics = createMetrics();
-    await start({ maxBacklogBytes: 65_536, messagesPerSecond: 1e6, messageBurst: 1e6 }, { metrics });
+    await start(
+      { maxBacklogBytes: 65_536, messagesPerSecond: 1e6, messageBurst: 1e6, relayBytesPerSecond: 1e9 },
+      { metrics },
+    );
     const robot = await service.robot('r1');
     const other = await service.operator();
     const stuck = await service.operator();
