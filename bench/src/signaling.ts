@@ -56,6 +56,8 @@ export const bench: Bench = {
           '--max-connections-per-address',
           String(connections + 64),
         ],
+        // All of the bench's operators come from here.
+        ...['--relay-bytes-per-second', '1000000000', '--relay-messages-per-second', '1000000'],
         // Several operators may share a robot.
         ...['--max-sessions-per-robot', String(Math.ceil(operators / robots))],
       ],

@@ -1,4 +1,4 @@
-import { OptionsError } from '@farpoint/service';
+import { OptionsError, Secret } from '@farpoint/service';
 import { describe, expect, it } from 'vitest';
 import { AccessList } from './access.ts';
 import { checkExposure, type ExposureOptions } from './exposure.ts';
@@ -10,7 +10,7 @@ const open = new AccessList(null);
 const tls = { cert: '', key: '' };
 const local: ExposureOptions = {
   ...{ host: '127.0.0.1', open: false, plaintextTokens: false },
-  ...{ reference: false, referenceOpen: false, trustProxy: [] },
+  ...{ reference: false, referenceOpen: false, trustProxy: [], metricsToken: null },
 };
 const everywhere = { ...local, host: '0.0.0.0' };
 
@@ -48,6 +48,12 @@ describe('a service that others reach', () => {
     expect(refusal(local, files)).toBeNull();
     for (const cure of [{ trustProxy: ['loopback'] }, { plaintextTokens: true }])
       expect(refusal({ ...everywhere, ...cure }, files)).toBeNull();
+  });
+
+  it('has no token for metrics sent in the clear', () => {
+    const options = { ...everywhere, open: true, metricsToken: new Secret('a-token-of-some-length') };
+    expect(refusal(options, { tls: null, robots: open, operators: open })).toContain('--tls-cert');
+    expect(refusal(options, { tls, robots: open, operators: open })).toBeNull();
   });
 
   it('keeps the reference system’s ports closed to strangers', () => {

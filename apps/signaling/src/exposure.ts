@@ -6,7 +6,7 @@ import type { ServiceFiles } from './service-files.ts';
 
 export type ExposureOptions = Pick<
   SignalingOptions,
-  'host' | 'open' | 'plaintextTokens' | 'reference' | 'referenceOpen' | 'trustProxy'
+  'host' | 'open' | 'plaintextTokens' | 'reference' | 'referenceOpen' | 'trustProxy' | 'metricsToken'
 >;
 
 /**
@@ -38,7 +38,7 @@ export function checkExposure(
       '--reference-open',
       `lets everybody drive the reference system's robots ${where}: leave it out, or set --open if that is what you want`,
     );
-  const hasTokens = !robots.open || !operators.open;
+  const hasTokens = !robots.open || !operators.open || options.metricsToken !== null;
   if (hasTokens && tls === null && !isBehindProxy && !plaintextTokens)
     throw new OptionsError(
       '--host',

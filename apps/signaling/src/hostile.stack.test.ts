@@ -142,7 +142,11 @@ test('an incomplete or wrong handshake harms nobody', async () => {
 });
 
 test('silent connections of one address leave room for the others', async () => {
-  const small = await TestService.start({ maxConnections: 16, maxConnectionsPerAddress: 8 });
+  const small = await TestService.start({
+    publicMetrics: true,
+    maxConnections: 16,
+    maxConnectionsPerAddress: 8,
+  });
   const { signaling: port } = small.service.ports;
   // More than the port takes in all: 16 and 256 in reserve.
   const silent = Array.from({ length: 400 }, () =>

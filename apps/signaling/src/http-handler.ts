@@ -1,10 +1,13 @@
+import { createHash, timingSafeEqual } from 'node:crypto';
 import type { IncomingMessage, RequestListener } from 'node:http';
-import { isLoopbackHost } from '@farpoint/protocol';
-import { type createAdminHandler, plainAddress, refusesHost } from '@farpoint/service';
+import { type createAdminHandler, refusesHost, type Secret } from '@farpoint/service';
 import type { SignalingOptions } from './options.ts';
 import { webRoot } from './web-root.ts';
 
-type HttpOptions = Pick<SignalingOptions, 'webRoot' | 'mapOrigins' | 'connectOrigins' | 'publicMetrics'>;
+type HttpOptions = Pick<
+  SignalingOptions,
+  'webRoot' | 'mapOrigins' | 'connectOrigins' | 'publicMetrics' | 'metricsToken'
+>;
 
 /** Refuses requests for names that are not the service's own. @param names `null`: for no name */
 export function forOwnNames(http: RequestListener, names: ReadonlySet<string> | null): RequestListener {
@@ -14,27 +17,29 @@ export function forOwnNames(http: RequestListener, names: ReadonlySet<string> | 
   };
 }
 
-/** Serves health and metrics, then the files of the web root if there is one, otherwise 404. */
+/**
+ * Serves health and, to whoever may read them, its details and metrics; then the files of the web root if there is one, otherwise
+ * 404. Where a request comes from says nothing: a proxy on this machine passes on what strangers ask, and need not say so.
+ */
 export function httpHandler(
   admin: ReturnType<typeof createAdminHandler>,
   options: HttpOptions,
 ): RequestListener {
-  const { webRoot: folder, publicMetrics } = options;
+  const { webRoot: folder, publicMetrics, metricsToken } = options;
   const files = folder === null ? null : webRoot(folder, options);
   return (request, response) => {
-    const isHidden = request.url?.split('?', 1)[0] === '/metrics' && !publicMetrics && !isOwnMachine(request);
-    if (isHidden) return notFound(request, response);
-    if (admin(request, response)) return;
+    const mayRead = publicMetrics || (metricsToken !== null && shows(request, metricsToken));
+    if (admin(request, response, mayRead ? 'all' : 'status')) return;
     if (files === null) notFound(request, response);
     else files(request, response, () => notFound(request, response));
   };
 }
 
-/** A proxy on this machine passes on what others ask. */
-function isOwnMachine(request: IncomingMessage): boolean {
-  const { headers } = request;
-  const isForwarded = headers['x-forwarded-for'] !== undefined || headers.forwarded !== undefined;
-  return !isForwarded && isLoopbackHost(plainAddress(request.socket.remoteAddress ?? ''));
+/** Whether a request has the token. In a time that does not depend on how much of it is right. */
+function shows(request: IncomingMessage, token: Secret): boolean {
+  const [, shown = ''] = /^Bearer (.+)$/i.exec(request.headers.authorization ?? '') ?? [];
+  const digest = (text: string) => createHash('sha256').update(text).digest();
+  return timingSafeEqual(digest(shown), digest(token.reveal()));
 }
 
 export const notFound: RequestListener = (_request, response) => {

@@ -17,12 +17,14 @@ if (process.argv[2] === 'grant') {
 }
 
 async function serve(): Promise<void> {
-  await runProgram(program, async ({ options, log, health, metrics, shutdown }) => {
+  await runProgram(program, async ({ options, log, health, metrics, shutdown, serveAdmin }) => {
     const { audit, close } = await openAudit(options, log);
     // Last, so that the ends of all sessions are recorded.
     shutdown.onClose('audit log', close);
     const signaling = await startSignaling(options, { log, health, metrics, audit });
     shutdown.onClose('signaling', () => signaling.close());
+    const { adminHost: host, adminPort: port, publicNames: names } = options;
+    if (port !== null) await serveAdmin({ host, port, names });
     process.on('SIGHUP', () => {
       try {
         signaling.reload();

@@ -1,4 +1,4 @@
-import { type IceServer, iceServerSchema, signInUrlSchema } from '@farpoint/protocol';
+import { type IceServer, iceServerSchema, signInUrlSchema, tokenSchema } from '@farpoint/protocol';
 import { defineOption, defineProgram, type OptionValues, proxies, schema } from '@farpoint/service';
 import * as z from 'zod';
 import manifest from '../package.json' with { type: 'json' };
@@ -45,7 +45,7 @@ export const program = defineProgram({
       schema: schema.port(),
       default: 3000,
       argument: 'PORT',
-      help: 'port for /robot, /operator, /healthz, /metrics and the web app; 0 takes a free one, here and below',
+      help: 'port for /robot, /operator, /healthz and the web app; 0 takes a free one, here and below',
     }),
     reference: defineOption({
       schema: schema.boolean(),
@@ -82,7 +82,28 @@ export const program = defineProgram({
     publicMetrics: defineOption({
       schema: schema.boolean(),
       default: false,
-      help: 'answer /metrics to everybody; otherwise only to this machine, and not through a proxy',
+      help: 'answer /metrics, and the details of /healthz, to everybody at --port; otherwise at --admin-port, and to whoever has --metrics-token',
+    }),
+    metricsToken: defineOption({
+      schema: schema.optional(schema.secret(tokenSchema)),
+      default: null,
+      argument: 'TOKEN',
+      help: 'answer /metrics at --port to whoever sends this token (Authorization: Bearer TOKEN); set it in the environment or the file rather than as a flag',
+      secret: true,
+    }),
+    adminHost: defineOption({
+      schema: schema.text(),
+      default: '127.0.0.1',
+      argument: 'ADDRESS',
+      file: 'admin.host',
+      help: 'address for --admin-port',
+    }),
+    adminPort: defineOption({
+      schema: schema.optional(schema.port()),
+      default: null,
+      argument: 'PORT',
+      file: 'admin.port',
+      help: 'a port of its own for /metrics and /healthz with its details, which no proxy should pass on; default: none',
     }),
     webRoot: defineOption({
       schema: schema.optional(schema.text()),

@@ -3,7 +3,7 @@ import { request } from 'node:http';
 import { connect } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { createMetrics, Health } from '@farpoint/service';
+import { createMetrics, Health, Secret } from '@farpoint/service';
 import { selfSigned } from '@farpoint/service/testing/self-signed';
 import { afterAll, afterEach, describe, expect, test } from 'vitest';
 import type { SignalingOptions } from './options.ts';
@@ -365,7 +365,7 @@ describe('HTTP', () => {
   test('reports health and metrics', async () => {
     const metrics = createMetrics();
     const health = new Health();
-    await start({}, { metrics, health });
+    await start({ publicMetrics: true }, { metrics, health });
     const robot = await service.robot('r1');
     await service.expectSession(robot, 'r1', await service.operator());
     await service.referenceRobot();
@@ -393,12 +393,20 @@ describe('HTTP', () => {
     }
   });
 
-  test('hides metrics from everybody else, and from whoever asks through a proxy', async () => {
+  test('tells strangers no more than that it is well, also those whose proxy says nothing of them', async () => {
+    const get = async (path: string, headers = {}) => fetch(service.http(path), { headers });
+    const status = async (headers = {}) => (await get('/metrics', headers)).status;
     await start();
-    const status = async (headers = {}) => (await fetch(service.http('/metrics'), { headers })).status;
-    expect(await status()).toBe(200);
-    expect(await status({ 'x-forwarded-for': '203.0.113.9' })).toBe(404);
-    expect(await status({ forwarded: 'for=203.0.113.9' })).toBe(404);
+    expect(await status()).toBe(404);
+    expect(await status({ 'x-forwarded-for': '127.0.0.1' })).toBe(404);
+    expect(await (await get('/healthz')).json()).toEqual({ status: 'ok' });
+    await service.stop();
+    await start({ metricsToken: new Secret('a-token-of-some-length') });
+    expect(await status({ authorization: 'Bearer a-token-of-some-lengtH' })).toBe(404);
+    expect(await status()).toBe(404);
+    const authorization = 'Bearer a-token-of-some-length';
+    expect(await status({ authorization })).toBe(200);
+    expect(await (await get('/healthz', { authorization })).json()).toHaveProperty('checks');
     await service.stop();
     await start({ publicMetrics: true });
     expect(await status({ 'x-forwarded-for': '203.0.113.9' })).toBe(200);

@@ -20,14 +20,22 @@ export function createMetrics(): Registry {
   return registry;
 }
 
-/** Answers `/healthz` and `/metrics`; returns false for any other path, without doing anything. */
-export type AdminHandler = (request: IncomingMessage, response: ServerResponse) => boolean;
+/**
+ * Answers `/healthz` and `/metrics`; returns false for any other path, without doing anything.
+ *
+ * @param shows `status`: for strangers: how `/healthz` is, without anything else, and no `/metrics`
+ */
+export type AdminHandler = (
+  request: IncomingMessage,
+  response: ServerResponse,
+  shows?: 'all' | 'status',
+) => boolean;
 
 /** The handler to mount on a program's own HTTP server. */
 export function createAdminHandler(health: Health, metrics: Registry): AdminHandler {
-  return (request, response) => {
+  return (request, response, shows = 'all') => {
     const path = request.url?.split('?', 1)[0];
-    if (path !== '/healthz' && path !== '/metrics') return false;
+    if (path !== '/healthz' && (path !== '/metrics' || shows === 'status')) return false;
     if (request.method !== 'GET' && request.method !== 'HEAD') {
       reply(request, response, 405, 'text/plain; charset=utf-8', 'only GET and HEAD\n', {
         allow: 'GET, HEAD',
@@ -41,7 +49,7 @@ export function createAdminHandler(health: Health, metrics: Registry): AdminHand
         response,
         report.status === 'ok' ? 200 : 503,
         'application/json; charset=utf-8',
-        `${JSON.stringify(report)}\n`,
+        `${JSON.stringify(shows === 'all' ? report : { status: report.status })}\n`,
       );
     } else {
       metrics.metrics().then(

@@ -109,8 +109,12 @@ export const httpAttacks = attacks('http', {
       mustHold(answer.startsWith('HTTP/1.1 421'), `${path} is answered to another site`);
     }
   },
-  'metrics through a proxy': async ({ stack }) => {
-    for (const forwarded of ['X-Forwarded-For: 203.0.113.9', 'Forwarded: for=203.0.113.9']) {
+  'metrics through a proxy, whatever it says': async ({ stack }) => {
+    for (const forwarded of [
+      'X-Forwarded-For: 203.0.113.9',
+      'Forwarded: for=203.0.113.9',
+      'Via: 1.1 proxy',
+    ]) {
       const answer = await raw(stack.ports.signaling, get('/metrics', `${forwarded}\r\n`));
       mustHold(answer.startsWith('HTTP/1.1 404'), 'metrics are told to others');
     }
