@@ -38,15 +38,17 @@ const obstacle = (page: Page) => page.getByRole('alertdialog');
 const dialog = (page: Page) => page.getByRole('dialog', { name: 'Grants' });
 
 /** Signs in at the provider's own forms. */
-async function signInAs(page: Page, name: string): Promise<void> {
+async function signInAs(page: Page, name: string, allow = true): Promise<void> {
   await page.getByPlaceholder('Enter any login').fill(name);
   await page.getByPlaceholder('and password').fill('any');
   await page.getByRole('button', { name: 'Sign-in' }).click();
   await page.getByRole('button', { name: 'Continue' }).click();
+  // The issuer's own question: for which page, in what role.
+  if (allow) await page.getByRole('button', { name: 'Allow' }).click();
   await page.waitForFunction(() => window.farpoint !== undefined);
 }
 
-test('who signs in drives, without a click more, and still after the page was loaded again', async ({
+test('who signs in and agrees drives, and still after the page was loaded again', async ({
   page,
   signedOn: { stack, signOn },
 }, testInfo) => {
@@ -91,7 +93,7 @@ test('who may not is told so in words, and a grant that nobody asked for is only
     .toMatch(/^[\w-]{43}$/)
     .then(() => dialog(page).getByLabel('This browser’s key').inputValue());
   await dialog(page).getByRole('button', { name: 'Sign in' }).click();
-  await signInAs(page, 'wim');
+  await signInAs(page, 'wim', false);
   await expect(
     dialog(page).getByText('You have signed in, but nothing here is set up for you'),
   ).toBeVisible();

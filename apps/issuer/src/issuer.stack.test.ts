@@ -103,6 +103,33 @@ describe('whom the rules permit', () => {
   });
 });
 
+describe('a link that somebody else made', () => {
+  it('gets no grant for its key before the person has seen the page and the role, and agreed', async () => {
+    const browser = new WebBrowser([PAGE]);
+    const asked = await browser.signInAtProvider(address(signOn, { key: 'x'.repeat(43) }), 'ada');
+    expect(asked.url.href).toMatch(/\/callback\?/);
+    for (const shown of [PAGE, 'Ada Lovelace', 'drive', 'kitchen-*', 'x'.repeat(43), '12 h'])
+      expect(asked.text).toContain(shown);
+    expect(asked.text).not.toContain('#grant');
+    expect(answerOf(await browser.allow(asked, 'no'))).toEqual({ error: 'cancelled', state: 'mine' });
+    // Answered once.
+    expect(await browser.allow(asked)).toMatchObject({ status: 400 });
+    const own = new WebBrowser([PAGE]);
+    const again = await own.signInAtProvider(address(), 'ada');
+    // Not by another browser, nor by another site's form.
+    expect(await new WebBrowser([PAGE]).allow(again)).toMatchObject({ status: 400 });
+    const headers = { origin: 'https://evil.example' };
+    const forged = await fetch(`${signOn.url}/consent`, { method: 'POST', headers, body: 'answer=yes' });
+    expect(forged.status).toBe(403);
+    expect((await grantOf(await own.allow(again))).name).toBe('Ada Lovelace');
+  });
+
+  it('is answered nowhere below a page, only at its exact address', async () => {
+    const below = address(signOn, { return: `${PAGE}redirect?to=evil` });
+    expect(await new WebBrowser([PAGE]).open(below)).toMatchObject({ status: 400 });
+  });
+});
+
 describe('who is refused', () => {
   it('whom no rule permits', async () => {
     expect(answerOf(await signIn('wim'))).toEqual({ error: 'not-permitted', state: 'mine' });
@@ -130,13 +157,13 @@ describe('who is refused', () => {
     expect(answerOf(await own.browser.open(mixed.href))).toMatchObject({ error: 'provider-refused' });
     // Nothing of this disturbs whoever it belongs to.
     browser.stopAt = [PAGE];
-    expect((await grantOf(await browser.open(callback))).name).toBe('Ada Lovelace');
+    expect((await grantOf(await browser.allow(await browser.open(callback)))).name).toBe('Ada Lovelace');
   });
 
   it('who brings a code a second time', async () => {
     const { browser, callback } = await upToCallback('ada');
     browser.stopAt = [PAGE];
-    await grantOf(await browser.open(callback));
+    await grantOf(await browser.allow(await browser.open(callback)));
     expect(await browser.open(callback)).toMatchObject({ status: 400 });
   });
 
@@ -250,7 +277,7 @@ describe('the service', () => {
   it('logs who got what, and no token, code or state', async () => {
     const { browser, callback } = await upToCallback('ada');
     browser.stopAt = [PAGE];
-    const page = await browser.open(callback);
+    const page = await browser.allow(await browser.open(callback));
     const answer = answerOf(page);
     const log = lines.join('\n');
     expect(log).toContain('Ada Lovelace');

@@ -37,7 +37,7 @@ export const program = defineProgram({
       schema: schema.list(addressSchema),
       default: [],
       argument: 'URL,…',
-      help: 'pages that grants may be sent to, e.g. https://teleop.example/; an address that ends with / stands for all below it',
+      help: 'pages that grants may be sent to, by their exact addresses without a query, e.g. https://teleop.example/',
     }),
     provider: defineOption({
       schema: schema.optional(addressSchema),

@@ -1,4 +1,4 @@
-/** Sign-ins that have begun: bounded, and each tied to the browser that began it. Time is an argument. */
+/** Sign-ins that have begun, at the provider or at our own question: bounded, and each tied to its browser. Time is an argument. */
 import { createHash, timingSafeEqual } from 'node:crypto';
 import type { SignInRequest } from '@farpoint/protocol';
 
@@ -13,17 +13,17 @@ export interface PendingSignIn {
   verifier: string;
 }
 
-export type TakenSignIn =
-  | { outcome: 'found' | 'expired'; pending: PendingSignIn }
+export type TakenSignIn<T = PendingSignIn> =
+  | { outcome: 'found' | 'expired'; pending: T }
   /** Never begun, already taken, or dropped. */
   | { outcome: 'unknown' }
   /** Begun in another browser. It goes on there. */
   | { outcome: 'other-browser' };
 
-export class PendingSignIns {
+export class PendingSignIns<T = PendingSignIn> {
   readonly #most: number;
   /** By state, the oldest first. */
-  readonly #all = new Map<string, { pending: PendingSignIn; browser: Buffer; beganMs: number }>();
+  readonly #all = new Map<string, { pending: T; browser: Buffer; beganMs: number }>();
 
   /** @param most beyond it, the oldest are dropped */
   constructor(most: number) {
@@ -38,7 +38,7 @@ export class PendingSignIns {
    * @param state names the sign-in at the provider; not guessable
    * @param browser the browser's secret
    */
-  add(state: string, browser: string, pending: PendingSignIn, nowMs: number): void {
+  add(state: string, browser: string, pending: T, nowMs: number): void {
     for (const [each, { beganMs }] of this.#all) {
       if (nowMs - beganMs < SIGN_IN_TIME_MS && this.#all.size < this.#most) break;
       this.#all.delete(each);
@@ -47,7 +47,7 @@ export class PendingSignIns {
   }
 
   /** Ends a sign-in, so that it can be finished only once. */
-  take(state: string, browser: string | null, nowMs: number): TakenSignIn {
+  take(state: string, browser: string | null, nowMs: number): TakenSignIn<T> {
     const found = this.#all.get(state);
     if (found === undefined) return { outcome: 'unknown' };
     if (browser === null || !timingSafeEqual(found.browser, digest(browser)))

@@ -1,8 +1,9 @@
-/** The issuer's HTTP server: `/sign-in` and `/callback`, below the path of its public address. */
+/** The issuer's HTTP server: `/sign-in`, `/callback` and `/consent`, below the path of its public address. */
 import { createServer, type IncomingMessage, type ServerResponse } from 'node:http';
 import type { AddressInfo } from 'node:net';
 import { listen, peerAddress, TrustedProxies } from '@farpoint/service';
 import { BrowserCookie } from './browser-cookie.ts';
+import { consentPage, consentPolicy } from './consent-page.ts';
 import type { Reply, SignInDesk } from './sign-in-desk.ts';
 
 export interface ServerOptions {
@@ -19,6 +20,8 @@ export interface ServerOptions {
 }
 
 const MOST_CONNECTIONS = 1024;
+const MOST_FORM_BYTES = 1024;
+const METHODS = { '/sign-in': 'GET', '/callback': 'GET', '/consent': 'POST' } as const;
 const NOTHING = { status: 404, text: 'Nothing here. Sign-ins begin on the operators’ page.' };
 
 export interface RunningServer {
@@ -37,16 +40,25 @@ export async function startServer(desk: SignInDesk, options: ServerOptions): Pro
 
   async function handle(
     request: IncomingMessage,
-  ): Promise<Reply | typeof NOTHING | { status: 405; text: string }> {
+  ): Promise<Reply | typeof NOTHING | { status: 403 | 405 | 413; text: string }> {
     // The host does not matter here: addresses of ours are made from the public one.
     const address = URL.parse(request.url ?? '', 'http://issuer');
     const path = address?.pathname.startsWith(`${base}/`) ? address.pathname.slice(base.length) : null;
-    if (address === null || (path !== '/sign-in' && path !== '/callback')) return NOTHING;
-    if (request.method !== 'GET') return { status: 405, text: 'Only GET.' };
+    if (address === null || path === null || !Object.hasOwn(METHODS, path)) return NOTHING;
+    const method = METHODS[path as keyof typeof METHODS];
+    if (request.method !== method) return { status: 405, text: `Only ${method}.` };
     const caller = {
       address: peerAddress(request, proxies),
       browser: cookie.read(request.headers.cookie),
     };
+    if (path === '/consent') {
+      // Browsers say from which page a form comes. One of another site's would answer in the person's place.
+      const { origin } = request.headers;
+      if (origin !== undefined && origin !== new URL(url).origin)
+        return { status: 403, text: 'This answer comes from another page.' };
+      const form = await readForm(request);
+      return form === null ? { status: 413, text: 'Too long.' } : await desk.answer(form, caller, now());
+    }
     return path === '/sign-in'
       ? await desk.begin(address.searchParams, caller, now())
       : await desk.finish(address.searchParams, caller, now());
@@ -58,10 +70,23 @@ export async function startServer(desk: SignInDesk, options: ServerOptions): Pro
       response.writeHead(303, { ...headers, ...owned, location: reply.redirect }).end();
       return;
     }
+    if ('consent' in reply) {
+      const { consent, browser } = reply;
+      const page = consentPage(consent, `${base}/consent`);
+      const own = {
+        'content-security-policy': consentPolicy(consent.page),
+        // The cookie ends no earlier than the question.
+        'set-cookie': cookie.write(browser),
+        'content-type': 'text/html; charset=utf-8',
+        'content-length': Buffer.byteLength(page),
+      };
+      response.writeHead(200, { ...headers, ...own }).end(page);
+      return;
+    }
     const body = `${reply.text}\n`;
     const { status } = reply;
     const more = {
-      ...(status === 405 ? { allow: 'GET' } : {}),
+      ...(status === 405 ? { allow: reply.text.includes('POST') ? 'POST' : 'GET' } : {}),
       ...(status === 429 ? { 'retry-after': '60' } : {}),
     };
     const length = { 'content-type': 'text/plain; charset=utf-8', 'content-length': Buffer.byteLength(body) };
@@ -76,8 +101,8 @@ export async function startServer(desk: SignInDesk, options: ServerOptions): Pro
       connectionsCheckingInterval: 2000,
     },
     (request, response) => {
-      request.resume();
       handle(request)
+        .finally(() => request.resume())
         .then((reply) => answer(response, reply))
         .catch((error: unknown) => {
           onError(error);
@@ -110,4 +135,14 @@ function securityHeaders(isHttps: boolean): Readonly<Record<string, string>> {
     'x-frame-options': 'DENY',
     ...(isHttps ? { 'strict-transport-security': 'max-age=31536000' } : {}),
   };
+}
+
+/** @returns `null` if it is too long */
+async function readForm(request: IncomingMessage): Promise<URLSearchParams | null> {
+  let text = '';
+  for await (const part of request.setEncoding('utf8')) {
+    text += String(part);
+    if (text.length > MOST_FORM_BYTES) return null;
+  }
+  return new URLSearchParams(text);
 }

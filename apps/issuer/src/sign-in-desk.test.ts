@@ -6,6 +6,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import { AddressLimiter } from './address-limiter.ts';
 import { isAllowedPage } from './allowed-pages.ts';
 import { BrowserCookie } from './browser-cookie.ts';
+import { consentPage, consentPolicy } from './consent-page.ts';
 import { SIGN_IN_TIME_MS } from './pending-sign-ins.ts';
 import type { SignedIn } from './provider.ts';
 import { SignInRefusedError } from './refused.ts';
@@ -54,12 +55,22 @@ const asked = (change: object = {}) =>
   ).searchParams;
 const begun = async (from = caller()) => {
   const reply = await desk.begin(asked(), from, NOW);
-  if (!('redirect' in reply)) throw new Error(reply.text);
+  if (!('redirect' in reply)) throw new Error('nobody is sent to the provider');
   return reply.browser ?? '';
 };
 const back = (given: string) => new URLSearchParams({ code: 'c', state: given });
-/** The provider sends the newest sign-in's browser back. */
-const finish = (browser: string, nowMs = NOW) => desk.finish(back(state), caller(browser), nowMs);
+/** Says yes to what the person is asked. */
+const agree = async (reply: Reply, answer = 'yes', nowMs = NOW): Promise<Reply> => {
+  if (!('consent' in reply)) return reply;
+  return desk.answer(
+    new URLSearchParams({ token: reply.consent.token, answer }),
+    caller(reply.browser),
+    nowMs,
+  );
+};
+/** The provider sends the newest sign-in's browser back, and the person agrees. */
+const finish = async (browser: string, nowMs = NOW) =>
+  agree(await desk.finish(back(state), caller(browser), nowMs), 'yes', nowMs);
 const answerOf = (reply: Reply) =>
   'redirect' in reply ? parseSignInAnswer(new URL(reply.redirect).hash) : null;
 
@@ -79,6 +90,22 @@ describe('a sign-in', () => {
       ...{ issuer: 'https://issuer.example', expiresAtS: NOW / 1000 + 43_200 },
     });
     expect(outcomes).toEqual(['granted']);
+  });
+
+  it('signs nothing before the person has agreed, in time', async () => {
+    const ask = async () => {
+      const browser = await begun();
+      return desk.finish(back(state), caller(browser), NOW);
+    };
+    expect(await ask()).toMatchObject({
+      consent: { page: BACK, person: 'Ada', role: 'drive', robots: ['r*'], key: KEY, hours: 12 },
+    });
+    expect(outcomes).toEqual([]);
+    expect(answerOf(await agree(await ask(), 'no'))).toEqual({ error: 'cancelled', state: 'mine' });
+    expect(answerOf(await agree(await ask(), 'yes', NOW + SIGN_IN_TIME_MS))).toMatchObject({
+      error: 'expired',
+    });
+    expect(outcomes).toEqual(['cancelled', 'expired']);
   });
 
   it('is refused in words that the page knows', async () => {
@@ -108,10 +135,18 @@ describe('a sign-in', () => {
     const [theirs] = [state];
     expect(await desk.finish(back(theirs), caller(browser), NOW)).toMatchObject({ status: 400 });
     expect(await desk.finish(back(theirs), caller(null), NOW)).toMatchObject({ status: 400 });
-    expect(answerOf(await desk.finish(back(theirs), caller(stranger), NOW))).toHaveProperty('grant');
+    const asked = await desk.finish(back(theirs), caller(stranger), NOW);
+    const { token } = 'consent' in asked ? asked.consent : { token: '' };
+    const form = new URLSearchParams({ token, answer: 'yes' });
+    expect(await desk.answer(form, caller(browser), NOW)).toMatchObject({ status: 400 });
+    expect(answerOf(await agree(asked))).toHaveProperty('grant');
+    expect(await agree(asked)).toMatchObject({ status: 400 });
     const other = caller(stranger, '192.0.2.2');
     expect(await desk.finish(back(theirs), other, NOW)).toMatchObject({ status: 400 });
-    expect(outcomes).toEqual(['other-browser', 'other-browser', 'granted', 'unknown']);
+    expect(outcomes).toEqual([
+      ...['other-browser', 'other-browser', 'other-browser', 'granted'],
+      ...['unknown', 'unknown'],
+    ]);
   });
 
   it('does not begin for a page that is not ours, nor for a request that is none', async () => {
@@ -136,6 +171,8 @@ describe('a sign-in', () => {
     expect(answerOf(await desk.begin(asked(), caller(), NOW))).toEqual({ error: 'too-many', state: 'mine' });
     expect(await begun(caller(null, '192.0.2.2'))).not.toBe('');
     for (let i = 0; i < 3; i++) await desk.finish(back('x'), caller(), NOW);
+    for (let i = 0; i < 3; i++) await desk.answer(back('x'), caller(), NOW);
+    expect(await desk.answer(back('x'), caller(), NOW)).toMatchObject({ status: 429 });
     expect(await desk.finish(back('x'), caller(), NOW)).toMatchObject({ status: 429 });
   });
 });
@@ -161,10 +198,12 @@ it('whatever is asked, a browser is sent to the provider or to one of our pages,
 });
 
 it.each([
-  [['https://a.example/'], 'https://a.example/x?y=1', true],
+  [['https://a.example/'], 'https://a.example/?y=1', true],
+  [['https://a.example/'], 'https://a.example/x?y=1', false],
   [['https://a.example/'], 'https://b.example/', false],
   [['https://a.example/'], 'https://a.example:8443/', false],
-  [['https://a.example'], 'https://a.example/x', true],
+  [['https://a.example'], 'https://a.example/', true],
+  [['https://a.example'], 'https://a.example/x', false],
   [['https://a.example/teleop/'], 'https://a.example/teleop/', true],
   [['https://a.example/teleop/'], 'https://a.example/teleop/../open?to=b', false],
   [['https://a.example/teleop/'], 'https://a.example/teleop', false],
@@ -174,6 +213,24 @@ it.each([
   [[], 'https://a.example/', false],
 ])('of the pages %j, %s: %s', (pages, address, allowed) => {
   expect(isAllowedPage(pages, address)).toBe(allowed);
+});
+
+it('the question shows whatever it is asked about as text, and lets a form go nowhere else', () => {
+  fc.assert(
+    fc.property(fc.string(), fc.webUrl({ withQueryParameters: true }), (text, page) => {
+      const html = consentPage(
+        { token: text, page, person: text, role: 'drive', robots: [text], hours: 0.5, key: text },
+        '/consent',
+      );
+      expect(
+        html.match(
+          /<(?!\/?(?:html|head|meta|title|body|main|h1|p|strong|dl|dt|dd|code|form|input|button)\b)/g,
+        ),
+      ).toEqual(['<']);
+      expect(html.match(/<(?:input|button|form|meta)\b/g)).toHaveLength(6);
+      expect(consentPolicy(page)).toContain(`form-action 'self' ${new URL(page).origin};`);
+    }),
+  );
 });
 
 it('the cookie is the browser’s alone', () => {

@@ -9,9 +9,10 @@ import {
 } from '@farpoint/protocol';
 import { AddressLimiter } from './address-limiter.ts';
 import { isAllowedPage } from './allowed-pages.ts';
+import type { Consent } from './consent-page.ts';
 import { type GrantTerms, grantFor } from './grant-for.ts';
 import { PendingSignIns } from './pending-sign-ins.ts';
-import { personOf } from './person.ts';
+import { type Person, personOf } from './person.ts';
 import type { Provider } from './provider.ts';
 import { SignInRefusedError } from './refused.ts';
 import { type Rule, ruleFor } from './rules.ts';
@@ -22,6 +23,8 @@ const MOST_PENDING = 4096;
 /** Where a browser is sent, or what it is shown. */
 export type Reply =
   | { readonly redirect: string; readonly browser?: string }
+  /** A question, whose answer comes to `answer`. */
+  | { readonly consent: Consent; readonly browser: string }
   | { readonly status: 400 | 429; readonly text: string };
 
 /** How a sign-in ended, or why it did not begin. */
@@ -45,21 +48,31 @@ export interface Caller {
   readonly browser: string | null;
 }
 
+/** A grant that its person has not agreed to yet. */
+interface Offered {
+  readonly request: SignInRequest;
+  readonly person: Person;
+  readonly rule: Rule;
+}
+
 export class SignInDesk {
   readonly #options: DeskOptions;
   readonly #pending = new PendingSignIns(MOST_PENDING);
+  readonly #offered = new PendingSignIns<Offered>(MOST_PENDING);
   readonly #beginnings: AddressLimiter;
   readonly #ends: AddressLimiter;
+  readonly #answers: AddressLimiter;
 
   constructor(options: DeskOptions) {
     this.#options = options;
     this.#beginnings = new AddressLimiter(options.signInsPerMinute);
     this.#ends = new AddressLimiter(options.signInsPerMinute);
+    this.#answers = new AddressLimiter(options.signInsPerMinute);
   }
 
   /** Sign-ins that have begun and not ended. */
   get pending(): number {
-    return this.#pending.size;
+    return this.#pending.size + this.#offered.size;
   }
 
   /** A page sends a browser here. */
@@ -108,26 +121,63 @@ export class SignInDesk {
     const { request } = taken.pending;
     if (taken.outcome === 'expired') return this.#refuse(request, 'expired', { address });
     try {
-      return await this.#grant(
-        request,
-        await this.#options.provider.finish(query, state, taken.pending, nowMs),
-        nowMs,
-      );
+      const signedIn = await this.#options.provider.finish(query, state, taken.pending, nowMs);
+      // It was found by the browser's secret.
+      return this.#ask(request, signedIn, browser ?? '', nowMs);
     } catch (error) {
       return this.#failed(request, error, address);
     }
   }
 
-  async #grant(
+  /** The person answers whether the page may have the grant. */
+  async answer(form: URLSearchParams, { address, browser }: Caller, nowMs: number): Promise<Reply> {
+    if (!this.#answers.take(address, nowMs)) {
+      this.#tell('too-many', { address });
+      return { status: 429, text: 'Too many requests from this address. Wait a minute, then sign in again.' };
+    }
+    const taken = this.#offered.take(form.get('token') ?? '', browser, nowMs);
+    if (!('pending' in taken)) {
+      this.#tell(taken.outcome, { address });
+      return {
+        status: 400,
+        text: 'Nobody asks this here any more. Go back to the page, and sign in again.',
+      };
+    }
+    const { request, person } = taken.pending;
+    const who = { subject: person.subject, person: person.name };
+    if (taken.outcome === 'expired') return this.#refuse(request, 'expired', who);
+    if (form.get('answer') !== 'yes') return this.#refuse(request, 'cancelled', who);
+    try {
+      return await this.#grant(taken.pending, nowMs);
+    } catch (error) {
+      return this.#failed(request, error, address);
+    }
+  }
+
+  /**
+   * Any link can begin a sign-in, for whatever key it names, and a provider that knows the browser asks for no password: so
+   * nothing is signed before the person has seen for which page, and agreed.
+   */
+  #ask(
     request: SignInRequest,
     { issuer, sub, claims }: Awaited<ReturnType<Provider['finish']>>,
+    browser: string,
     nowMs: number,
-  ): Promise<Reply> {
-    const { rules, terms, signingKey } = this.#options;
+  ): Reply {
+    const { rules, terms } = this.#options;
     const person = personOf(issuer, sub, claims);
     const rule = ruleFor(rules, claims);
     if (rule === null)
       return this.#refuse(request, 'not-permitted', { subject: person.subject, person: person.name });
+    const token = secret();
+    this.#offered.add(token, browser, { request, person, rule }, nowMs);
+    const { role, robots } = rule;
+    const asked = { page: request.return, person: person.name, key: request.key, hours: terms.hours };
+    return { consent: { token, ...asked, role, robots }, browser };
+  }
+
+  async #grant({ request, person, rule }: Offered, nowMs: number): Promise<Reply> {
+    const { terms, signingKey } = this.#options;
     const id = randomBytes(12).toString('base64url');
     const granted = grantFor(person, rule, terms, { key: request.key, id, nowS: nowMs / 1000 });
     const grant = await issueGrant(granted, signingKey);

@@ -37,11 +37,22 @@ export class WebBrowser {
   }
 
   /**
-   * Signs in at the provider's form, and consents.
+   * Signs in at the provider's form, and consents, there and at the issuer.
    *
    * @returns the page after it
    */
   async signIn(address: string, name: string): Promise<Page> {
+    return await this.allow(await this.signInAtProvider(address, name));
+  }
+
+  /** Answers the issuer's question, if it asks one. */
+  async allow(page: Page, answer: 'yes' | 'no' = 'yes'): Promise<Page> {
+    const token = / name="token" value="([^"]+)"/.exec(page.text)?.[1];
+    return token === undefined ? page : await this.open(actionOf(page), { token, answer });
+  }
+
+  /** @returns the page after the provider's forms: the issuer's question */
+  async signInAtProvider(address: string, name: string): Promise<Page> {
     const form = await this.open(address);
     const consent = await this.open(actionOf(form), { prompt: 'login', login: name, password: 'any' });
     return consent.text.includes('<form')
