@@ -5,6 +5,7 @@ import type { IceServer } from '@farpoint/protocol';
 import type { CaptureOptions } from '../capture/capture-messages.ts';
 import type { RobotOptionValues } from '../options/robot-program.ts';
 import type { RobotOptions } from '../robot-configuration.ts';
+import { ANTEROOM } from '../session/operator-places.ts';
 import { checkAudit } from './check-audit.ts';
 import { checkMonotonicClock, checkTimeOfDay, type ServerTime } from './check-clock.ts';
 import type { Configuration } from './check-configuration.ts';
@@ -102,7 +103,8 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
     {
       name: 'network',
       withinMs: SLACK_MS,
-      run: () => (running.state === 'runs' ? [] : checkUdpPorts(robot.portRange ?? null, robot.places.most)),
+      run: () =>
+        running.state === 'runs' ? [] : checkUdpPorts(robot.portRange ?? null, mostSessions(robot)),
     },
     {
       name: 'shared memory',
@@ -190,4 +192,9 @@ function ownAddresses() {
   return Object.entries(networkInterfaces()).flatMap(([name, addresses]) =>
     (addresses ?? []).map(({ address, family, internal }) => ({ name, address, family, internal })),
   );
+}
+
+/** With grants, sessions that have shown none yet have places of their own. */
+function mostSessions({ places, grantKeys }: Pick<RobotOptions, 'places' | 'grantKeys'>): number {
+  return places.most + (grantKeys === undefined ? 0 : ANTEROOM);
 }

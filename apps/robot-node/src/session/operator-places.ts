@@ -15,7 +15,7 @@ export interface PlacedOperator {
 }
 
 /** Places of sessions that have not shown a grant yet, beside those of the operators: their roles are not known. */
-const ANTEROOM = 4;
+export const ANTEROOM = 4;
 /** Ends after which the same person is likely to come back. */
 const LOST: ReadonlySet<PeerEnd> = new Set(['connection-lost', 'silent', 'not-reading']);
 
