@@ -75,6 +75,8 @@ export async function startServer(desk: SignInDesk, options: ServerOptions): Pro
       const page = consentPage(consent, `${base}/consent`);
       const own = {
         'content-security-policy': consentPolicy(consent.page),
+        // With none at all, browsers do not say either from which page the answer comes.
+        'referrer-policy': 'same-origin',
         // The cookie ends no earlier than the question.
         'set-cookie': cookie.write(browser),
         'content-type': 'text/html; charset=utf-8',
