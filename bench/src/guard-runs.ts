@@ -5,7 +5,9 @@ import {
   type GuardedRun,
   type GuardTimes,
   guardedRun,
+  RUN_SENSORS,
   RUN_WORLDS,
+  type RunSensors,
 } from '@farpoint/robot-node/testing/guarded-run';
 import { roomRun } from '@farpoint/robot-node/testing/recorded-room';
 import { readRooms } from '@farpoint/robot-node/testing/room-files';
@@ -15,13 +17,16 @@ import { Progress } from './progress.ts';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
-const USAGE = `pnpm bench guard-runs [--runs 1000] [--seed 1] [--seconds 12] [--world NAME] [--floor-camera] [--json]
+const USAGE = `pnpm bench guard-runs [--runs 1000] [--seed 1] [--seconds 12] [--world NAME] [--sensors camera|camera-and-floor|drawn] [--json]
        pnpm bench guard-runs --rooms [--clouds ../shared/data/clouds] [--runs 1000] …
 
 Simulated time, in one process. In each run a robot somewhere in one of four worlds is told to go full speed ahead, at a
 speed up to its limit, on changing arcs, while people and carts cross its way; where the guard stops it, it turns on the spot
 and goes on. Counts what it drives into, where it goes over an edge, and the commands for which it stopped although the way was free.
-With --floor-camera, a second camera looks down at the floor around the robot.
+With --sensors camera-and-floor, a second camera looks down at the floor around the robot. With drawn, each run has one to
+three cameras, each anywhere within 0.5 m of the robot's middle, pitched by up to 0.7 rad and turned any way; a robot is as
+wide as its sensors need, and drives to the side to which they look. What none of them had seen for half a second before the
+robot touched it, or fell into it, is counted apart, as unseen.
 
 With --rooms, the robot drives in recorded clouds that show a floor: its camera sees their points from where it is, and it
 starts where they were recorded, or up to half a metre from there. Contacts and false stops are those with their points.`;
@@ -37,7 +42,7 @@ export const bench: Bench = {
         seed: { type: 'string', default: '1' },
         seconds: { type: 'string', default: '12' },
         world: { type: 'string' },
-        'floor-camera': { type: 'boolean' },
+        sensors: { type: 'string', default: 'camera' },
         rooms: { type: 'boolean' },
         clouds: { type: 'string', default: join(import.meta.dirname, '../../../shared/data/clouds') },
         json: { type: 'boolean' },
@@ -53,7 +58,7 @@ export const bench: Bench = {
     const times = { now: () => performance.now(), boundMs };
     const drives = values.rooms
       ? roomDrives(codec, values.clouds)
-      : worldDrives(codec, values.world, values['floor-camera'] === true);
+      : worldDrives(codec, values.world, sensorsOf(values.sensors));
     if (drives.length === 0) return;
     const runs: GuardedRun[] = [];
     const progress = new Progress(count, 'runs');
@@ -67,7 +72,7 @@ export const bench: Bench = {
           `${run.world}, seed ${run.seed}: contact at ${atS.toFixed(2)} s, ${speed.toFixed(2)} m/s`,
         );
       }
-      if (run.fellAtS !== null)
+      if (run.fellAtS !== null && !run.fellUnseen)
         console.log(`${run.world}, seed ${run.seed}: over an edge at ${run.fellAtS.toFixed(2)} s`);
     }
     progress.end();
@@ -84,6 +89,7 @@ export const bench: Bench = {
         'metres',
         'contacts',
         'falls',
+        'unseen',
         'edge cm',
         'stops',
         'free commands',
@@ -91,12 +97,14 @@ export const bench: Bench = {
         '%',
       ],
       rows.map((row) => [
-        ...[row.world, row.runs, Math.round(row.metres), row.contacts, row.falls],
+        ...[row.world, row.runs, Math.round(row.metres), row.contacts, row.falls, row.unseen],
         row.nearestEdgeM === null ? '' : (100 * row.nearestEdgeM).toFixed(1),
         ...[row.stops, row.freeCommands, row.falseStops, 100 * row.falseShare],
       ]),
     );
     const bound = rounded(distribution(boundMs), 4);
+    const unseenMps = rows.at(-1)?.unseenMps ?? 0;
+    if (unseenMps > 0) console.log(`fastest into what was not seen: ${unseenMps.toFixed(2)} m/s`);
     console.log(`a command: p50 ${bound.p50} ms, p95 ${bound.p95} ms, max ${bound.max} ms`);
     if (values.json) {
       const all = rows.at(-1);
@@ -108,11 +116,17 @@ export const bench: Bench = {
 /** One run in one of the places. */
 export type Drive = (seed: number, seconds: number, times: GuardTimes) => GuardedRun | Promise<GuardedRun>;
 
-export function worldDrives(codec: Codec, name?: string, floorCamera = false): Drive[] {
+function sensorsOf(given: string): RunSensors {
+  const known = RUN_SENSORS.find((sensors) => sensors === given);
+  if (known === undefined) throw new Error(`--sensors is ${given}, not one of ${RUN_SENSORS.join(', ')}`);
+  return known;
+}
+
+export function worldDrives(codec: Codec, name?: string, sensors: RunSensors = 'camera'): Drive[] {
   const worlds = RUN_WORLDS.filter((world) => name === undefined || world().name === name);
   if (worlds.length === 0) throw new Error(`no world is named ${name}`);
   return worlds.map(
-    (world) => (seed, seconds, times) => guardedRun(codec, world, seed, { seconds, times, floorCamera }),
+    (world) => (seed, seconds, times) => guardedRun(codec, world, seed, { seconds, times, sensors }),
   );
 }
 
@@ -132,8 +146,16 @@ export function summaryOf(world: string, runs: readonly GuardedRun[]) {
   return {
     ...{ world, runs: runs.length, metres: sum((run) => run.metres) },
     ...{ contacts: sum((run) => run.contacts.length), stops: sum((run) => run.stops) },
-    falls: runs.filter(({ fellAtS }) => fellAtS !== null).length,
+    falls: runs.filter(({ fellAtS, fellUnseen }) => fellAtS !== null && !fellUnseen).length,
+    ...unseenOf(runs),
     nearestEdgeM: Number.isFinite(nearest) ? nearest : null,
     ...{ freeCommands, falseStops, falseShare: freeCommands === 0 ? 0 : falseStops / freeCommands },
   };
+}
+
+/** How often a robot touched, or fell over, what no sensor had seen; and how fast it was then at most, m/s. */
+function unseenOf(runs: readonly GuardedRun[]) {
+  const speeds = runs.flatMap(({ unseenContacts }) => unseenContacts.map(({ speed }) => Math.abs(speed)));
+  const falls = runs.filter(({ fellUnseen }) => fellUnseen).length;
+  return { unseen: speeds.length + falls, unseenMps: Math.max(0, ...speeds) };
 }

@@ -43,7 +43,8 @@ export const bench: Bench = {
     const runs: GuardedRun[] = [];
     for (let i = 0; i < count; i++)
       runs.push(await (drives[i % drives.length] as Drive)(seed + i, seconds, times));
-    const { contacts, falseShare, metres } = summaryOf('all', runs);
+    const { contacts: seen, unseen, falseShare, metres } = summaryOf('all', runs);
+    const contacts = seen + unseen;
     const guardMs = await simulatedGuardMs(codec, CLOUDS);
     const supervisorMs = rounded(distribution(commandMs), 4);
     console.log(

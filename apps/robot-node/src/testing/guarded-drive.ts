@@ -10,12 +10,13 @@ import {
   ObstacleGuard,
   type SensorGrid,
 } from '@farpoint/safety';
-import { DEFAULT_LIMITS, type SimulatedBase } from '@farpoint/sim';
+import type { SimulatedBase } from '@farpoint/sim';
 import type { Codec } from '@farpoint/wasm-codec';
 import type { SourceDescription } from '../capture/frame-source.ts';
 import { CloudGuard } from '../obstacles/cloud-guard.ts';
 import { GRID_SHAPE } from '../obstacles/guarded-sensors.ts';
 import { makeSharedGrid, SharedGridReader } from '../obstacles/shared-grid.ts';
+import { SeenThings } from './seen-things.ts';
 
 /** A depth camera on the robot. */
 export interface StageCamera {
@@ -32,6 +33,8 @@ export interface StageCamera {
 export interface GuardedStage {
   name: string;
   base: SimulatedBase;
+  /** Of the round robot. */
+  radius: number;
   cameras: readonly StageCamera[];
   /** To the nearest thing, of a robot that would stand there; negative inside one. */
   clearanceAt(x: number, y: number): number;
@@ -53,8 +56,16 @@ const PATIENCE_S = 1;
 /** More than this free on the way, beyond the guard's margin, and a stop there is false: metres, s. */
 const AMPLE_M = 0.05;
 const AHEAD_S = 0.6;
+/** What a sensor has seen for so long, the guard must know and the robot stand before: ms. */
+const KNOWN_MS = 500;
 const BAND = { clearanceM: 0.04, heightM: 1.1, dropM: 0.15 };
 const NO_COLOUR = new Uint32Array();
+
+export interface Contact {
+  atS: number;
+  /** Signed, m/s. */
+  speed: number;
+}
 
 export interface GuardedRun {
   world: string;
@@ -64,10 +75,14 @@ export interface GuardedRun {
   seconds: number;
   /** How far it went, metres. */
   metres: number;
-  /** Times at which the robot drove into something, s. */
-  contacts: { atS: number; speed: number }[];
+  /** Times at which the robot drove into something that its sensors had seen, s. */
+  contacts: Contact[];
+  /** The same with what none of them had seen: nothing but the robot's slowness guards it from that. */
+  unseenContacts: Contact[];
   /** When its edge came over a hole or an edge of the floor, s; the run ends there. */
   fellAtS: number | null;
+  /** Whether that was into a hole that no sensor had seen. */
+  fellUnseen: boolean;
   /** How near its edge came to one, metres; infinite where there is none. */
   nearestEdgeM: number;
   /** Commands for which the way was free, and those of them for which the guard stopped the robot. */
@@ -90,7 +105,7 @@ export interface GuardedDriveOptions {
   seed: number;
   /** Continues the sequence that placed the robot. */
   random: () => number;
-  /** Asked for, m/s. */
+  /** Asked for, m/s; negative: backwards. */
   speed: number;
   seconds: number;
   times?: GuardTimes | null;
@@ -125,8 +140,10 @@ class GuardedCamera implements Disposable {
     this.#reader = new SharedGridReader(memory, GRID_SHAPE);
   }
 
-  capture(capturedAtMs: number, tick: number): void {
+  capture(capturedAtMs: number, tick: number, seen: SeenThings): void {
     const { depth, cameraPose } = this.#camera.render();
+    const { camera, width } = this.#camera.description;
+    if (camera !== null) seen.take(depth, width, camera, cameraPose, capturedAtMs);
     this.#clouds.take({ form: 'images', depth, colour: NO_COLOUR, cameraPose, capturedAtMs });
     const grid = this.#reader.read();
     if (grid !== null) this.#waiting = { grid, due: tick + DELAY_TICKS };
@@ -148,14 +165,17 @@ class GuardedCamera implements Disposable {
 /** Drives on a stage. The same stage and options give the same run. Closes the stage. */
 export function guardedDrive(codec: Codec, stage: GuardedStage, options: GuardedDriveOptions): GuardedRun {
   const { seed, random, speed, seconds, times = null } = options;
-  const { base, name } = stage;
+  const { base, name, radius } = stage;
   using stack = new DisposableStack();
   stack.defer(() => stage.close());
   const cameras = stage.cameras.map((camera) => stack.use(new GuardedCamera(codec, camera)));
-  const guard = new ObstacleGuard(Footprint.disc(DEFAULT_LIMITS.radius), cameras.length);
+  const guard = new ObstacleGuard(Footprint.disc(radius), cameras.length);
+  const isHole = (x: number, y: number) => stage.edgeAt(x, y) + radius <= 0;
+  const seen = new SeenThings(base.state.pose.position, isHole);
   const asked = times?.around?.(guard) ?? guard;
   const run: GuardedRun = {
     ...{ world: name, seed, speed, seconds, metres: 0, contacts: [], fellAtS: null },
+    ...{ unseenContacts: [], fellUnseen: false },
     nearestEdgeM: Number.POSITIVE_INFINITY,
     ...{ freeCommands: 0, falseStops: 0, stops: 0, commands: 0 },
   };
@@ -169,7 +189,7 @@ export function guardedDrive(codec: Codec, stage: GuardedStage, options: Guarded
   for (let tick = 0; tick < ticks && run.fellAtS === null; tick++) {
     const nowMs = tick * TICK_S * 1000;
     cameras.forEach((camera, sensor) => {
-      if (Math.floor(tick + phase) % CLOUD_TICKS === 0) camera.capture(nowMs, tick);
+      if (Math.floor(tick + phase) % CLOUD_TICKS === 0) camera.capture(nowMs, tick, seen);
       const grid = camera.arrived(tick);
       if (grid !== null) guard.see(sensor, grid);
     });
@@ -201,11 +221,17 @@ export function guardedDrive(codec: Codec, stage: GuardedStage, options: Guarded
     const before = base.state.twist.linear.x;
     base.step(TICK_S);
     const touched = stage.touched();
-    if (touched && !touching) run.contacts.push({ atS: tick * TICK_S, speed: before });
-    touching = touched;
     const { x, y } = base.state.pose.position;
+    if (touched && !touching) {
+      const isKnown = nowMs - seen.thingSinceMs({ x, y }, radius) > KNOWN_MS;
+      (isKnown ? run.contacts : run.unseenContacts).push({ atS: tick * TICK_S, speed: before });
+    }
+    touching = touched;
     run.nearestEdgeM = Math.min(run.nearestEdgeM, stage.edgeAt(x, y));
-    if (run.nearestEdgeM < 0) run.fellAtS = tick * TICK_S;
+    if (run.nearestEdgeM < 0) {
+      run.fellAtS = tick * TICK_S;
+      run.fellUnseen = !(nowMs - seen.holeSinceMs({ x, y }, radius) > KNOWN_MS);
+    }
   }
   run.metres = base.state.odometryDistance;
   return run;
@@ -215,7 +241,7 @@ export function guardedDrive(codec: Codec, stage: GuardedStage, options: Guarded
 function isFree(stage: GuardedStage, v: number, w: number): boolean {
   const { pose, yaw } = stage.base.state;
   let [x, y, heading] = [pose.position.x, pose.position.y, yaw];
-  for (let t = 0; t <= AHEAD_S + v; t += 0.05) {
+  for (let t = 0; t <= AHEAD_S + Math.abs(v); t += 0.05) {
     const room = Math.min(stage.clearanceAt(x, y), stage.edgeAt(x, y));
     if (room < defaultObstacleGuardOptions.marginM + AMPLE_M) return false;
     x += v * 0.05 * Math.cos(heading);

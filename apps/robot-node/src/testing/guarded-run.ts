@@ -3,6 +3,7 @@ import {
   type CameraOptions,
   concourseWorld,
   DEFAULT_CAMERA,
+  DEFAULT_LIMITS,
   dockWorld,
   officeWorld,
   SimulatedBase,
@@ -13,6 +14,7 @@ import {
 } from '@farpoint/sim';
 import type { Codec } from '@farpoint/wasm-codec';
 import { opticalMount } from '../obstacles/sensor-mount.ts';
+import { type DrawnMount, drawMounts, radiusAround, towardsView } from './drawn-mounts.ts';
 import { type GuardedRun, type GuardTimes, guardedDrive, type StageCamera, seeded } from './guarded-drive.ts';
 
 export type { GuardedRun, GuardTimes } from './guarded-drive.ts';
@@ -41,11 +43,12 @@ function shuffled(world: WorldDescription, random: () => number): WorldDescripti
 function begun(
   world: WorldDescription,
   random: () => number,
+  radius: number,
 ): { world: WorldDescription; base: SimulatedBase } {
   for (;;) {
     const moved = shuffled(world, random);
     try {
-      return { world: moved, base: placed(moved, random) };
+      return { world: moved, base: placed(moved, random, radius) };
     } catch (error) {
       if (!(error instanceof SimulationError)) throw error;
     }
@@ -53,8 +56,8 @@ function begun(
 }
 
 /** A base somewhere in its world with room around it. */
-function placed(world: WorldDescription, random: () => number): SimulatedBase {
-  const base = new SimulatedBase(world);
+function placed(world: WorldDescription, random: () => number, radius: number): SimulatedBase {
+  const base = new SimulatedBase(world, { radius });
   for (let tries = 0; tries < 1000; tries++) {
     const [x, y] = [random() * 20, random() * 14];
     const room = Math.min(base.clearanceAt(x, y), base.edgeAt(x, y));
@@ -72,6 +75,10 @@ function indoors(world: WorldDescription, x: number, y: number): boolean {
   );
 }
 
+/** How many sensors a run has, and where. */
+export const RUN_SENSORS = ['camera', 'camera-and-floor', 'drawn'] as const;
+export type RunSensors = (typeof RUN_SENSORS)[number];
+
 /** Looks down at the floor around the robot, which the other camera does not see: in the robot's front, tilted. */
 const FLOOR_CAMERA = { forward: 0.25, left: 0, up: 0.9, pitch: 1.2, yaw: 0, fieldOfView: 2 };
 const FLOOR_SIZE = 120;
@@ -79,7 +86,7 @@ const FLOOR_SIZE = 120;
 async function cameraOf(
   { world, base, seed }: { world: WorldDescription; base: SimulatedBase; seed: number },
   size: number,
-  placed: Pick<CameraOptions, 'forward' | 'left' | 'up' | 'pitch' | 'yaw' | 'fieldOfView'>,
+  placed: Partial<DrawnMount> & Pick<CameraOptions, 'fieldOfView'>,
 ) {
   const camera = await SimulatedCamera.create({
     world,
@@ -103,8 +110,8 @@ async function cameraOf(
 export interface GuardedRunOptions {
   seconds?: number;
   times?: GuardTimes | null;
-  /** Whether a second camera looks down at the floor around the robot. */
-  floorCamera?: boolean;
+  /** With `camera-and-floor`, a second camera looks down at the floor around the robot. */
+  sensors?: RunSensors;
 }
 
 /** One run. The same world, seed and options give the same run. */
@@ -112,20 +119,24 @@ export async function guardedRun(
   codec: Codec,
   makeWorld: () => WorldDescription,
   seed: number,
-  { seconds = 12, times = null, floorCamera = false }: GuardedRunOptions = {},
+  { seconds = 12, times = null, sensors = 'camera' }: GuardedRunOptions = {},
 ): Promise<GuardedRun> {
   const random = seeded(seed);
-  const { world, base } = begun(makeWorld(), random);
+  const mounts = sensors === 'drawn' ? drawMounts(random) : null;
+  const radius = mounts === null ? DEFAULT_LIMITS.radius : radiusAround(mounts);
+  const { world, base } = begun(makeWorld(), random, radius);
   const speed = 0.2 + 0.8 * random();
   const begins = { world, base, seed };
-  const cameras = [await cameraOf(begins, SIZE, {})];
-  // Another seed, so that no two cameras have the same noise.
-  if (floorCamera)
+  const cameras = mounts === null ? [await cameraOf(begins, SIZE, {})] : [];
+  // Another seed each, so that no two cameras have the same noise.
+  if (sensors === 'camera-and-floor')
     cameras.push(await cameraOf({ ...begins, seed: seed + 100_000 }, FLOOR_SIZE, FLOOR_CAMERA));
+  for (const [i, mount] of (mounts ?? []).entries())
+    cameras.push(await cameraOf({ ...begins, seed: seed + i * 100_000 }, SIZE, mount));
   return guardedDrive(
     codec,
     {
-      ...{ name: world.name, base, cameras: cameras.map(({ staged }) => staged) },
+      ...{ name: world.name, base, radius, cameras: cameras.map(({ staged }) => staged) },
       close: () => {
         for (const { close } of cameras) close();
       },
@@ -133,6 +144,6 @@ export async function guardedRun(
       edgeAt: (x, y) => base.edgeAt(x, y),
       touched: () => base.state.collision,
     },
-    { seed, random, speed, seconds, times },
+    { seed, random, speed: mounts === null ? speed : speed * towardsView(mounts), seconds, times },
   );
 }

@@ -124,7 +124,8 @@ export function roomRun(
   return guardedDrive(
     codec,
     {
-      ...{ name: room.name, base, cameras: [room.cameraOn(base)], close: () => undefined },
+      ...{ name: room.name, base, radius: DEFAULT_LIMITS.radius },
+      ...{ cameras: [room.cameraOn(base)], close: () => undefined },
       clearanceAt: (x, y) => room.clearanceAt(x, y),
       edgeAt: () => Number.POSITIVE_INFINITY,
       touched: () => {

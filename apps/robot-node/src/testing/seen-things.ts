@@ -1,0 +1,90 @@
+/**
+ * Where depth cameras have really looked at a thing, or into a hole of the floor, by their own images and true poses: no part
+ * of the guard decides.
+ */
+import { type Pose, rotationMatrix } from '@farpoint/protocol';
+import type { Pinhole } from '@farpoint/wasm-codec';
+
+const CELL_M = 0.05;
+/** Cells of each side: as far as a drive of half a minute goes. */
+const SIDE = 800;
+/** Heights of what the robot can drive against, and that noise on the floor does not reach: metres. */
+const [LOWEST_M, HIGHEST_M] = [0.1, 1];
+/** A ray goes through the floor's level if it goes on for so much longer. */
+const THROUGH = 1.05;
+/** The guard looks no farther for holes, metres. */
+const HOLES_WITHIN_M = 4;
+/** Farther away than this from a contact, a thing is another one, metres. */
+const REACH_M = 0.05;
+
+export class SeenThings {
+  /** When a thing was first seen over each cell, and a hole in it, ms. */
+  readonly #thingMs = new Float64Array(SIDE * SIDE).fill(Number.POSITIVE_INFINITY);
+  readonly #holeMs = new Float64Array(SIDE * SIDE).fill(Number.POSITIVE_INFINITY);
+  readonly #centre: { x: number; y: number };
+  readonly #isHole: (x: number, y: number) => boolean;
+
+  /** @param centre of what is remembered, in the world, metres @param isHole whether there is no floor, in truth */
+  constructor(centre: { x: number; y: number }, isHole: (x: number, y: number) => boolean) {
+    this.#centre = { x: centre.x, y: centre.y };
+    this.#isHole = isHole;
+  }
+
+  /** @param depth along z, metres; 0 where there is none @param cameraPose of the optical frame in the world */
+  take(
+    depth: Float32Array,
+    width: number,
+    { fx, fy, cx, cy }: Pinhole,
+    cameraPose: Pose,
+    capturedAtMs: number,
+  ): void {
+    const [r0, r1, r2, r3, r4, r5, r6, r7, r8] = rotationMatrix(cameraPose.orientation);
+    const { x, y, z } = cameraPose.position;
+    for (let i = 0; i < depth.length; i++) {
+      const [right, down] = [((i % width) - cx) / fx, (Math.floor(i / width) - cy) / fy];
+      const [toX, toY] = [r0 * right + r1 * down + r2, r3 * right + r4 * down + r5];
+      const toZ = r6 * right + r7 * down + r8;
+      const far = depth[i] as number;
+      const height = z + toZ * far;
+      if (far > 0 && height >= LOWEST_M && height <= HIGHEST_M)
+        this.#mark(this.#thingMs, x + toX * far, y + toY * far, capturedAtMs);
+      const floor = toZ < 0 ? -z / toZ : Number.POSITIVE_INFINITY;
+      if (floor > HOLES_WITHIN_M || (far > 0 && far < floor * THROUGH)) continue;
+      const [floorX, floorY] = [x + toX * floor, y + toY * floor];
+      if (this.#isHole(floorX, floorY)) this.#mark(this.#holeMs, floorX, floorY, capturedAtMs);
+    }
+  }
+
+  /** Since when a thing has been seen where a disc touches; infinite where none was, ms. */
+  thingSinceMs(at: { x: number; y: number }, radius: number): number {
+    return this.#sinceMs(this.#thingMs, at, radius + REACH_M);
+  }
+
+  /** Since when a hole has been seen where a disc stands; infinite where none was, ms. */
+  holeSinceMs(at: { x: number; y: number }, radius: number): number {
+    return this.#sinceMs(this.#holeMs, at, radius + REACH_M);
+  }
+
+  #mark(firstMs: Float64Array, x: number, y: number, atMs: number): void {
+    const cell = this.#cellOf(x, y);
+    if (cell !== null && atMs < (firstMs[cell] as number)) firstMs[cell] = atMs;
+  }
+
+  #sinceMs(firstMs: Float64Array, { x, y }: { x: number; y: number }, reach: number): number {
+    let since = Number.POSITIVE_INFINITY;
+    for (let toX = -reach; toX <= reach; toX += CELL_M / 2) {
+      for (let toY = -reach; toY <= reach; toY += CELL_M / 2) {
+        if (Math.hypot(toX, toY) > reach) continue;
+        const cell = this.#cellOf(x + toX, y + toY);
+        if (cell !== null) since = Math.min(since, firstMs[cell] as number);
+      }
+    }
+    return since;
+  }
+
+  #cellOf(x: number, y: number): number | null {
+    const column = Math.floor((x - this.#centre.x) / CELL_M) + SIDE / 2;
+    const row = Math.floor((y - this.#centre.y) / CELL_M) + SIDE / 2;
+    return column >= 0 && column < SIDE && row >= 0 && row < SIDE ? row * SIDE + column : null;
+  }
+}
