@@ -4,6 +4,7 @@ import type { FloorPose } from '@farpoint/safety';
 import type { GraphOptions } from '../ros/open-graph.ts';
 import type { CollisionType } from './collision-message.ts';
 import type { ScanGuardOptions } from './scan-guard.ts';
+import type { FrameTopics } from './sensor-frames.ts';
 import type { SensorMount } from './sensor-mount.ts';
 
 /** A laser scanner's topic, and where the scanner's frame sits in base_link. */
@@ -26,6 +27,8 @@ export interface GuardTopicsOptions {
   graph: GraphOptions;
   scans: readonly GuardScan[];
   collision: CollisionTopic | null;
+  /** What says where the scanners sit, besides the configuration. */
+  frames?: FrameTopics | undefined;
 }
 
 /** What the thread starts with. */
@@ -33,6 +36,7 @@ export interface GuardTopicsSetup {
   graph: GraphOptions;
   scans: readonly { topic: string; guard: ScanGuardOptions }[];
   collision: { topic: string; type: CollisionType; cells: SharedArrayBuffer } | null;
+  frames: FrameTopics | null;
   /** The memory of its signs of life. */
   beat: SharedArrayBuffer;
 }

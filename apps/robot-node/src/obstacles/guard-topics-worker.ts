@@ -9,10 +9,12 @@ import { wallNs } from '../ros/wall-clock.ts';
 import { CollisionCells } from './collision-cells.ts';
 import { COLLISION_TYPES, demandedMps } from './collision-message.ts';
 import type { GuardTopicsReport, GuardTopicsRequest, GuardTopicsSetup } from './guard-topics-messages.ts';
-import { ScanGuard } from './scan-guard.ts';
+import { type Placing, ScanGuard } from './scan-guard.ts';
+import { SensorFrames } from './sensor-frames.ts';
 
 const LASER_SCAN = 'sensor_msgs/msg/LaserScan';
 const BEAT_MS = 20;
+const CLOCK = { now: monotonicMs, wallNs };
 
 const port = parentPort;
 if (port === null) throw new Error('guard-topics-worker.ts runs as a worker only');
@@ -28,9 +30,13 @@ function tellFault({ message }: Error): void {
   lastFault = message;
 }
 
-function hearScans(graph: RosGraph, { topic, guard }: GuardTopicsSetup['scans'][number]): void {
+function hearScans(
+  graph: RosGraph,
+  { topic, guard }: GuardTopicsSetup['scans'][number],
+  placing: Placing | undefined,
+): void {
   const decode = decoderOf(graph.version, LASER_SCAN, null);
-  const scans = new ScanGuard(guard, poses, { now: monotonicMs, wallNs });
+  const scans = new ScanGuard(guard, poses, CLOCK, placing);
   graph.subscribe({ topic, type: LASER_SCAN, qos: SENSOR_QOS, queue: 1 }, (bytes, receivedMs) => {
     try {
       scans.take(decode(bytes), receivedMs);
@@ -61,7 +67,10 @@ function hearDemands(
 try {
   const graph = await openGraph(setup.graph, 'guard');
   graph.onFault = tellFault;
-  for (const scan of setup.scans) hearScans(graph, scan);
+  const frames = setup.frames === null ? null : new SensorFrames(graph, setup.frames, CLOCK, tellFault);
+  const placing: Placing | undefined =
+    frames === null ? undefined : (frameId, atMs) => frames.mountOf(frameId, atMs);
+  for (const scan of setup.scans) hearScans(graph, scan, placing);
   const look = setup.collision === null ? null : hearDemands(graph, setup.collision);
   const beating = setInterval(() => {
     look?.();

@@ -3,6 +3,7 @@ import { BroadcastChannel } from 'node:worker_threads';
 import { DdsGraph, isAvailable } from '@farpoint/dds';
 import { testDomain } from '@farpoint/dds/testing';
 import { type Twist, zeroTwist } from '@farpoint/protocol';
+import { LATCHED_QOS } from '@farpoint/ros';
 import { messageBytes } from '@farpoint/ros/testing';
 import { Footprint } from '@farpoint/safety';
 import { silentLogger } from '@farpoint/service';
@@ -15,6 +16,7 @@ import { ObstacleStation } from './obstacle-station.ts';
 
 const SCAN = 'sensor_msgs/msg/LaserScan';
 const FLOAT = 'std_msgs/msg/Float32';
+const TF = 'tf2_msgs/msg/TFMessage';
 const RAYS = 360;
 const ending: (() => unknown)[] = [];
 afterEach(async () => {
@@ -34,6 +36,14 @@ function scanOf(range: number) {
   };
 }
 
+function laserAt(z: number) {
+  return {
+    header: { stamp: { sec: 0, nanosec: 0 }, frame_id: 'base_link' },
+    child_frame_id: 'laser',
+    transform: { translation: { x: 0, y: 0, z }, rotation: { x: 0, y: 0, z: 0, w: 1 } },
+  };
+}
+
 const THREAD = new URL('../testing/ending-guard-worker.ts', import.meta.url);
 const BAND = { clearanceM: 0.04, heightM: 1.1 };
 const CONFIGURATION: ObstacleGuardConfiguration = {
@@ -49,6 +59,7 @@ function open(): ObstacleStation {
       graph: { kind: 'ros2', domain: testDomain(), localhostOnly: true },
       scans: [{ topic: '/scan', mount }],
       collision: { topic: '/most', type: 'speed', silentMs: 500, silentMps: 0 },
+      frames: { topics: [{ topic: '/tf_static', type: TF, as: 'tf', most: null }], base: null },
       ...{ ...BAND, shape: GRID_SHAPE, odometry: true, reachM: 0.25 },
     },
     silentLogger(),
@@ -107,6 +118,15 @@ describe('the guard’s topics', { skip: !isAvailable(), timeout: 30_000 }, () =
     await until(['sensor-silent', null]);
     expect(guardHealth(station.report(monotonicMs())).ok).toBe(false);
     range = 3;
+    await until([null, null]);
+
+    // The scanner is configured 0.3 m above base_link.
+    const frames = graph.advertise({ topic: '/tf_static', type: TF, qos: LATCHED_QOS });
+    frames.publish(messageBytes(2, TF, { transforms: [laserAt(0.3)] }));
+    await until([null, null]);
+    frames.publish(messageBytes(2, TF, { transforms: [laserAt(0.4)] }));
+    await until(['sensor-silent', null]);
+    frames.publish(messageBytes(2, TF, { transforms: [laserAt(0.3)] }));
     await until([null, null]);
 
     const wire = new BroadcastChannel('guard-worker');

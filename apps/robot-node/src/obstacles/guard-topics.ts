@@ -114,7 +114,7 @@ export class GuardTopics {
   }
 
   #setup(): GuardTopicsSetup {
-    const { graph, scans, shape, odometry, clearanceM, heightM, collision } = this.#plan;
+    const { graph, scans, shape, odometry, clearanceM, heightM, collision, frames = null } = this.#plan;
     // What a thread that has ended left behind is not read any more.
     this.#cells = new CollisionCells();
     this.#beat = new SinkBeat();
@@ -127,6 +127,7 @@ export class GuardTopics {
         return { topic, guard: { memory, shape, mount, odometry, clearanceM, heightM } };
       }),
       collision: collision === null ? null : { ...collision, cells: this.#cells.memory },
+      frames: scans.length > 0 ? frames : null,
       beat: this.#beat.memory,
     };
   }

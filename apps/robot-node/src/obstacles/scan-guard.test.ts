@@ -4,7 +4,8 @@ import { decoderOf } from '@farpoint/ros';
 import { messageBytes } from '@farpoint/ros/testing';
 import { floorClasses, PoseTrack, type SensorGrid } from '@farpoint/safety';
 import { describe, expect, it } from 'vitest';
-import { ScanGuard } from './scan-guard.ts';
+import { type Placing, ScanGuard } from './scan-guard.ts';
+import { bodyMount } from './sensor-mount.ts';
 import { makeSharedGrid, SharedGridReader } from './shared-grid.ts';
 
 const TYPE = 'sensor_msgs/msg/LaserScan';
@@ -13,15 +14,17 @@ const DAY_MS = 1.7e12;
 const RAYS = 360;
 const { free, occupied, unknown } = floorClasses;
 
-function start(version: 1 | 2, odometry = true) {
+const MOUNT = { x: 0.2, y: 0, z: 0.3, roll: 0, pitch: 0, yaw: 0 };
+
+function start(version: 1 | 2, odometry = true, placing?: Placing) {
   let nowMs = 0;
   const poses = new PoseTrack();
   const memory = makeSharedGrid(SHAPE);
-  const mount = { x: 0.2, y: 0, z: 0.3, roll: 0, pitch: 0, yaw: 0 };
   const guard = new ScanGuard(
-    { memory, shape: SHAPE, mount, odometry, clearanceM: 0.04, heightM: 1.1 },
+    { memory, shape: SHAPE, mount: MOUNT, odometry, clearanceM: 0.04, heightM: 1.1 },
     poses,
     { now: () => nowMs, wallNs: () => BigInt(Math.round((DAY_MS + nowMs) * 1e6)) },
+    placing,
   );
   const reader = new SharedGridReader(memory, SHAPE);
   const decode = decoderOf(version, TYPE, null);
@@ -115,4 +118,25 @@ it.each([
   poses.measured({ x: 0, y: 0, yaw: 0 }, zeroTwist(), 1000);
   expect(() => scan(1000, 1, more)).toThrow();
   expect(reader.read()).toBeNull();
+});
+
+it.each([
+  ['2 cm to the side', { ...MOUNT, y: 0.019 }, false],
+  ['farther to the side', { ...MOUNT, y: 0.021 }, true],
+  ['lower', { ...MOUNT, z: 0.25 }, true],
+  ['turned by a degree', { ...MOUNT, yaw: 0.017 }, false],
+  ['turned by more', { ...MOUNT, yaw: 0.018 }, true],
+  ['upside down', { ...MOUNT, roll: Math.PI }, true],
+])('a scanner that tf places %s', (_, told, isDisputed) => {
+  const asked: [string, number][] = [];
+  const { poses, scan, reader } = start(2, true, (frameId, atMs) => {
+    asked.push([frameId, Math.round(atMs)]);
+    return bodyMount(told);
+  });
+  poses.measured({ x: 0, y: 0, yaw: 0 }, zeroTwist(), 1000);
+  if (isDisputed) {
+    expect(() => scan(1000, 1)).toThrow('guard.scans and tf disagree about where laser sits, by');
+    expect(reader.read()).toMatchObject({ disputed: true, placed: true });
+  } else expect(scan(1000, 1)).toMatchObject({ disputed: false });
+  expect(asked).toEqual([['laser', 1000]]);
 });

@@ -1,4 +1,5 @@
 /** The topics of the robot's ROS graph that bound its motion: laser scans, and what another program demands. */
+import type { TopicTable } from '@farpoint/ros';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 import * as z from 'zod';
 import type { CollisionType } from '../obstacles/collision-message.ts';
@@ -92,11 +93,16 @@ export interface GuardTopicsValues extends RosKindValues {
   guardClearanceM: number;
   guardHeightM: number;
   guardUnseenMps: number;
+  rosBaseFrame: string | null;
 }
 
-/** @param graph the robot's graph of this kind @returns `null` if no topic is configured */
+/**
+ * @param topics of the robot's graph @param graph the robot's graph of this kind
+ * @returns `null` if no topic is configured
+ */
 export function toGuardTopics(
   values: GuardTopicsValues,
+  topics: TopicTable,
   graph: (kind: GraphOptions['kind']) => GraphOptions,
   refuse: (key: 'guardScan' | 'guardCollisionTopic', detail: string) => void,
 ): GuardTopicsOptions | null {
@@ -117,7 +123,11 @@ export function toGuardTopics(
     topic === null
       ? null
       : { topic, type: values.guardCollisionType, silentMs: values.guardCollisionSilenceMs, silentMps };
-  return { graph: graph(kind), scans, collision };
+  const frames = {
+    topics: topics.filter(({ as }) => as === 'tf' || as === 'pose'),
+    base: values.rosBaseFrame,
+  };
+  return { graph: graph(kind), scans, collision, frames };
 }
 
 /** Whether a scanner can see anything at a height at which the robot would hit it. */

@@ -74,6 +74,15 @@ describe('the options of the obstacle guard', () => {
     expect([file.topics?.scans, file.scansShowFloor]).toEqual([[scan('/scan', 0.2)], true]);
   });
 
+  it('compare where scanners sit with the frames that the graph tells', () => {
+    const topics =
+      '[{ topic: /tf_static, as: tf }, { topic: /odom, as: pose }, { topic: /cmd_vel, as: velocity }]';
+    const text = `robot:\n  sink: { kind: ros2 }\n  topics: ${topics}\n  ros: { baseFrame: body }\n`;
+    const { frames } = optionsIn(text, '--guard-scan', '/scan=0.2,0,0.3,0,0,0').topics ?? {};
+    expect(frames?.topics.map(({ topic }) => topic)).toEqual(['/tf_static', '/odom']);
+    expect(frames?.base).toBe('body');
+  });
+
   it('take a collision topic, whose silence stops the robot by default', () => {
     expect(optionsIn(ROS, '--guard-collision-topic', '/safety/stop').topics?.collision).toEqual({
       ...{ topic: '/safety/stop', type: 'bool', silentMs: 500, silentMps: 0 },

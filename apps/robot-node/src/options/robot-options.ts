@@ -45,7 +45,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   const alarms = toAlarmRules(values.alarms, quantities, (detail) => refuse('alarms', detail));
   const obstacleGuard = toObstacleGuard(
     values,
-    toGuardTopics(values, (kind) => toGraph(values, kind), refuse),
+    toGuardTopics(values, topics, (kind) => toGraph(values, kind), refuse),
     refuse,
   );
   const broadcast = toBroadcast(values, ca, refuse);
