@@ -2,6 +2,7 @@ import {
   type EarthFrame,
   type Fence,
   type FencePose,
+  FrozenPosition,
   Geofence,
   type GeofenceOptions,
 } from '@farpoint/safety';
@@ -35,13 +36,14 @@ export function openGeofence(
   isSimulated: boolean,
 ): OpenedGeofence {
   const fix = receiver === null ? null : new FixPosition(receiver.earth, receiver.topic);
+  const frozen = new FrozenPosition(errorM);
   const pose = (): FencePose | null => {
     const known = state();
     if (known === null) return null;
     const odometry = poseOf(known, errorM, isSimulated);
     if (fix === null || odometry === null) return odometry;
     const { place } = fix;
-    if (place === null) return null;
+    if (place === null || frozen.judge(place, odometry, odometry.atMs)) return null;
     return { ...odometry, x: place.x, y: place.y, yaw: null, atMs: Math.min(odometry.atMs, place.atMs) };
   };
   return { geofence: new Geofence(fence, limits, pose), fix };

@@ -8,6 +8,8 @@ import { describe, expect, it } from 'vitest';
 import {
   CLOUD,
   cloudAt,
+  FIX,
+  fixAt,
   headerAt,
   mountTransform,
   ODOMETRY,
@@ -81,6 +83,10 @@ const stamped = <Message extends { header: Header }>(
 interface Run {
   clouds?: Stamps;
   poses?: Stamps;
+  /** Of a satellite receiver, which then says where the robot is in its fence. */
+  fixes?: Stamps;
+  /** What the receiver says of a robot that has gone so far, m; default: the truth. */
+  fixOf?: (x: number) => number;
   by?: 'odometry' | 'tf' | 'pose';
   fenceM?: number;
   wallM?: number;
@@ -92,17 +98,22 @@ interface Run {
 describe('a robot', async () => {
   const codec = await loadCodecFromDisk();
 
-  async function drive({ clouds, poses, by = 'odometry', lateMs = {}, ...rest }: Run) {
+  async function drive(run: Run) {
+    const { clouds, poses, fixes, fixOf = (x) => x, by = 'odometry', lateMs = {}, ...rest } = run;
+    const fixTopic = fixes === undefined ? undefined : '/fix';
     const topics = {
       odometry: { topic: '/odom', as: 'pose' },
       tf: { topic: '/tf', as: 'tf' },
       pose: { topic: '/pose', as: 'pose', type: POSE },
     };
-    const wall = await rosWall([{ topic: '/points', as: 'cloud' }, topics[by]], MOUNT);
+    const wall = await rosWall(
+      [{ topic: '/points', as: 'cloud' }, topics[by], { topic: '/fix', as: 'fix' }],
+      MOUNT,
+    );
     const { source, graph, setNow, faults } = wall;
     const waiting: { kind: 'cloud' | 'pose'; truth: WallTruth }[] = [];
     const driven = driveAtWall(codec, {
-      ...{ mount: MOUNT, source, setNow, speed: SPEED, odometry: true, ...rest },
+      ...{ mount: MOUNT, source, setNow, speed: SPEED, odometry: true, fixTopic, ...rest },
       feed: (truth) => {
         waiting.push({ kind: 'pose', truth }, { kind: 'cloud', truth });
         const due = ({ kind, truth: { nowMs } }: (typeof waiting)[number]) =>
@@ -111,6 +122,8 @@ describe('a robot', async () => {
         waiting.splice(0, waiting.length, ...waiting.filter((each) => !due(each)));
         for (const { kind, truth: then } of comes) {
           const { nowMs, x, points, base } = then;
+          if (kind === 'pose' && fixes !== undefined)
+            graph.say('/fix', FIX, stamped(fixAt(nowMs, fixOf(x)), fixes(nowMs)));
           if (kind === 'cloud')
             graph.say('/points', CLOUD, stamped(cloudAt(nowMs, points), clouds?.(nowMs) ?? null));
           else if (by === 'odometry')
@@ -174,6 +187,34 @@ describe('a robot', async () => {
     },
     120_000,
   );
+
+  it('comes out of no fence, whatever the stamps of its satellite receiver say', async () => {
+    let metres = 0;
+    await fc.assert(
+      fc.asyncProperty(publisher, async (fixes) => {
+        const { outsideM, fastestMps } = await drive({ fixes, fenceM: 2, wallM: 30, seconds: 8 });
+        expect(outsideM).toBeLessThan(AHEAD_M + 0.1);
+        metres += fastestMps > 0 ? 1 : 0;
+      }),
+      { seed: 38, numRuns: 24 },
+    );
+    expect(metres).toBeGreaterThan(6);
+  }, 60_000);
+
+  it('whose satellite receiver holds still, with stamps that go on, is given up', async () => {
+    const honest: Stamps = (nowMs) => headerAt(nowMs, '').stamp;
+    const moves = await drive({ fixes: honest, fenceM: 2, wallM: 30, seconds: 8 });
+    expect([moves.outsideM < 0.1, moves.fastestMps > 0.5]).toEqual([true, true]);
+    const held = await drive({
+      fixes: honest,
+      fixOf: (x) => Math.min(x, 0.3),
+      fenceM: 1.5,
+      wallM: 30,
+      seconds: 20,
+    });
+    // A metre behind odometry after the last half metre in which it moved, half of that after each pause, and the way to stand.
+    expect(held.outsideM).toBeLessThan(0.3 + 1 + 0.5 + 0.25 + 0.4 + 0.25 - 1.5);
+  });
 
   it('whose pose does not move, with stamps that do, is given up', async () => {
     for (const by of ['odometry', 'tf', 'pose'] as const) {

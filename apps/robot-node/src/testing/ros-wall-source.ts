@@ -5,12 +5,13 @@ import { type RosGraph, topicTableSchema } from '@farpoint/ros';
 import { MemoryGraph } from '@farpoint/ros/testing';
 import { RosSource } from '../capture/ros-source.ts';
 import { bodyMount, opticalMount, type SensorMount } from '../obstacles/sensor-mount.ts';
-import { BEGAN_MS, type WallTruth } from './wall-drive.ts';
+import { BEGAN_MS, EARTH, type WallTruth } from './wall-drive.ts';
 
 export const CLOUD = 'sensor_msgs/msg/PointCloud2';
 export const ODOMETRY = 'nav_msgs/msg/Odometry';
 export const TF = 'tf2_msgs/msg/TFMessage';
 export const POSE = 'geometry_msgs/msg/PoseStamped';
+export const FIX = 'sensor_msgs/msg/NavSatFix';
 const WALL_S = 1_700_000_000;
 const NO_TURN = { x: 0, y: 0, z: 0, w: 1 };
 
@@ -51,6 +52,18 @@ export function transformAt(ms: number, parent: string, child: string, { positio
 
 export function poseAt(ms: number, x: number) {
   return { header: headerAt(ms, 'map'), pose: { position: { x, y: 0, z: 0 }, orientation: NO_TURN } };
+}
+
+/** What a satellite receiver says of a robot that has gone so far to the east. */
+export function fixAt(ms: number, x: number) {
+  const { latitude, longitude } = EARTH.origin;
+  const metresPerDegree = EARTH.toFrame(latitude, longitude + 0.001)[0] * 1000;
+  return {
+    header: headerAt(ms, 'gps'),
+    status: { status: 0, service: 1 },
+    ...{ latitude, longitude: longitude + x / metresPerDegree, altitude: 500 },
+    ...{ position_covariance: new Array<number>(9).fill(0), position_covariance_type: 0 },
+  };
 }
 
 /** Where the sensor sits, as tf says it. */

@@ -3,7 +3,7 @@
  * its sensor sees goes through one of the robot's own sources, with whatever times and frames that is given.
  */
 import { compose, inverse, type Pose, rotationMatrix, type Twist, zeroTwist } from '@farpoint/protocol';
-import { defaultGeofenceOptions, Footprint, FREE } from '@farpoint/safety';
+import { defaultGeofenceOptions, EarthFrame, Footprint, FREE } from '@farpoint/safety';
 import type { Codec } from '@farpoint/wasm-codec';
 import { BaseOdometry } from '../base/base-odometry.ts';
 import type { CaptureRoom, FrameSource } from '../capture/frame-source.ts';
@@ -41,11 +41,16 @@ export interface WallDrive {
   seconds?: number;
   /** How far from where it begins it may go, m. */
   fenceM?: number;
+  /** The satellite receiver that says where the robot is in its fence; default: odometry does. */
+  fixTopic?: string | undefined;
   /** From the robot's edge to the wall at the start, m. */
   wallM?: number;
   /** Moves on the clock that the source reads. */
   setNow(nowMs: number): void;
 }
+
+/** Where drives begin on the earth, looking east. */
+export const EARTH = new EarthFrame({ latitude: 48, longitude: 11, turnDeg: 0 });
 
 export interface WallDriven {
   /** From the robot's edge to the wall at the end; negative inside it. */
@@ -104,7 +109,7 @@ function look({ position, orientation }: Pose, wallX: number): Float32Array {
 /** Drives at the wall until the time is over or the robot is in it. Closes nothing. */
 export function driveAtWall(codec: Codec, drive: WallDrive): WallDriven {
   const { mount, told = mount, source, odometry, feed, speed = 0.6, seconds = 6, setNow } = drive;
-  const { fenceM = null, wallM = START_M } = drive;
+  const { fenceM = null, fixTopic, wallM = START_M } = drive;
   const way = Math.sign(speed);
   const wallX = way * (RADIUS + wallM);
   const memory = makeSharedGrid(GRID_SHAPE);
@@ -121,17 +126,19 @@ export function driveAtWall(codec: Codec, drive: WallDrive): WallDriven {
     odometry,
   });
   const believed = new BaseOdometry({ maxLinear: Math.abs(speed), maxAngular: 1 }, false);
-  const fence =
+  const opened =
     fenceM === null
       ? null
       : openGeofence(
           {
-            ...{ fence: { allowed: [], forbidden: [], slow: [], radiusM: fenceM }, fix: null, errorM: 0 },
+            ...{ fence: { allowed: [], forbidden: [], slow: [], radiusM: fenceM }, errorM: 0 },
+            fix: fixTopic === undefined ? null : { topic: fixTopic, earth: EARTH },
             limits: { ...defaultGeofenceOptions, radiusM: RADIUS, brakeMps2: BRAKES / 2 },
           },
           () => believed.believed,
           false,
-        ).geofence;
+        );
+  const fence = opened?.geofence ?? null;
   const { capacity } = source.description;
   const room: CaptureRoom = {
     points: new Float32Array(capacity * 4),
@@ -149,6 +156,7 @@ export function driveAtWall(codec: Codec, drive: WallDrive): WallDriven {
   for (let ms = 0; ms < seconds * 1000 && driven.contactMps === null; ms += TICK_MS) {
     const nowMs = BEGAN_MS + ms;
     setNow(nowMs);
+    source.onReading = (reading) => opened?.fix?.take(reading, nowMs);
     if (ms % CLOUD_MS === 0) {
       const base = { position: { x, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
       const twist = { ...zeroTwist(), linear: { x: now, y: 0, z: 0 } };
