@@ -40,6 +40,8 @@ export interface GuardedStage {
   clearanceAt(x: number, y: number): number;
   /** To the nearest hole or edge of the floor; infinite where there is none. */
   edgeAt(x: number, y: number): number;
+  /** Whether what a robot touches that stands there never moves. */
+  isStill(x: number, y: number): boolean;
   /** Whether the robot drove into something since the last step. */
   touched(): boolean;
   close(): void;
@@ -58,6 +60,8 @@ const AMPLE_M = 0.05;
 const AHEAD_S = 0.6;
 /** What a sensor has seen for so long, the guard must know and the robot stand before: ms. */
 const KNOWN_MS = 500;
+/** What moves is no longer known to be where it was last seen so long ago, ms. */
+const MOVED_ON_MS = 1000;
 const BAND = { clearanceM: 0.04, heightM: 1.1, dropM: 0.15 };
 const NO_COLOUR = new Uint32Array();
 
@@ -223,7 +227,8 @@ export function guardedDrive(codec: Codec, stage: GuardedStage, options: Guarded
     const touched = stage.touched();
     const { x, y } = base.state.pose.position;
     if (touched && !touching) {
-      const isKnown = nowMs - seen.thingSinceMs({ x, y }, radius) > KNOWN_MS;
+      const lastMs = stage.isStill(x, y) ? Number.NEGATIVE_INFINITY : nowMs - MOVED_ON_MS;
+      const isKnown = nowMs - seen.thingSinceMs({ x, y }, radius, lastMs) > KNOWN_MS;
       (isKnown ? run.contacts : run.unseenContacts).push({ atS: tick * TICK_S, speed: before });
     }
     touching = touched;

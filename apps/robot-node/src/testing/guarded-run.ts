@@ -26,6 +26,8 @@ export const RUN_WORLDS: readonly (() => WorldDescription)[] = [
   dockWorld,
 ];
 
+/** A robot that is nearer touches, metres. */
+const TOUCHES_M = 0.005;
 /** Pixels: fewer than the robot's own camera has, so that a run takes a second. */
 const SIZE = 160;
 
@@ -126,6 +128,7 @@ export async function guardedRun(
   const radius = mounts === null ? DEFAULT_LIMITS.radius : radiusAround(mounts);
   const { world, base } = begun(makeWorld(), random, radius);
   const speed = 0.2 + 0.8 * random();
+  const still = new SimulatedBase({ ...world, movers: [] }, { radius });
   const begins = { world, base, seed };
   const cameras = mounts === null ? [await cameraOf(begins, SIZE, {})] : [];
   // Another seed each, so that no two cameras have the same noise.
@@ -142,6 +145,7 @@ export async function guardedRun(
       },
       clearanceAt: (x, y) => base.clearanceAt(x, y),
       edgeAt: (x, y) => base.edgeAt(x, y),
+      isStill: (x, y) => still.clearanceAt(x, y) < TOUCHES_M,
       touched: () => base.state.collision,
     },
     { seed, random, speed: mounts === null ? speed : speed * towardsView(mounts), seconds, times },

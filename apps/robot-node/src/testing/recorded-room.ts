@@ -128,6 +128,7 @@ export function roomRun(
       ...{ cameras: [room.cameraOn(base)], close: () => undefined },
       clearanceAt: (x, y) => room.clearanceAt(x, y),
       edgeAt: () => Number.POSITIVE_INFINITY,
+      isStill: () => true,
       touched: () => {
         const { x, y } = base.state.pose.position;
         return room.isTouched(x, y);

@@ -28,6 +28,12 @@ it('keeps the first time', () => {
   expect(seen.thingSinceMs({ x: 1.8, y: 0 }, RADIUS)).toBe(700);
 });
 
+it('knows where a thing was lately', () => {
+  const seen = seenAt(2);
+  expect(seen.thingSinceMs({ x: 1.8, y: 0 }, RADIUS, 700)).toBe(700);
+  expect(seen.thingSinceMs({ x: 1.8, y: 0 }, RADIUS, 701)).toBe(NEVER);
+});
+
 it.each([
   ['floor', 1, NEVER, NEVER],
   ['a thing 20 cm high', 0.8, 700, NEVER],

@@ -18,8 +18,9 @@ const HOLES_WITHIN_M = 4;
 const REACH_M = 0.05;
 
 export class SeenThings {
-  /** When a thing was first seen over each cell, and a hole in it, ms. */
+  /** When a thing was first and last seen over each cell, and when a hole in it, ms. */
   readonly #thingMs = new Float64Array(SIDE * SIDE).fill(Number.POSITIVE_INFINITY);
+  readonly #lastThingMs = new Float64Array(SIDE * SIDE).fill(Number.NEGATIVE_INFINITY);
   readonly #holeMs = new Float64Array(SIDE * SIDE).fill(Number.POSITIVE_INFINITY);
   readonly #centre: { x: number; y: number };
   readonly #isHole: (x: number, y: number) => boolean;
@@ -46,8 +47,10 @@ export class SeenThings {
       const toZ = r6 * right + r7 * down + r8;
       const far = depth[i] as number;
       const height = z + toZ * far;
-      if (far > 0 && height >= LOWEST_M && height <= HIGHEST_M)
-        this.#mark(this.#thingMs, x + toX * far, y + toY * far, capturedAtMs);
+      if (far > 0 && height >= LOWEST_M && height <= HIGHEST_M) {
+        const cell = this.#mark(this.#thingMs, x + toX * far, y + toY * far, capturedAtMs);
+        if (cell !== null) this.#lastThingMs[cell] = capturedAtMs;
+      }
       const floor = toZ < 0 ? -z / toZ : Number.POSITIVE_INFINITY;
       if (floor > HOLES_WITHIN_M || (far > 0 && far < floor * THROUGH)) continue;
       const [floorX, floorY] = [x + toX * floor, y + toY * floor];
@@ -55,9 +58,14 @@ export class SeenThings {
     }
   }
 
-  /** Since when a thing has been seen where a disc touches; infinite where none was, ms. */
-  thingSinceMs(at: { x: number; y: number }, radius: number): number {
-    return this.#sinceMs(this.#thingMs, at, radius + REACH_M);
+  /** Since when a thing has been seen where a disc touches; infinite where none was, ms. @param lastMs seen at least then */
+  thingSinceMs(at: { x: number; y: number }, radius: number, lastMs = Number.NEGATIVE_INFINITY): number {
+    return this.#sinceMs(
+      this.#thingMs,
+      at,
+      radius + REACH_M,
+      (cell) => (this.#lastThingMs[cell] as number) >= lastMs,
+    );
   }
 
   /** Since when a hole has been seen where a disc stands; infinite where none was, ms. */
@@ -65,18 +73,24 @@ export class SeenThings {
     return this.#sinceMs(this.#holeMs, at, radius + REACH_M);
   }
 
-  #mark(firstMs: Float64Array, x: number, y: number, atMs: number): void {
+  #mark(firstMs: Float64Array, x: number, y: number, atMs: number): number | null {
     const cell = this.#cellOf(x, y);
     if (cell !== null && atMs < (firstMs[cell] as number)) firstMs[cell] = atMs;
+    return cell;
   }
 
-  #sinceMs(firstMs: Float64Array, { x, y }: { x: number; y: number }, reach: number): number {
+  #sinceMs(
+    firstMs: Float64Array,
+    { x, y }: { x: number; y: number },
+    reach: number,
+    counts: (cell: number) => boolean = () => true,
+  ): number {
     let since = Number.POSITIVE_INFINITY;
     for (let toX = -reach; toX <= reach; toX += CELL_M / 2) {
       for (let toY = -reach; toY <= reach; toY += CELL_M / 2) {
         if (Math.hypot(toX, toY) > reach) continue;
         const cell = this.#cellOf(x + toX, y + toY);
-        if (cell !== null) since = Math.min(since, firstMs[cell] as number);
+        if (cell !== null && counts(cell)) since = Math.min(since, firstMs[cell] as number);
       }
     }
     return since;
