@@ -1,5 +1,5 @@
 import { REFERENCE_MEDIA } from '@farpoint/protocol';
-import { type ConnectionGuardEvents, guardConnection } from '@farpoint/webrtc';
+import { type ConnectionGuardEvents, chooseHostCandidates, guardConnection } from '@farpoint/webrtc';
 import {
   RTCPeerConnection,
   RTCRtpCodecParameters,
@@ -48,6 +48,7 @@ export function createReferencePeerConnection(
     // The first and only extension: its id is 1.
     headerExtensions: { video: [useTransportWideCC()] },
   });
+  chooseHostCandidates(connection);
   guardConnection(connection, events);
   return connection;
 }

@@ -1,8 +1,10 @@
 export { type Unproven, UnprovenPeerError } from './dtls/peer-proof.ts';
 export { type CandidateRefusal, candidateRefusals } from './ice/candidate-gate.ts';
+export { type HostAddress, hostAddresses, type Interfaces } from './ice/host-addresses.ts';
 export { type Refusal, Refusals } from './refusal.ts';
 export { datagramsSent } from './werift/datagram-batches.ts';
 export { type ConnectionGuardEvents, guardConnection } from './werift/guard-connection.ts';
+export { chooseHostCandidates } from './werift/host-candidates.ts';
 export { IcePath } from './werift/ice-path.ts';
 export { discardSockets, dropDefaultStun, pairLateCandidates, startChecks } from './werift/ice-restart.ts';
 export { prepareSockets } from './werift/ice-sockets.ts';

@@ -1,19 +1,14 @@
 /** Checks what this machine offers operators without a server: addresses, and ports to listen on. */
 import { createSocket } from 'node:dgram';
+import { hostAddresses, type Interfaces } from '@farpoint/webrtc';
 import { fail, ok, type Result, warn } from './finding.ts';
 
-export interface OwnAddress {
-  name: string;
-  address: string;
-  family: string;
-  internal: boolean;
-}
-
-export function checkAddresses(addresses: readonly OwnAddress[]): Result[] {
-  const usable = addresses.filter(({ internal, address }) => !internal && !address.startsWith('fe80:'));
-  if (usable.length === 0)
+/** Names the addresses that operators are offered. */
+export function checkAddresses(interfaces: Interfaces): Result[] {
+  const offered = hostAddresses(interfaces);
+  if (offered.length === 0)
     return [warn('no network but loopback', 'connect this machine: operators elsewhere cannot reach it')];
-  return [ok(`candidates ${usable.map(({ name, address }) => `${address} (${name})`).join(', ')}`)];
+  return [ok(`candidates ${offered.map(({ name, address }) => `${address} (${name})`).join(', ')}`)];
 }
 
 /** Number of ports that one operator's connection may use. */

@@ -53,7 +53,7 @@ export function machineChecks(host: Host, dds: boolean): Check[] {
     quick('memory', () => checkMemory(host)),
     quick('socket buffers', () => checkSocketBuffers(host, dds)),
     quick('clock', () => checkMonotonicClock(host, now)),
-    quick('network', () => checkAddresses(ownAddresses())),
+    quick('network', () => checkAddresses(networkInterfaces())),
   ];
 }
 
@@ -186,12 +186,6 @@ async function checkSource(
   } catch (error) {
     return judgeClosedSource(source, error as Error);
   }
-}
-
-function ownAddresses() {
-  return Object.entries(networkInterfaces()).flatMap(([name, addresses]) =>
-    (addresses ?? []).map(({ address, family, internal }) => ({ name, address, family, internal })),
-  );
 }
 
 /** With grants, sessions that have shown none yet have places of their own. */

@@ -134,15 +134,13 @@ describe('machine', () => {
 
 describe('network', () => {
   it('addresses', () => {
-    const lo = { name: 'lo', address: '127.0.0.1', family: 'IPv4', internal: true };
-    const link = { name: 'eth0', address: 'fe80::1', family: 'IPv6', internal: false };
-    expect(verdicts(checkAddresses([lo, link]))).toEqual(['warn']);
+    const v4 = (address: string, internal = false) => [{ address, family: 'IPv4' as const, internal }];
+    const lo = v4('127.0.0.1', true);
+    const eth0 = [{ address: 'fe80::1', family: 'IPv6' as const, internal: false }];
+    expect(verdicts(checkAddresses({ lo, eth0 }))).toEqual(['warn']);
     expect(
-      checkAddresses([lo, { ...lo, address: '10.0.0.5', name: 'wlan0', internal: false }])[0],
-    ).toMatchObject({
-      verdict: 'ok',
-      detail: 'candidates 10.0.0.5 (wlan0)',
-    });
+      checkAddresses({ lo, tun0: v4('10.8.0.2'), wlan0: v4('10.0.0.5'), docker0: v4('172.17.0.1') }),
+    ).toMatchObject([{ verdict: 'ok', detail: 'candidates 10.0.0.5 (wlan0), 10.8.0.2 (tun0)' }]);
   });
 });
 

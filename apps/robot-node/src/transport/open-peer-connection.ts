@@ -1,5 +1,6 @@
 import { type IceCandidate, type IceServer, VIDEO_CODECS } from '@farpoint/protocol';
 import { ABS_CAPTURE_TIME_URI } from '@farpoint/rtp';
+import { chooseHostCandidates } from '@farpoint/webrtc';
 import {
   type RTCIceCandidate,
   RTCPeerConnection,
@@ -20,7 +21,7 @@ export function openPeerConnection({
   // All m-lines share these objects, because ids must agree within a bundle.
   const extensions = [useSdesMid(), useTransportWideCC()];
   const captureTime = new RTCRtpHeaderExtensionParameters({ uri: ABS_CAPTURE_TIME_URI });
-  return new RTCPeerConnection({
+  const connection = new RTCPeerConnection({
     iceServers: toWeriftServers(iceServers),
     bundlePolicy: 'max-bundle',
     // Points over TCP would arrive late and in bursts. A relay's own use of TCP is another matter.
@@ -33,6 +34,8 @@ export function openPeerConnection({
       video: [...extensions, captureTime],
     },
   });
+  chooseHostCandidates(connection);
+  return connection;
 }
 
 export function toWeriftServers(servers: readonly IceServer[]) {
