@@ -8,6 +8,7 @@ export * from './peers/offering-connection.ts';
 export * from './peers/reference-operator.ts';
 export * from './peers/reference-robot.ts';
 export * from './peers/socket-peer.ts';
+export * from './reach.ts';
 export * from './rtp-rules.ts';
 export * from './suites/bridge-suite.ts';
 export * from './suites/robot-suite.ts';

@@ -1,13 +1,25 @@
 /** `pnpm conformance` as users run it. */
 import { execFile } from 'node:child_process';
+import { once } from 'node:events';
+import { createServer, type Server } from 'node:http';
+import { type AddressInfo, createServer as createTcpServer } from 'node:net';
 import { fileURLToPath } from 'node:url';
-import { afterEach, expect, it } from 'vitest';
+import { afterEach, describe, expect, it } from 'vitest';
+import { ReferenceOperator } from './peers/reference-operator.ts';
+import { SocketPeer } from './peers/socket-peer.ts';
+import { runSuite, whyUnfinished } from './suites/suite.ts';
 import { ReleasedSignaling } from './testing/index.ts';
+import { closePlainServer, openPlainServer, plainServerUrl } from './testing/plain-socket-server.ts';
 
 const PROGRAM = fileURLToPath(new URL('main.ts', import.meta.url));
 
 let signaling: ReleasedSignaling | null = null;
-afterEach(() => signaling?.stop());
+const cleanups: (() => unknown)[] = [];
+afterEach(async () => {
+  await signaling?.stop();
+  signaling = null;
+  for (const cleanup of cleanups.splice(0)) await cleanup();
+});
 
 function run(...args: string[]): Promise<{ code: number; out: string; err: string }> {
   return new Promise((resolve) => {
@@ -34,9 +46,87 @@ it('at level reference, passes the released signaling and names its defects; at 
 it.each([
   [['signaling', '--level', 'lenient'], '--level lenient: must be one of reference, strict'],
   [['signaling', '--levle', 'strict'], "Unknown option '--levle'"],
+  [
+    ['signaling', '--robot', 'localhost:3001'],
+    '--robot localhost:3001: must be an address that begins with ws://',
+  ],
 ])('%j: says which argument is invalid', async (args, message) => {
   const { code, err } = await run(...args);
   expect(code).toBe(2);
   expect(err).toContain(message);
   expect(err).not.toContain('    at ');
+});
+
+/** Each suite with the options that name an implementation; the bridge reaches signaling by itself. */
+const SUITES = {
+  signaling: ['robot', 'client'],
+  robot: ['client'],
+  bridge: ['robot', 'control', 'telemetry', 'streaming'],
+} as const;
+type Suite = keyof typeof SUITES;
+
+const at = (url: string, suite: Suite) => SUITES[suite].flatMap((option) => [`--${option}`, url]);
+
+async function listening(server: Server | ReturnType<typeof createTcpServer>): Promise<string> {
+  server.listen(0, '127.0.0.1');
+  await once(server, 'listening');
+  cleanups.push(() => server.close());
+  return `127.0.0.1:${(server.address() as AddressInfo).port}`;
+}
+
+const webServer = (status: number) =>
+  listening(createServer((_, response) => response.writeHead(status).end()));
+
+describe.each(Object.keys(SUITES) as Suite[])('%s that cannot be reached', (suite) => {
+  it.each<[string, string, () => Promise<string>]>([
+    ['refuses', 'nothing listens there; check that the program runs', async () => 'ws://127.0.0.1:1'],
+    ['is at no host', 'there is no host of that name; check the name', async () => 'ws://robot.invalid:3001'],
+    ['is a web server', 'it answers with HTTP status 404', async () => `ws://${await webServer(404)}`],
+    ['is a proxy for nobody', 'it answers with HTTP status 502', async () => `ws://${await webServer(502)}`],
+    [
+      'speaks another protocol',
+      'what listens there is no WebSocket server',
+      async () => `ws://${await listening(createTcpServer((socket) => socket.end('SSH-2.0-x\r\n')))}`,
+    ],
+    ['has no TLS', 'it does not speak TLS', async () => `wss://${await webServer(404)}`],
+  ])('%s: one sentence, and no defects', async (_, why, open) => {
+    const url = await open();
+    const { code, out, err } = await run(suite, ...at(url, suite), '--level', 'reference', '--json');
+    expect(code).toBe(3);
+    expect(err.trim().split('\n')).toHaveLength(1);
+    expect(err).toContain(`${url} (--${SUITES[suite][0]}) cannot be reached: ${why}`);
+    const outcomes = JSON.parse(out).map(({ outcome, defect }: Record<string, unknown>) => [outcome, defect]);
+    expect(new Set(outcomes.map(String))).toEqual(new Set(['not-tried,']));
+  });
+
+  it('goes away: the remaining cases are not tried', { timeout: 30_000 }, async () => {
+    const server = await openPlainServer();
+    cleanups.push(() => closePlainServer(server).catch(() => undefined));
+    let connections = 0;
+    // The kit has tried each address; now its first case begins.
+    server.on('connection', () => {
+      if (++connections > SUITES[suite].length) void closePlainServer(server);
+    });
+    const url = plainServerUrl(server);
+    const { code, err } = await run(suite, ...at(url, suite), '--level', 'reference');
+    expect(code).toBe(3);
+    expect(err).not.toContain('known defect');
+    expect(err).toMatch(/^0 passed, 1 failed, \d+ not tried at level reference$/m);
+    expect(err).toMatch(/^ws:.* \(--\w+\) went away during ‘.*’: nothing listens there; check /m);
+  });
+});
+
+it('says which robots there are if the one it looks for has not registered', async () => {
+  signaling = await ReleasedSignaling.start();
+  const other = await SocketPeer.open(signaling.robotUrl);
+  cleanups.push(() => other.close());
+  other.send({ type: 'register', name: 'rover', sdpOffer: 'v=0' });
+  await other.message({ type: 'registered' });
+  const cases = [
+    { name: 'connects', run: async () => void (await ReferenceOperator.connect(clientUrl, 'rovr', 2000)) },
+  ];
+  const { clientUrl } = signaling;
+  expect(whyUnfinished(await runSuite(cases, null, 'strict'))).toMatch(
+    /^no robot ‘rovr’ \(--name\) is registered at .*: there are ‘rover’$/,
+  );
 });

@@ -7,19 +7,32 @@ export interface OpenOffer {
   candidates: readonly string[];
 }
 
+/** As many as a sentence names. */
+const MAX_OTHERS = 8;
+
 export class OfferBoard {
   readonly #name: string;
   /** Robots with that name, whether or not their offer was answered. */
   readonly #ids = new Set<number>();
+  /** Of robots with other names. */
+  readonly others = new Set<string>();
+  /** The service has answered with a list of robots. */
+  listed = false;
 
   constructor(name: string) {
     this.#name = name;
+  }
+
+  /** Whether a robot with that name has registered. */
+  get knows(): boolean {
+    return this.#ids.size > 0;
   }
 
   /** The offers to answer because of this message. */
   read(message: ReferenceServiceToClient): OpenOffer[] {
     switch (message.type) {
       case 'robots':
+        this.listed = true;
         return this.#fromList(message.robots);
       case 'register':
         return this.#isOurs(message.robot) ? [toOffer(message.robot)] : [];
@@ -45,7 +58,10 @@ export class OfferBoard {
   }
 
   #isOurs({ id, name, sdpOffer }: ReferenceRobot): boolean {
-    if (name !== this.#name) return false;
+    if (name !== this.#name) {
+      if (this.others.size < MAX_OTHERS) this.others.add(name);
+      return false;
+    }
     this.#ids.add(id);
     return sdpOffer !== null;
   }

@@ -11,6 +11,7 @@ import { createReferencePeerConnection, referenceChannels } from '@farpoint/refe
 import { prepareSockets, tapRtp } from '@farpoint/webrtc';
 import { helloAtOnce } from '@farpoint/webrtc/testing';
 import type { RTCDataChannel, RTCPeerConnection } from 'werift';
+import { UnreachableError } from '../reach.ts';
 import { Inbox } from './inbox.ts';
 import { OfferBoard, type OpenOffer } from './offer-board.ts';
 import { SocketPeer } from './socket-peer.ts';
@@ -79,6 +80,7 @@ export class ReferenceOperator {
    *
    * @param url the clients' port of signaling
    * @param timeoutMs our robot makes another offer 20 s after an answer that came to nothing
+   * @throws {UnreachableError} if no robot with this name has registered
    */
   static async connect(url: string, name: string, timeoutMs = 30_000): Promise<ReferenceOperator> {
     const line = await SocketPeer.open(url);
@@ -112,11 +114,15 @@ export class ReferenceOperator {
     line.send({ type: 'getRobots' });
     void follow();
     try {
-      chosen = await opened.next(undefined, timeoutMs, `robot '${name}', connected,`);
+      chosen = await Promise.race([
+        opened.next(undefined, timeoutMs, `robot '${name}', connected,`),
+        line.closed.then(() => Promise.reject(new Error('signaling closed the connection'))),
+      ]);
       return chosen;
     } catch (error) {
+      const absent = line.open ? absence(url, name, board) : null;
       await line.close();
-      throw error;
+      throw absent ?? error;
     } finally {
       for (const attempt of attempts.values()) if (attempt !== chosen) await attempt.disconnect();
     }
@@ -197,4 +203,17 @@ async function opened(channel: RTCDataChannel, timeoutMs: number): Promise<void>
   channel.stateChanged.subscribe((state) => inbox.push(state));
   if (channel.readyState !== 'open')
     await inbox.next((state) => state === 'open', timeoutMs, `channel '${channel.label}'`);
+}
+
+/** Why there is no robot to connect to; `null` if there is one. */
+function absence(url: string, name: string, board: OfferBoard): UnreachableError | null {
+  if (!board.listed)
+    return new UnreachableError(
+      `${url} (--client) does not answer getRobots; check that it is the clients’ port of the reference system’s signaling`,
+    );
+  if (board.knows) return null;
+  const others = [...board.others].map((other) => `‘${other}’`).join(', ');
+  return new UnreachableError(
+    `no robot ‘${name}’ (--name) is registered at ${url} (--client); check that it runs and has connected there, and its name${others === '' ? '' : `: there are ${others}`}`,
+  );
 }

@@ -4,10 +4,13 @@ import { Inbox } from './inbox.ts';
 /** A plain WebSocket of the reference system for tests: text and bytes as received. */
 export class SocketPeer {
   readonly inbox = new Inbox<string | Uint8Array>();
+  /** Resolves when either side has closed it. */
+  readonly closed: Promise<void>;
   readonly #socket: WebSocket;
 
   private constructor(socket: WebSocket) {
     this.#socket = socket;
+    this.closed = new Promise((resolve) => socket.once('close', () => resolve()));
     socket.on('message', (data: Buffer, binary: boolean) =>
       this.inbox.push(binary ? new Uint8Array(data) : data.toString('utf8')),
     );
@@ -62,10 +65,8 @@ export class SocketPeer {
   }
 
   async close(): Promise<void> {
-    if (this.#socket.readyState === WebSocket.CLOSED) return;
-    const closed = new Promise((resolve) => this.#socket.once('close', resolve));
     this.#socket.terminate();
-    await closed;
+    await this.closed;
   }
 }
 
