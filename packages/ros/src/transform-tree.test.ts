@@ -51,10 +51,12 @@ describe('what is told about a frame', () => {
   });
 });
 
-test('a transform that is forgotten is begun anew', () => {
-  const made = tree(['odom', 'base', 100, 1]);
-  made.forget('base');
-  expect(made.has('base')).toBe(false);
+test('a transform of another source begins anew, if it is kept', () => {
+  const made = tree(['odom', 'base', 100, 1], ['base', 'lidar', 0, 0]);
+  expect(made.set('lidar', 'base', 200, at(2), false, true)).toBe('loop');
+  expect(xOf(made, 'base', 200)).toBe(1);
+  expect(made.set('odom', 'base', 200, at(2), false, true)).toBe('kept');
+  expect(xOf(made, 'base', 100)).toBe(2);
 });
 
 test('no frame can be above itself', () => {

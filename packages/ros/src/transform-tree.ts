@@ -45,10 +45,21 @@ export class TransformTree {
     return this.#edges.has(child);
   }
 
-  /** Takes a transform. Nothing is stored unless it is kept. */
-  set(parent: string, child: string, timeMs: number, pose: Pose, fixed: boolean): TransformVerdict {
+  /**
+   * Takes a transform. Nothing is stored, and nothing forgotten, unless it is kept.
+   *
+   * @param anew whether another source of it takes over, and what was known of it is forgotten
+   */
+  set(
+    parent: string,
+    child: string,
+    timeMs: number,
+    pose: Pose,
+    fixed: boolean,
+    anew = false,
+  ): TransformVerdict {
     const edge = this.#edges.get(child);
-    if (edge === undefined || edge.parent !== parent || fixed) {
+    if (edge === undefined || edge.parent !== parent || fixed || anew) {
       if (edge === undefined && this.#edges.size >= MOST_FRAMES) return 'too-many';
       if (this.#isAbove(child, parent)) return 'loop';
       this.#edges.set(child, { parent, fixed, samples: [{ timeMs, pose }] });
@@ -107,11 +118,6 @@ export class TransformTree {
       child = edge.parent;
     }
     return newest;
-  }
-
-  /** Forgets a transform, where another source of it takes over. */
-  forget(child: string): void {
-    this.#edges.delete(child);
   }
 
   /** Forgets moving transforms, after a jump in time. */

@@ -86,6 +86,34 @@ test('a velocity that is none does not cost the pose, nor a pose that is none wh
   expect(world.base).toMatchObject({ pose: { position: { x: 1 } }, timeMs: 1000 });
 });
 
+describe('a transform of tf that is left out leaves odometry’s', () => {
+  const none = { x: 0, y: 0, z: 0, w: 0 };
+  test.each<[string, ReturnType<typeof transform>, string]>([
+    ['whose position is none', transform(1100, 'odom', 'base_link', Number.NaN), 'is none'],
+    ['whose rotation is none', transform(1100, 'odom', 'base_link', 9, none), 'is none'],
+    [
+      'whose rotation is no number',
+      transform(1100, 'odom', 'base_link', 9, { ...none, w: Number.NaN }),
+      'is none',
+    ],
+    ['that makes a loop', transform(1100, 'lidar', 'base_link', 9), 'cannot be above itself'],
+    ['whose stamp is refused', transform(9999, 'odom', 'base_link', 9), 'ahead'],
+  ])('%s', (_, invalid, why) => {
+    const times: StampTimes = { of: (__, ns) => (ns > 9_000_000_000n ? 'ahead' : Number(ns) / 1e6) };
+    const world = new WorldState(times);
+    world.take(STATIC, tf(transform(0, 'base_link', 'lidar', 0.2)));
+    world.take(ODOM, odometry(1000, 1));
+    expect(world.take(TF, tf(invalid))).toContain(why);
+    expect(world.base).toMatchObject({ pose: { position: { x: 1 } }, timeMs: 1000 });
+    // Nor has tf taken over what odometry says.
+    world.take(ODOM, odometry(1200, 2));
+    expect(world.base).toMatchObject({ pose: { position: { x: 2 } }, timeMs: 1200 });
+    world.take(TF, tf(transform(1300, 'odom', 'base_link', 3)));
+    world.take(ODOM, odometry(1400, 4));
+    expect(world.base).toMatchObject({ pose: { position: { x: 3 } }, timeMs: 1300 });
+  });
+});
+
 test('a battery that tells its charge in percent is read as percent, and that is said once', () => {
   const world = new WorldState();
   const battery = { name: '/battery', type: 'sensor_msgs/msg/BatteryState' };

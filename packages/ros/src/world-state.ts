@@ -220,8 +220,10 @@ export class WorldState {
         fault ??= `the transform of ${child}: ${timeMs}`;
         continue;
       }
-      if (this.#byOdometry.delete(child)) this.#tree.forget(child);
-      const why = this.#place(header.frame_id, child, timeMs, position, rotation, fixed);
+      const anew = this.#byOdometry.has(child);
+      const why = this.#place(header.frame_id, child, timeMs, position, rotation, fixed, anew);
+      // What is left out takes nothing over.
+      if (why === null) this.#byOdometry.delete(child);
       fault ??= why;
     }
     return fault;
@@ -266,10 +268,11 @@ export class WorldState {
     position: Pose['position'],
     rotation: Quaternion,
     fixed: boolean,
+    anew = false,
   ): string | null {
     const orientation = unitQuaternion(rotation);
     if (orientation === null || !isFiniteVector(position)) return `the transform of ${child} is none`;
-    const verdict = this.#tree.set(frameName(parent), child, timeMs, { position, orientation }, fixed);
+    const verdict = this.#tree.set(frameName(parent), child, timeMs, { position, orientation }, fixed, anew);
     if (verdict === 'too-many') return `too many frames: ${child} is not kept`;
     if (verdict === 'loop') return `${child} cannot be above itself: its transform is not kept`;
     if (!fixed) this.#newestMs = Math.max(this.#newestMs, timeMs);
