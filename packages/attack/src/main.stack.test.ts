@@ -1,5 +1,7 @@
 /** `pnpm attack` as users run it. */
-import { execFile } from 'node:child_process';
+import { execFile, spawn } from 'node:child_process';
+import { once } from 'node:events';
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { expect, it } from 'vitest';
 import { allAttacks } from './all-attacks.ts';
@@ -46,6 +48,41 @@ it('lets a watcher send one packet a thousand times beside the driver, and print
   expect(err).toContain(`1 patterns of an admitted watcher, ${tally.packets} packets`);
   expect(code).toBe(0);
 }, 90_000);
+
+/** Of its own programs, by pid. */
+function childrenOf(pid: number | undefined): string[] {
+  return readdirSync('/proc').filter((name) => {
+    if (!/^\d+$/.test(name)) return false;
+    try {
+      return readFileSync(`/proc/${name}/status`, 'utf8').includes(`\nPPid:\t${pid}\n`);
+    } catch {
+      // It has ended in between.
+      return false;
+    }
+  });
+}
+
+it.skipIf(process.platform !== 'linux').each([
+  ['SIGTERM', 143],
+  ['SIGINT', 130],
+] as const)('ended by %s, leaves none of its programs running', { timeout: 60_000 }, async (signal, code) => {
+  const attack = spawn(process.execPath, [PROGRAM, '--only', 'plaintext'], {
+    stdio: ['ignore', 'ignore', 'pipe'],
+  });
+  try {
+    // The first result: by then everything runs.
+    await once(attack.stderr, 'data');
+    const children = childrenOf(attack.pid);
+    expect(children.length).toBeGreaterThanOrEqual(4);
+    attack.kill(signal);
+    expect(await once(attack, 'exit')).toEqual([code, null]);
+    await expect
+      .poll(() => children.filter((pid) => existsSync(`/proc/${pid}`)), { timeout: 5000 })
+      .toEqual([]);
+  } finally {
+    attack.kill('SIGKILL');
+  }
+});
 
 it.each([
   [['--only', 'nothing of the kind'], '--only nothing of the kind: no such attack'],

@@ -1,5 +1,6 @@
 #!/usr/bin/env node
 /** `pnpm attack`: attacks the real programs on this machine and prints what came of it. */
+import { constants } from 'node:os';
 import { parseArgs } from 'node:util';
 import { allAttacks } from './all-attacks.ts';
 import { LAYERS } from './attack.ts';
@@ -61,6 +62,10 @@ function positive(name: string, text: string): number {
   const value = Number(text);
   return Number.isFinite(value) && value > 0 ? value : fail(`--${name} ${text}: must be a positive number`);
 }
+
+// Exiting ends all programs, which dying from a signal would not.
+for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP'] as const)
+  process.on(signal, () => process.exit(128 + constants.signals[signal]));
 
 if (values.flood !== undefined) {
   const seconds = positive('flood', values.flood);

@@ -66,6 +66,7 @@ export class Scene {
 
   static async start(): Promise<Scene> {
     const folder = mkdtempSync(join(tmpdir(), 'farpoint-attack-'));
+    process.once('exit', () => rmSync(folder, { recursive: true, force: true }));
     const issuer = await makeIssuer('k1');
     const keys = join(folder, 'grant-keys.json');
     writeFileSync(keys, JSON.stringify({ keys: [issuer.publicJwk] }));
