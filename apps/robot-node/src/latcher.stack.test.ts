@@ -1,34 +1,12 @@
 /** The policy `latcher` with grants: who pressed STOP is the person, not the session. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { grantTo, makeIssuer } from '@farpoint/grants/testing';
-import { afterAll, expect, it } from 'vitest';
-import { shownGrant } from './testing/shown-grant.ts';
-import { SignaledOperator } from './testing/signaled-operator.ts';
-import { useRobot } from './testing/use-robot.ts';
+import { expect, it } from 'vitest';
+import type { SignaledOperator } from './testing/signaled-operator.ts';
+import { useGrantingRobot } from './testing/use-granting-robot.ts';
 
-const ROBOT = 'latcher-1';
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-latcher-'));
-const keyFile = join(folder, 'grant-keys.json');
-const issuer = await makeIssuer('k1');
-writeFileSync(keyFile, JSON.stringify({ keys: [issuer.publicJwk] }));
-afterAll(() => rmSync(folder, { recursive: true }));
+const robot = await useGrantingRobot('latcher-1', ['--estop-release', 'latcher']);
 
-const robot = useRobot(ROBOT, [
-  ...['--rate-control', 'fixed', '--sim-size', '64', '--max-points', '600'],
-  ...['--grant-keys', keyFile, '--estop-release', 'latcher'],
-]);
-
-let grants = 0;
 /** A session of this person, with a grant of its own. */
-async function connectAs(name: string): Promise<SignaledOperator> {
-  const grant = await grantTo(issuer, Date.now() / 1000, {
-    ...{ name, sub: name, role: 'drive', jti: `g${++grants}` },
-  });
-  const credentials = shownGrant(ROBOT, grant);
-  return robot.keep(await SignaledOperator.connect(robot.stack.signalingUrl, ROBOT, { credentials }));
-}
+const connectAs = async (name: string) => robot.connect(await robot.grant(name, 'drive'));
 
 const faults = ({ client }: SignaledOperator) =>
   client.session.flatMap((message) => (message.type === 'fault' ? [message.reason] : []));

@@ -332,10 +332,12 @@ describe('admission', () => {
     expect((await fetch(service.http('/healthz'))).status).toBe(503);
   });
 
+  /** An operator for whom a proxy says this. */
+  const via = (forwarded: string) =>
+    service.open(service.url('/operator'), { headers: { 'x-forwarded-for': forwarded } });
+
   test('uses the addresses that the proxy saw', async () => {
     await start({ maxConnectionsPerAddress: 1, trustProxy: ['loopback'], open: true });
-    const via = (forwarded: string) =>
-      service.open(service.url('/operator'), { headers: { 'x-forwarded-for': forwarded } });
     await via('203.0.113.9, 192.0.2.1');
     await expect(via('203.0.113.8, 192.0.2.1')).rejects.toThrow('429');
     await via('192.0.2.2');
@@ -348,8 +350,6 @@ describe('admission', () => {
 
   test('takes nobody’s word for an address but a named proxy’s', async () => {
     await start({ maxConnectionsPerAddress: 1, trustProxy: ['192.0.2.1'], open: true });
-    const via = (forwarded: string) =>
-      service.open(service.url('/operator'), { headers: { 'x-forwarded-for': forwarded } });
     await via('203.0.113.9');
     await expect(via('203.0.113.10')).rejects.toThrow('429');
   });

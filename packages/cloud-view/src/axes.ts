@@ -22,12 +22,3 @@ export function opticalYaw(q: Pick<Quaternion, 'x' | 'y' | 'z' | 'w'>, fallback:
   const y = 2 * (q.y * q.z - q.w * q.x);
   return Math.hypot(x, y) < 1e-3 ? fallback : Math.atan2(y, x);
 }
-
-/**
- * Heading of a body frame (x forward) in the world: angle about z, counter-clockwise from x, radians.
- *
- * @param q unit quaternion
- */
-export function bodyYaw(q: { x: number; y: number; z: number; w: number }): number {
-  return Math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
-}

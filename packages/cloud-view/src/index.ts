@@ -3,7 +3,8 @@
  *
  * @module cloud-view
  */
-export { bodyYaw, opticalYaw, worldToThree } from './axes.ts';
+export { bodyYaw } from '@farpoint/protocol';
+export { opticalYaw, worldToThree } from './axes.ts';
 export {
   type CloudColouring,
   COLOUR_MODES,

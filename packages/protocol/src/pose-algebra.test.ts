@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { compose, inverse } from './pose-algebra.ts';
+import { bodyYaw, compose, inverse, rotate } from './pose-algebra.ts';
 
 const component = fc.double({ min: -5, max: 5, noNaN: true });
 const pose = fc
@@ -21,5 +21,20 @@ describe('pose algebra', () => {
       }),
       { seed: 10 },
     );
+  });
+
+  it('the yaw of a body is the heading of its x axis', () => {
+    fc.assert(
+      fc.property(pose, ({ orientation }) => {
+        const ahead = rotate(orientation, { x: 1, y: 0, z: 0 });
+        // Straight up or down, it has none.
+        fc.pre(Math.hypot(ahead.x, ahead.y) > 1e-3);
+        const yaw = bodyYaw(orientation);
+        expect(Math.cos(yaw) * ahead.y - Math.sin(yaw) * ahead.x).toBeCloseTo(0, 9);
+        expect(Math.cos(yaw) * ahead.x + Math.sin(yaw) * ahead.y).toBeGreaterThan(0);
+      }),
+      { seed: 11 },
+    );
+    expect(bodyYaw({ x: 0, y: 0, z: Math.SQRT1_2, w: Math.SQRT1_2 })).toBeCloseTo(Math.PI / 2, 12);
   });
 });

@@ -43,6 +43,15 @@ export function rotate(q: Quaternion, v: Vector3): Vector3 {
   };
 }
 
+/**
+ * Heading of a body frame (x forward) in the world: angle about z, counter-clockwise from x, radians.
+ *
+ * @param q unit quaternion
+ */
+export function bodyYaw({ x, y, z, w }: Quaternion): number {
+  return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+}
+
 /** The child's pose in the parent's parent: `parent`, then `child`, as in tf. */
 export function compose(parent: Pose, child: Pose): Pose {
   const moved = rotate(parent.orientation, child.position);

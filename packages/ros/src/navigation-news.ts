@@ -1,5 +1,5 @@
 /** What a navigator's topic says, in the robot's world: a path or a map that can be told to operators, or why not. */
-import { compose, type Pose, type Vector3 } from '@farpoint/protocol';
+import { bodyYaw, compose, type Pose, type Vector3 } from '@farpoint/protocol';
 
 /** Why a path or a map cannot be shown. */
 export const navigationRefusals = [
@@ -34,10 +34,9 @@ const LEAST_UPRIGHT = 0.985;
 
 /** A pose on the floor. @returns `null` if its z axis does not point up */
 export function onFloor({ position, orientation }: Pose): { x: number; y: number; yaw: number } | null {
-  const { x, y, z, w } = orientation;
+  const { x, y } = orientation;
   if (!(1 - 2 * (x * x + y * y) >= LEAST_UPRIGHT)) return null;
-  const yaw = Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
-  return { x: position.x, y: position.y, yaw };
+  return { x: position.x, y: position.y, yaw: bodyYaw(orientation) };
 }
 
 /** A place in a frame, in the world. */

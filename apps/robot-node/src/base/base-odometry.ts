@@ -1,4 +1,4 @@
-import type { Twist } from '@farpoint/protocol';
+import { bodyYaw, type Twist } from '@farpoint/protocol';
 import { type MeasuredMotion, Odometry, type OdometryLimits } from '@farpoint/safety';
 import type { TimedBaseState } from './base.ts';
 
@@ -17,8 +17,7 @@ export class BaseOdometry {
   /** Takes the newest of the base. @returns it, with a velocity that was estimated if nobody measures it */
   take(state: TimedBaseState): TimedBaseState {
     const { pose, twist, timeMs, measuredMs } = state;
-    const { x, y, z, w } = pose.orientation;
-    const yaw = Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+    const yaw = bodyYaw(pose.orientation);
     const atMs = measuredMs === undefined && this.#isSimulated ? timeMs : (measuredMs ?? null);
     this.#odometry.measured({ x: pose.position.x, y: pose.position.y, yaw }, twist, atMs);
     this.#taken = twist === null ? { ...state, twist: this.#odometry.newest?.twist ?? null } : state;
@@ -33,11 +32,6 @@ export class BaseOdometry {
   /** `null` while nobody can tell. */
   get newest(): MeasuredMotion | null {
     return this.#odometry.newest;
-  }
-
-  /** Whether the pose does not move although the robot is told to. */
-  get isStuck(): boolean {
-    return this.#odometry.isStuck;
   }
 
   /** How often a pose has jumped, and when the last did, ms. */

@@ -35,8 +35,8 @@ export class StateTopics {
   readonly #listeners: Listener[];
   readonly #navigation: NavigationTopic[] = [];
   readonly #retries = new RateLimit(RETRIES);
-  /** Whether anything is to say where the robot is. */
-  readonly #hasPoses: boolean;
+  /** Whether anything is to say where the robot is: clouds are placed by it. */
+  readonly hasPoses: boolean;
   /** When the message came that is being read. */
   #receivedMs = 0;
   /** What {@link #tell} was given before {@link start}. */
@@ -53,7 +53,7 @@ export class StateTopics {
     this.#clock = clock;
     this.#stamps = stamps;
     this.world = new WorldState(this.#times, base);
-    this.#hasPoses = topics.some(({ as }) => as === 'pose' || as === 'tf');
+    this.hasPoses = topics.some(({ as }) => as === 'pose' || as === 'tf');
     this.#listeners = topics
       .filter((entry) => isHeard(entry))
       .map((entry) => this.#listen(graph, entry, base));
@@ -71,11 +71,6 @@ export class StateTopics {
     const { battery } = this.world;
     const { pose, twist, timeMs } = this.world.base;
     return { pose, twist, battery, contact: false, measuredMs: timeMs };
-  }
-
-  /** Whether clouds are placed by what they say. */
-  get hasPoses(): boolean {
-    return this.#hasPoses;
   }
 
   close(): void {

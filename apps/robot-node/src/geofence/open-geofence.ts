@@ -1,3 +1,4 @@
+import { bodyYaw } from '@farpoint/protocol';
 import {
   type EarthFrame,
   type Fence,
@@ -57,11 +58,10 @@ function poseOf(
 ): FencePose | null {
   const atMs = measuredMs === undefined && isSimulated ? timeMs : (measuredMs ?? null);
   if (atMs === null) return null;
-  const { x: qx, y: qy, z: qz, w: qw } = pose.orientation;
   return {
     x: pose.position.x,
     y: pose.position.y,
-    yaw: Math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz)),
+    yaw: bodyYaw(pose.orientation),
     linear: twist?.linear.x ?? 0,
     angular: twist?.angular.z ?? 0,
     ...{ errorM, atMs },

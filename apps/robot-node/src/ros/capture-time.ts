@@ -7,8 +7,8 @@ export interface RosClock {
   wallNs(): bigint;
 }
 
-/** Older stamps are of another clock, whose messages count as captured when they arrive, ms. */
-const MOST_AGE_MS = 24 * 3600 * 1000;
+/** Stamps that lie farther back are of another clock, ms. */
+export const FOREIGN_AGE_MS = 24 * 3600 * 1000;
 
 /** Both clocks are read at once if no more time passes between two readings, ms; and how often that is tried. */
 const AT_ONCE_MS = 0.02;
@@ -25,7 +25,7 @@ export type CaptureTime = (stampNs: bigint, receivedMs: number) => number;
 export function capturedAtMs(clock: RosClock, stampNs: bigint, receivedMs: number): number {
   const { nowMs, wallNs } = readBoth(clock);
   const ageMs = Number(wallNs - stampNs) / 1e6;
-  const stamped = ageMs >= 0 && ageMs <= MOST_AGE_MS;
+  const stamped = ageMs >= 0 && ageMs <= FOREIGN_AGE_MS;
   return stamped ? nowMs - ageMs : receivedMs;
 }
 

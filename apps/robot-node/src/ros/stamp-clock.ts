@@ -3,7 +3,7 @@
  * lies ahead of the robot's time of day is refused. Only stamps that lie more than a day back are taken for another clock's,
  * a simulation's or one that was never set: what is later than the earliest of the last seconds is late by that much.
  */
-import { type RosClock, readBoth } from './capture-time.ts';
+import { FOREIGN_AGE_MS, type RosClock, readBoth } from './capture-time.ts';
 
 /** By so much clocks that are kept in step may differ, ms. */
 export const MOST_AHEAD_MS = 100;
@@ -14,8 +14,6 @@ export const MOST_AHEAD_MS = 100;
 export const REFUSED_AGE_MS = 1000;
 /** Localisation says ahead of time where frames will be, ms. */
 const MOST_AHEAD_LOCALISED_MS = 2000;
-/** Stamps that lie farther back are of another clock, ms. */
-const FOREIGN_MS = 24 * 3600 * 1000;
 /** How long another clock is watched before its stamps are believed, ms. */
 const SETTLES_MS = 1000;
 /** The least delay of the last one to two of these counts, ms. */
@@ -75,7 +73,7 @@ export class StampClock {
     const ageMs = Number(wallNs - stampNs) / 1e6;
     if (ageMs < -mostAheadMs) return 'ahead';
     if (this.#lastNs.has(source) || this.#lastNs.size < MOST_SOURCES) this.#lastNs.set(source, stampNs);
-    if (ageMs < FOREIGN_MS) return Math.min(nowMs - ageMs, receivedMs);
+    if (ageMs < FOREIGN_AGE_MS) return Math.min(nowMs - ageMs, receivedMs);
     return this.#foreign(receivedMs - Number(stampNs) / 1e6, receivedMs);
   }
 

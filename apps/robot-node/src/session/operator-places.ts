@@ -1,4 +1,4 @@
-import type { PeerEnd } from '../transport/peer-events.ts';
+import { isUnintended, type PeerEnd } from '../transport/peer-events.ts';
 import type { OperatorSession } from './operator-session.ts';
 import { type HeldPlace, judgePlace, mostOfSubject, type PlaceRules } from './place-rules.ts';
 
@@ -16,8 +16,6 @@ export interface PlacedOperator {
 
 /** Places of sessions that have not shown a grant yet, beside those of the operators: their roles are not known. */
 export const ANTEROOM = 4;
-/** Ends after which the same person is likely to come back. */
-const LOST: ReadonlySet<PeerEnd> = new Set(['connection-lost', 'silent', 'not-reading']);
 
 /** The places of a robot that admits by grants. */
 export class OperatorPlaces {
@@ -87,7 +85,7 @@ export class OperatorPlaces {
     this.#activeMs.delete(id);
     if (id !== this.#driver) return;
     this.#driver = null;
-    if (LOST.has(end)) this.#kept = { holder: holderOf(operator), untilMs: nowMs + this.#rules.keepMs };
+    if (isUnintended(end)) this.#kept = { holder: holderOf(operator), untilMs: nowMs + this.#rules.keepMs };
   }
 
   #held(operator: PlacedOperator, driver: string | null): HeldPlace[] {

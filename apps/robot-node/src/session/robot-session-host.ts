@@ -10,20 +10,12 @@ import type { CommandLog } from '../telemetry/command-log.ts';
 import { LimitedLines } from '../telemetry/limited-lines.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
 import type { SessionRecording } from '../telemetry/session-recording.ts';
-import type { PeerEnd } from '../transport/peer-events.ts';
+import { isUnintended, type PeerEnd } from '../transport/peer-events.ts';
 import type { VideoHub } from '../video/video-hub.ts';
 import type { RatedMessage } from './message-rates.ts';
 import type { OperatorMessages, SessionHost } from './operator-messages.ts';
 import type { OperatorSession } from './operator-session.ts';
 import { tellRings, tellVideos } from './welcome.ts';
-
-/** Of these ends, nobody has said that they are meant. */
-const BY_SILENCE: ReadonlySet<PeerEnd> = new Set([
-  'connection-lost',
-  'silent',
-  'not-reading',
-  'not-connected',
-]);
 
 export interface RobotSessionHostParts {
   drive: DriveStation;
@@ -75,7 +67,7 @@ export class RobotSessionHost implements SessionHost {
 
   /** @param end why its session has ended */
   operatorGone(id: string, end: PeerEnd): void {
-    if (id === this.#driver && !BY_SILENCE.has(end)) this.#parts.driverLeft();
+    if (id === this.#driver && !isUnintended(end)) this.#parts.driverLeft();
     // Stop the wheels before telling anyone.
     const leaseFreed = this.drive.guard.operatorGone(id);
     this.drive.apply();

@@ -2,7 +2,7 @@
  * A robot that drives at a wall under its obstacle guard, in simulated time, with exact knowledge of where it really is. What
  * its sensor sees goes through one of the robot's own sources, with whatever times and frames that is given.
  */
-import { compose, inverse, type Pose, rotationMatrix, type Twist, zeroTwist } from '@farpoint/protocol';
+import { compose, type Pose, rotationMatrix, type Twist, zeroTwist } from '@farpoint/protocol';
 import { defaultGeofenceOptions, EarthFrame, Footprint, FREE } from '@farpoint/safety';
 import type { Codec } from '@farpoint/wasm-codec';
 import { BaseOdometry } from '../base/base-odometry.ts';
@@ -200,9 +200,4 @@ export function opticalPoints(points: Float32Array, length: number): Float32Arra
 /** Where the optical frame of a sensor is in the world. */
 export function opticalPose(base: Pose, mount: SensorMount): Pose {
   return compose(base, opticalMount(mount));
-}
-
-/** Where a frame lies in another. */
-export function between(from: Pose, to: Pose): Pose {
-  return compose(inverse(from), to);
 }

@@ -19,6 +19,18 @@ export type PeerEnd =
   | 'silent' // nothing heard for too long
   | 'not-reading'; // our reliable messages pile up
 
+const UNINTENDED: ReadonlySet<PeerEnd> = new Set([
+  'connection-lost',
+  'silent',
+  'not-reading',
+  'not-connected',
+]);
+
+/** Nobody has said that this end is meant: the same person is likely to come back. */
+export function isUnintended(end: PeerEnd): boolean {
+  return UNINTENDED.has(end);
+}
+
 export interface OperatorPeerOptions {
   iceServers: readonly IceServer[];
   /** Local UDP ports, both ends included; any port if undefined. */

@@ -42,7 +42,7 @@ it('brings every message of a reliable channel after an outage, whatever another
   await expect.poll(() => arrived().length, { timeout: 10_000 }).toBe(10);
   expect(arrived()).toEqual(Array.from({ length: 10 }, (_, n) => `reliable ${n}`));
   lossy.send('again');
-  await expect.poll(() => heard.at(-1), { timeout: 5000 }).toBe('lossy again');
+  await expect.poll(() => heard, { timeout: 5000 }).toContain('lossy again');
 });
 
 it('hands over every message of an ordered channel that waited for an earlier one', async () => {
@@ -137,7 +137,7 @@ it('sends nothing that has become too old while it waited, and nothing is missed
   state.loses = () => false;
   await expect.poll(() => heard.length, { timeout: 20_000 }).toBe(20);
   channel.send('new');
-  await expect.poll(() => heard.at(-1), { timeout: 5000 }).toBe('lossy new');
+  await expect.poll(() => heard, { timeout: 5000 }).toContain('lossy new');
   expect(heard.filter((text) => text.startsWith('lossy'))).toEqual(['lossy new']);
   await expect.poll(() => sender.sentQueue.length, { timeout: 5000 }).toBe(0);
 }, 40_000);
