@@ -30,9 +30,9 @@ export class RecordingError extends Error {
     where: { file?: string; topic?: string; offset?: number; cause?: unknown } = {},
   ) {
     const { file, topic, offset, cause } = where;
-    const place = [file, topic, offset === undefined ? undefined : `byte ${offset}`].filter(
-      (part) => part !== undefined,
-    );
+    // What is wrong from the first byte on is wrong with the file.
+    const byte = offset === undefined || offset === 0 ? undefined : `byte ${offset}`;
+    const place = [file, topic, byte].filter((part) => part !== undefined);
     super([...place, detail].join(': '), { cause });
     this.code = code;
     this.detail = detail;

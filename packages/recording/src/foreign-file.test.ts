@@ -14,8 +14,8 @@ const text = (words: string) => new TextEncoder().encode(words);
 describe('what is no recording says what it is', () => {
   it.each([
     ['nothing', new Uint8Array(0), 'is empty'],
-    ['zstd', Uint8Array.of(0x28, 0xb5, 0x2f, 0xfd, 0, 0), 'unpack it first (`zstd -d`)'],
-    ['gzip', Uint8Array.of(0x1f, 0x8b, 8), 'unpack it first (`gunzip`)'],
+    ['zstd', Uint8Array.of(0x28, 0xb5, 0x2f, 0xfd, 0, 0), 'unpack it first (`zstd -d file`)'],
+    ['gzip', Uint8Array.of(0x1f, 0x8b, 8), 'unpack it first (`gunzip file`)'],
     ['rosbag2’s SQLite', text('SQLite format 3\0 and more'), 'convert it to MCAP with `ros2 bag convert`'],
     ['an old bag', text('#ROSBAG V1.2\n'), '`rosbag fix`'],
     ['metadata.yaml', text('rosbag2_bagfile_information:\n'), 'name the .mcap file beside it'],
@@ -25,12 +25,12 @@ describe('what is no recording says what it is', () => {
     const path = join(folder, 'file');
     writeFileSync(path, bytes);
     await expect(openRecording(path)).rejects.toMatchObject({ code: 'not-a-recording', offset: 0 });
-    await expect(openRecording(path)).rejects.toThrow(path);
+    await expect(openRecording(path)).rejects.toThrow(`${path}: is `);
     await expect(openRecording(path)).rejects.toThrow(words);
   });
 
   it.each([
-    [['metadata.yaml', 'run_0.mcap', 'run_1.mcap'], 'name the file in it: run_0.mcap, run_1.mcap'],
+    [['metadata.yaml', 'run_0.mcap', 'run_1.mcap'], 'name one of the files in it: run_0.mcap, run_1.mcap'],
     [['metadata.yaml', 'run_0.mcap.zstd'], 'unpack it first (`zstd -d run_0.mcap.zstd`)'],
     [['metadata.yaml', 'run_0.db3'], '`ros2 bag convert`'],
     [[], 'is a folder without a recording'],

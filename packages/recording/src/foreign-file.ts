@@ -1,5 +1,6 @@
 /** What a file or a folder is that is no recording which can be played, and what to do about it. */
 import { type Dirent, readdirSync } from 'node:fs';
+import { basename } from 'node:path';
 import { RecordingError } from './errors.ts';
 
 /** Long enough for each of the marks below. */
@@ -28,10 +29,11 @@ export function foreignFile(path: string, head: Uint8Array): RecordingError {
   const fault = (detail: string) => new RecordingError('not-a-recording', detail, { file: path, offset: 0 });
   if (head.length === 0) return fault('is empty');
   const packed = COMPRESSED.find(([mark]) => mark.every((byte, i) => head[i] === byte));
-  if (packed !== undefined) return fault(`is compressed as a whole: unpack it first (\`${packed[1]}\`)`);
+  if (packed !== undefined)
+    return fault(`is compressed as a whole: unpack it first (\`${packed[1]} ${basename(path)}\`)`);
   const text = new TextDecoder('latin1').decode(head);
   const known = TEXTS.find(([mark]) => text.startsWith(mark));
-  return fault(known?.[1] ?? 'neither MCAP nor a ROS 1 bag of version 2.0');
+  return fault(known?.[1] ?? 'is neither MCAP nor a ROS 1 bag of version 2.0');
 }
 
 /** Says which file of a folder can be played; `null` if it is no folder that can be read. */
@@ -51,7 +53,7 @@ export function foreignFolder(path: string): RecordingError | null {
   ];
   const detail =
     playable.length > 0
-      ? `is a folder: name the file in it: ${playable.slice(0, 5).join(', ')}`
+      ? `is a folder: name ${playable.length === 1 ? 'the file' : 'one of the files'} in it: ${playable.slice(0, 5).join(', ')}`
       : packed.length > 0
         ? `is a folder whose recording is compressed as a whole: unpack it first (\`zstd -d ${packed[0]}\`)`
         : databases.length > 0
