@@ -45,6 +45,7 @@ export class Scene {
     this.bridge = bridge;
     this.issuer = parts.issuer;
     this.folder = parts.folder;
+    process.once('exit', this.#forget);
     this.driver = parts.driver;
     this.#bystanders = parts.bystanders;
     this.#stranger = parts.stranger;
@@ -66,7 +67,6 @@ export class Scene {
 
   static async start(): Promise<Scene> {
     const folder = mkdtempSync(join(tmpdir(), 'farpoint-attack-'));
-    process.once('exit', () => rmSync(folder, { recursive: true, force: true }));
     const issuer = await makeIssuer('k1');
     const keys = join(folder, 'grant-keys.json');
     writeFileSync(keys, JSON.stringify({ keys: [issuer.publicJwk] }));
@@ -191,8 +191,11 @@ export class Scene {
     this.#bystanders.close();
     await this.bridge.stop();
     await this.stack.stop();
-    rmSync(this.folder, { recursive: true, force: true });
+    process.off('exit', this.#forget);
+    this.#forget();
   }
+
+  readonly #forget = (): void => rmSync(this.folder, { recursive: true, force: true });
 }
 
 function megabytes(bytes: number): number {

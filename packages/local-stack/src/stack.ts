@@ -54,6 +54,7 @@ export class LocalStack {
   private constructor(spec: StackSpec, ports: StackPorts) {
     this.#spec = spec;
     this.ports = ports;
+    process.once('exit', this.#forget);
   }
 
   /** @throws {Error} naming the program that did not start, with its last lines; nothing is left running then */
@@ -155,8 +156,11 @@ export class LocalStack {
   async stop(): Promise<void> {
     await Promise.all([...this.#robots.values()].map((robot) => robot.process.stop()));
     await this.#signaling?.stop();
-    rmSync(this.#stateFolder, { recursive: true, force: true });
+    process.off('exit', this.#forget);
+    this.#forget();
   }
+
+  readonly #forget = (): void => rmSync(this.#stateFolder, { recursive: true, force: true });
 
   #robot(id: string): RunningRobot {
     const robot = this.#robots.get(id);
