@@ -104,6 +104,10 @@ export class ObstacleGrid {
      */
     depth_ptr(): number;
     /**
+     * The height of each cell, as [`Grid::heights`] says.
+     */
+    heights_ptr(): number;
+    /**
      * Judges the first `points` points, or with `image` the image. 0, or what was wrong: 1 the pose, 2 more points than
      * the capacity, 3 no camera was set.
      */
@@ -400,6 +404,7 @@ export interface InitOutput {
     readonly obstaclegrid_classes_ptr: (a: number) => number;
     readonly obstaclegrid_create: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number, i: number, j: number, k: number) => number;
     readonly obstaclegrid_depth_ptr: (a: number) => number;
+    readonly obstaclegrid_heights_ptr: (a: number) => number;
     readonly obstaclegrid_look: (a: number, b: number, c: number, d: number, e: number) => number;
     readonly obstaclegrid_points_ptr: (a: number) => number;
     readonly obstaclegrid_pose_ptr: (a: number) => number;

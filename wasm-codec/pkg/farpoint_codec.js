@@ -249,6 +249,14 @@ export class ObstacleGrid {
         return ret >>> 0;
     }
     /**
+     * The height of each cell, as [`Grid::heights`] says.
+     * @returns {number}
+     */
+    heights_ptr() {
+        const ret = wasm.obstaclegrid_heights_ptr(this.__wbg_ptr);
+        return ret >>> 0;
+    }
+    /**
      * Judges the first `points` points, or with `image` the image. 0, or what was wrong: 1 the pose, 2 more points than
      * the capacity, 3 no camera was set.
      * @param {boolean} image

@@ -26,6 +26,7 @@ export const encoder_slots_ptr: (a: number) => number;
 export const obstaclegrid_classes_ptr: (a: number) => number;
 export const obstaclegrid_create: (a: number, b: number, c: number, d: number, e: number, f: number, g: number, h: number, i: number, j: number, k: number) => number;
 export const obstaclegrid_depth_ptr: (a: number) => number;
+export const obstaclegrid_heights_ptr: (a: number) => number;
 export const obstaclegrid_look: (a: number, b: number, c: number, d: number, e: number) => number;
 export const obstaclegrid_points_ptr: (a: number) => number;
 export const obstaclegrid_pose_ptr: (a: number) => number;

@@ -17,6 +17,9 @@ export const cellClasses = {
   dropOff: 3,
 } as const;
 
+/** Steps of {@link ObstacleGrid.heights}, metres. */
+export const HEIGHT_STEP_M = 0.02;
+
 /** How a cloud is judged. Lengths in metres. */
 export interface ObstacleGridSettings {
   /** Cells along a side, an even number from 2 to 1024. */
@@ -145,6 +148,15 @@ export class ObstacleGrid implements Disposable {
   get classes(): Uint8Array {
     const { side } = this.settings;
     return new Uint8Array(this.#memory.buffer, this.#binding.classes_ptr(), side * side);
+  }
+
+  /**
+   * Of an occupied cell: up to where it must be seen to be empty, from the floor on, before its obstacle is gone. Of a free
+   * cell: up to where it was in view. In steps of {@link HEIGHT_STEP_M}; 255: or higher. Of other cells, any number.
+   */
+  get heights(): Uint8Array {
+    const { side } = this.settings;
+    return new Uint8Array(this.#memory.buffer, this.#binding.heights_ptr(), side * side);
   }
 
   /** Frees the memory; the grid and its views must not be used afterwards. */

@@ -106,6 +106,7 @@ export class CloudGuard implements Disposable {
     this.#writer.write({
       ...{ capturedAtMs: frame.capturedAtMs, placed, disputed: frame.base === 'disputed' },
       classes: grid.classes,
+      heights: grid.heights,
       ...{ firstX: cells[0] - side / 2, firstY: cells[1] - side / 2 },
       tookMs: monotonicMs() - beganMs,
     });

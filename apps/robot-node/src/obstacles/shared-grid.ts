@@ -9,8 +9,8 @@ const HEADER_BYTES = 8;
 const SLOTS = 3;
 const SLOT_MASK = 3;
 const FRESH = 4;
-/** Capture time, placed, first cell's x and y, how long it took to make, and disputed. */
-const FACTS = 6;
+/** Capture time, placed, first cell's x and y, how long it took to make, disputed, and whether heights are known. */
+const FACTS = 7;
 
 export interface GridShape {
   side: number;
@@ -18,7 +18,7 @@ export interface GridShape {
 }
 
 function slotBytes(side: number): number {
-  return FACTS * Float64Array.BYTES_PER_ELEMENT + Math.ceil((side * side) / 8) * 8;
+  return FACTS * Float64Array.BYTES_PER_ELEMENT + Math.ceil((2 * side * side) / 8) * 8;
 }
 
 export function makeSharedGrid({ side }: GridShape): SharedArrayBuffer {
@@ -31,6 +31,11 @@ function slotsOf(memory: SharedArrayBuffer, side: number) {
     return {
       facts: new Float64Array(memory, begin, FACTS),
       classes: new Uint8Array(memory, begin + FACTS * Float64Array.BYTES_PER_ELEMENT, side * side),
+      heights: new Uint8Array(
+        memory,
+        begin + FACTS * Float64Array.BYTES_PER_ELEMENT + side * side,
+        side * side,
+      ),
     };
   });
 }
@@ -51,10 +56,20 @@ export class SharedGridWriter {
   }
 
   /** @param grid with the time that it took to make it, ms */
-  write({ capturedAtMs, placed, firstX, firstY, classes, tookMs, disputed = false }: WrittenGrid): void {
+  write({ classes, heights, ...grid }: WrittenGrid): void {
+    const { capturedAtMs, placed, firstX, firstY, tookMs, disputed = false } = grid;
     const slot = this.#slots[this.#own] as ReturnType<typeof slotsOf>[number];
-    slot.facts.set([capturedAtMs, placed ? 1 : 0, firstX, firstY, tookMs, disputed ? 1 : 0]);
+    slot.facts.set([
+      capturedAtMs,
+      placed ? 1 : 0,
+      firstX,
+      firstY,
+      tookMs,
+      disputed ? 1 : 0,
+      heights === undefined ? 0 : 1,
+    ]);
     slot.classes.set(classes);
+    if (heights !== undefined) slot.heights.set(heights);
     this.#own = Atomics.exchange(this.#state, 0, this.#own | FRESH) & SLOT_MASK;
   }
 }
@@ -78,13 +93,14 @@ export class SharedGridReader {
   read(): SensorGrid | null {
     if ((Atomics.load(this.#state, 0) & FRESH) === 0) return null;
     this.#own = Atomics.exchange(this.#state, 0, this.#own) & SLOT_MASK;
-    const { facts, classes } = this.#slots[this.#own] as ReturnType<typeof slotsOf>[number];
-    const [capturedAtMs, placed, firstX, firstY, tookMs, disputed] = facts as unknown as [
-      ...[number, number, number, number, number, number],
+    const { facts, classes, heights } = this.#slots[this.#own] as ReturnType<typeof slotsOf>[number];
+    const [capturedAtMs, placed, firstX, firstY, tookMs, disputed, hasHeights] = facts as unknown as [
+      ...[number, number, number, number, number, number, number],
     ];
     this.count.grids++;
     this.count.lastMs = tookMs;
     const is = { placed: placed === 1, disputed: disputed === 1 };
-    return { ...this.#shape, capturedAtMs, ...is, firstX, firstY, classes };
+    const grid = { ...this.#shape, capturedAtMs, ...is, firstX, firstY, classes };
+    return hasHeights === 1 ? { ...grid, heights } : grid;
   }
 }

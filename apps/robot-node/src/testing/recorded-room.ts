@@ -105,7 +105,8 @@ export class RecordedRoom {
   }
 }
 
-const EMPTY: WorldDescription = {
+/** A world in which nothing stands. */
+export const EMPTY: WorldDescription = {
   ...{ name: 'recorded', start: { x: 0, y: 0, yaw: 0 }, lampSpacing: 3, materials: {} },
   ...{ boxes: [], panels: [], ellipsoids: [], movers: [] },
 };

@@ -26,7 +26,8 @@ export interface CellRectangle {
 
 /**
  * What sensors of one kind say about the cells around the robot. A cell is what the newest grid that sees it says; of
- * grids of the same age, an obstacle wins. What is no longer seen is remembered for a while: an obstacle does not go away
+ * grids of the same age, an obstacle wins. Where something stands, a sensor that sees the floor of the cell and not as far up
+ * as it stood says nothing. What is no longer seen is remembered for a while: an obstacle does not go away
  * because the robot came too near to see it.
  */
 export class FloorLayer {
@@ -34,6 +35,8 @@ export class FloorLayer {
   readonly #classes = new Uint8Array(LAYER_SIDE * LAYER_SIDE);
   /** When each cell was last seen, ms. */
   readonly #seenMs = new Float64Array(LAYER_SIDE * LAYER_SIDE).fill(FORGOTTEN);
+  /** Up to where what stands in a cell must be seen to be gone. */
+  readonly #heights = new Uint8Array(LAYER_SIDE * LAYER_SIDE);
   /** How far the robot had gone by then, metres: only counts without odometry. */
   readonly #seenTravel = new Float64Array(LAYER_SIDE * LAYER_SIDE);
   #centreX = 0;
@@ -68,12 +71,13 @@ export class FloorLayer {
   }
 
   /** Takes what a sensor says. @param travel how far the robot had gone when it was taken, metres */
-  merge({ side, classes, firstX, firstY, capturedAtMs }: SensorGrid, travel: number): void {
+  merge({ side, classes, heights, firstX, firstY, capturedAtMs }: SensorGrid, travel: number): void {
     const [left, right] = [this.#centreX - HALF, this.#centreX + HALF];
     const [low, high] = [this.#centreY - HALF, this.#centreY + HALF];
     const from = Math.max(0, left - firstX);
     const until = Math.min(side, right - firstX);
     const [seenMs, known, seenTravel] = [this.#seenMs, this.#classes, this.#seenTravel];
+    const { occupiedMemoryMs } = this.#memory;
     for (let j = Math.max(0, low - firstY); j < Math.min(side, high - firstY); j++) {
       const row = ((firstY + j) & MASK) * LAYER_SIDE;
       for (let i = from; i < until; i++) {
@@ -83,6 +87,14 @@ export class FloorLayer {
         const before = seenMs[cell] as number;
         if (before > capturedAtMs) continue;
         if (before === capturedAtMs && (known[cell] as number) > said) continue;
+        if (heights !== undefined) {
+          const stands = known[cell] === floorClasses.occupied && capturedAtMs - before <= occupiedMemoryMs;
+          const height = heights[j * side + i] as number;
+          // The floor below what stands there says nothing about it.
+          if (stands && said === floorClasses.free && height < (this.#heights[cell] as number)) continue;
+          if (said === floorClasses.occupied)
+            this.#heights[cell] = stands ? Math.min(height, this.#heights[cell] as number) : height;
+        }
         known[cell] = said;
         seenMs[cell] = capturedAtMs;
         seenTravel[cell] = travel;

@@ -2,6 +2,8 @@ import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { LAYER_SIDE } from './floor-layer.ts';
 import { FloorMap } from './floor-map.ts';
+import { floorClasses } from './sensor-grid.ts';
+import { PaintedGrid } from './testing/painted-grid.ts';
 
 const SIDE = 12;
 const MEMORY = { freeMemoryMs: 800, occupiedMemoryMs: 2000, freeMemoryM: 0.3 };
@@ -43,4 +45,35 @@ test('a rectangle that is read at once says of each cell what the cell says', ()
       },
     ),
   );
+});
+
+test.each([
+  ['the floor below it', 10, 'occupied'],
+  ['as much as stood there', 40, 'free'],
+  ['more', 60, 'free'],
+])('what stands in a cell stays there until a sensor sees it gone: %s', (_, seen, expected) => {
+  const map = new FloorMap({ ...MEMORY, cellM: 0.05 });
+  map.merge(new PaintedGrid(1000).high(40).paint('occupied', 1, 2, -1, 1), 0);
+  map.merge(new PaintedGrid(1050).high(seen), 0);
+  const classAt = (nowMs: number) => map.classAt(map.cellOf(1.5), map.cellOf(0), nowMs, 0);
+  expect(classAt(1100)).toBe(floorClasses[expected as keyof typeof floorClasses]);
+  // It is remembered since it was seen, not since its floor was.
+  if (expected === 'occupied') expect(classAt(1000 + MEMORY.occupiedMemoryMs + 1)).toBe(floorClasses.unknown);
+});
+
+test('what stands in a cell counts as low as it was ever seen to stand, and a sensor without heights sees all of it', () => {
+  const map = new FloorMap({ ...MEMORY, cellM: 0.05 });
+  const stands = (atMs: number, height: number) =>
+    map.merge(new PaintedGrid(atMs).high(height).paint('occupied', 1, 2, -1, 1), 0);
+  const classAt = (nowMs: number) => map.classAt(map.cellOf(1.5), map.cellOf(0), nowMs, 0);
+  stands(1000, 12);
+  stands(1010, 40);
+  map.merge(new PaintedGrid(1020).high(12), 0);
+  expect(classAt(1030)).toBe(floorClasses.free);
+  // What came later is something else.
+  stands(1040, 40);
+  map.merge(new PaintedGrid(1050).high(12), 0);
+  expect(classAt(1060)).toBe(floorClasses.occupied);
+  map.merge(new PaintedGrid(1070), 0);
+  expect(classAt(1080)).toBe(floorClasses.free);
 });

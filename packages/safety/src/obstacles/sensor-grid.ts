@@ -36,4 +36,9 @@ export interface SensorGrid {
   firstY: number;
   /** {@link floorClasses} of cell (i, j) at `j * side + i`. A view that may be overwritten after the call. */
   classes: Uint8Array;
+  /**
+   * Of an occupied cell: up to where it must be seen to be empty, from the floor on, before its obstacle is gone. Of a free
+   * cell: up to where the sensor had it in view. Any unit, the same for all sensors. Without heights, what is free is empty.
+   */
+  heights?: Uint8Array;
 }

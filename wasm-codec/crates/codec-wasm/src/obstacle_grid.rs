@@ -95,6 +95,11 @@ impl ObstacleGrid {
         self.grid.classes().as_ptr()
     }
 
+    /// The height of each cell, as [`Grid::heights`] says.
+    pub fn heights_ptr(&self) -> *const u8 {
+        self.grid.heights().as_ptr()
+    }
+
     /// Free and occupied cells, and those without a floor.
     pub fn report_ptr(&self) -> *const u32 {
         self.report.as_ptr()

@@ -21,7 +21,12 @@ pub(crate) struct Bins {
     /// Rays that passed through the floor's level.
     holes: Vec<u32>,
     any_hole: bool,
+    /// The lowest and the highest point of obstacles in each cell, metres. The last entry takes what is in no cell.
+    spans: Vec<[f32; 2]>,
 }
+
+/// What no obstacle spans.
+const NOTHING: [f32; 2] = [f32::INFINITY, f32::NEG_INFINITY];
 
 /// What does not change from point to point, in every lane.
 pub(crate) struct Rule {
@@ -70,11 +75,19 @@ impl Rule {
 
 impl Bins {
     pub(crate) fn new(side: usize) -> Self {
-        Self { side, counts: vec![0; side * side + 1], holes: vec![0; side * side], any_hole: false }
+        let cells = side * side;
+        Self {
+            side,
+            counts: vec![0; cells + 1],
+            holes: vec![0; cells],
+            any_hole: false,
+            spans: vec![NOTHING; cells + 1],
+        }
     }
 
     pub(crate) fn clear(&mut self) {
         self.counts.fill(0);
+        self.spans.fill(NOTHING);
         if self.any_hole {
             self.holes.fill(0);
         }
@@ -90,6 +103,11 @@ impl Bins {
     pub(crate) fn of(&self, cell: usize) -> (u32, u32, u32) {
         let count = self.counts[cell];
         (count as u32, (count >> 32) as u32, self.holes[cell])
+    }
+
+    /// The lowest and the highest point of obstacles in a cell, metres.
+    pub(crate) fn span_of(&self, cell: usize) -> [f32; 2] {
+        self.spans[cell]
     }
 
     /// Counts four points of the grid's frame. Lanes of `valid` that are not all ones are left out.
@@ -124,6 +142,15 @@ impl Bins {
             // Both are in range: the cell by `inside`, the kind by its making.
             if let Some(count) = self.counts.get_mut(cell as usize) {
                 *count += ADDS[(kind & 3) as usize];
+            }
+        }
+        if (obstacle & counted).to_bitmask() != 0 {
+            let standing = ((cell & obstacle & counted) | (rule.nowhere & !(obstacle & counted))).to_array();
+            for (cell, height) in standing.into_iter().zip(z.to_array()) {
+                if let Some([low, high]) = self.spans.get_mut(cell as usize) {
+                    *low = low.min(height);
+                    *high = high.max(height);
+                }
             }
         }
     }

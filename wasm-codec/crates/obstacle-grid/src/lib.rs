@@ -15,7 +15,7 @@ mod settings;
 
 pub use class::Class;
 pub use lens::Lens;
-pub use obstacle_grid::{ObstacleGrid, Seen};
+pub use obstacle_grid::{HEIGHT_STEP, ObstacleGrid, Seen};
 pub use pose::SensorPose;
 pub use settings::Settings;
 

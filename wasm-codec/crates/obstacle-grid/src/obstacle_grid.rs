@@ -1,7 +1,13 @@
 use wide::f32x4;
 
 use crate::bins::{Bins, Rule, valid_depths, valid_ranges};
+use crate::lens::View;
 use crate::{Class, Lens, Point, SensorPose, Settings};
+
+/// Heights are told in steps of so much, metres.
+pub const HEIGHT_STEP: f32 = 0.02;
+/// So much of an obstacle's lowest part must be seen to be gone, metres, or all of one that is lower.
+const LOWEST_PART: f32 = 0.2;
 
 /// How many cells a cloud left in each class.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,6 +26,7 @@ pub struct ObstacleGrid {
     settings: Settings,
     bins: Bins,
     classes: Vec<u8>,
+    heights: Vec<u8>,
     /// Where the last cloud had enough points for an obstacle, confirmed or not, and the one before it.
     candidates: Vec<u8>,
     before: Vec<u8>,
@@ -35,6 +42,7 @@ impl ObstacleGrid {
             settings,
             bins: Bins::new(settings.side),
             classes: vec![0; cells],
+            heights: vec![0; cells],
             candidates: vec![0; cells],
             before: vec![0; cells],
             first: true,
@@ -45,6 +53,14 @@ impl ObstacleGrid {
     #[must_use]
     pub fn classes(&self) -> &[u8] {
         &self.classes
+    }
+
+    /// In steps of [`HEIGHT_STEP`]. Of an occupied cell: up to where it must be seen to be empty, from the floor on, before
+    /// its obstacle is gone. Of a free cell: up to where it was in view. An obstacle whose top is all that was seen does not
+    /// go away because the camera sees the floor below it.
+    #[must_use]
+    pub fn heights(&self) -> &[u8] {
+        &self.heights
     }
 
     /// Judges a depth camera's image: metres along the optical axis, row by row. Pixels without depth are 0, negative or
@@ -75,7 +91,7 @@ impl ObstacleGrid {
                 }
             }
         }
-        self.judge(pose, shift)
+        self.judge(Some(&lens.view_from(pose)), pose, shift)
     }
 
     /// Judges a cloud of points.
@@ -98,10 +114,10 @@ impl ObstacleGrid {
                 self.bins.add(&rule, [on(0), on(1), height], low);
             }
         }
-        self.judge(pose, shift)
+        self.judge(None, pose, shift)
     }
 
-    fn judge(&mut self, pose: &SensorPose, shift: [i32; 2]) -> Seen {
+    fn judge(&mut self, view: Option<&View>, pose: &SensorPose, shift: [i32; 2]) -> Seen {
         let Settings { side, cell, near_points, least_points, confirm, .. } = self.settings;
         let [sx, sy, _] = pose.position;
         let centre = |i: usize| (i as f32 + 0.5 - side as f32 / 2.0) * cell;
@@ -142,7 +158,27 @@ impl ObstacleGrid {
         }
         self.first = false;
         seen.free += self.follow_low_rays(pose);
+        self.measure(view);
         seen
+    }
+
+    fn measure(&mut self, view: Option<&View>) {
+        let Settings { side, cell, low_ray, .. } = self.settings;
+        let centre = |i: usize| (i as f32 + 0.5 - side as f32 / 2.0) * cell;
+        for at in 0..side * side {
+            let height = if self.classes[at] == Class::Occupied as u8 {
+                let [low, high] = self.bins.span_of(at);
+                ((low + LOWEST_PART).min(high) / HEIGHT_STEP).ceil()
+            } else if self.classes[at] == Class::Free as u8 {
+                let [low, high] =
+                    view.map_or([0.0, f32::INFINITY], |view| view.over(centre(at % side), centre(at / side)));
+                if low <= low_ray { high / HEIGHT_STEP } else { 0.0 }
+            } else {
+                continue;
+            };
+            // Numbers out of range become the nearest in range.
+            self.heights[at] = height as u8;
+        }
     }
 
     /// Whether the cloud before had an obstacle in this cell or next to it.

@@ -1,6 +1,6 @@
 //! Clouds of known scenes, and clouds of any numbers.
 
-use farpoint_obstacle_grid::{Class, Lens, ObstacleGrid, Point, Seen, SensorPose, Settings};
+use farpoint_obstacle_grid::{Class, HEIGHT_STEP, Lens, ObstacleGrid, Point, Seen, SensorPose, Settings};
 use proptest::prelude::*;
 
 const SIDE: usize = 160;
@@ -54,6 +54,37 @@ fn look(depth: &[f32]) -> (ObstacleGrid, Seen) {
     let lens = Lens::new(WIDTH, HEIGHT, CAMERA).unwrap();
     let seen = grid.look_at_image(depth, &lens, &pose(), [0, 0]);
     (grid, seen)
+}
+
+fn height_at(grid: &ObstacleGrid, x: f32, y: f32) -> f32 {
+    let cell = |v: f32| ((v / SETTINGS.cell) + SIDE as f32 / 2.0).floor() as usize;
+    f32::from(grid.heights()[cell(y) * SIDE + cell(x)]) * HEIGHT_STEP
+}
+
+#[test]
+fn a_free_cell_is_known_as_far_up_as_the_camera_looks() {
+    let (grid, _) = look(&image(|_, up| level(up, 0.0)));
+    // 119.5 pixels of 160 above the middle: 0.747 m more with each metre.
+    for x in [1.52, 2.02, 3.02] {
+        let top = HIGH + 0.747 * (x - 0.1);
+        assert!((height_at(&grid, x, 0.02) - top).abs() < 0.05, "{x}: {}", height_at(&grid, x, 0.02));
+    }
+}
+
+#[test]
+fn an_obstacle_is_gone_when_its_lowest_part_is() {
+    // A wall, a box of 12 cm, and a board from 0.6 m up.
+    let depth = |left: f32, up: f32| {
+        let wall = if left > 0.5 { 1.92 } else { f32::INFINITY };
+        let low = if left < -0.5 && up * 1.92 + HIGH < 0.12 { 1.92 } else { f32::INFINITY };
+        let board = if left.abs() < 0.3 && up * 1.92 + HIGH > 0.6 { 1.92 } else { f32::INFINITY };
+        level(up, 0.0).min(wall).min(low).min(board)
+    };
+    let (grid, _) = look(&image(depth));
+    for (y, top) in [(1.52, 0.26), (-1.52, 0.12), (0.02, 0.82)] {
+        assert_eq!(class_at(&grid, 2.02, y), Class::Occupied as u8, "{y}");
+        assert!((height_at(&grid, 2.02, y) - top).abs() < 0.05, "{y}: {}", height_at(&grid, 2.02, y));
+    }
 }
 
 #[test]

@@ -10,6 +10,7 @@ export class PaintedGrid implements SensorGrid {
   readonly classes = new Uint8Array(SIDE * SIDE).fill(floorClasses.free);
   capturedAtMs: number;
   placed = true;
+  heights?: Uint8Array;
   readonly firstX: number;
   readonly firstY: number;
 
@@ -18,6 +19,12 @@ export class PaintedGrid implements SensorGrid {
     this.capturedAtMs = capturedAtMs;
     this.firstX = Math.floor(x / CELL) - SIDE / 2;
     this.firstY = Math.floor(y / CELL) - SIDE / 2;
+  }
+
+  /** From now on its heights are known: all of them these. */
+  high(height: number): this {
+    this.heights = new Uint8Array(SIDE * SIDE).fill(height);
+    return this;
   }
 
   /** Everything in this rectangle of the plane, metres. */
