@@ -14,6 +14,7 @@ function setUp(ownRhythm = false) {
   const captures: number[] = [];
   const skips: number[] = [];
   const looks: number[] = [];
+  const rates: (number | null)[] = [];
   let guarding = false;
   let intervalMs: number | null = 50;
   let hasRoom = true;
@@ -29,7 +30,8 @@ function setUp(ownRhythm = false) {
       return hasRoom;
     },
     wishes: () => ({ bitsPerSecond: 0, latencyTest: false }),
-    capture: () => {
+    capture: (_budget, measuredFramesPerSecond) => {
+      rates.push(measuredFramesPerSecond);
       if (intervalMs !== null) captures.push(nowMs);
       return intervalMs;
     },
@@ -47,7 +49,7 @@ function setUp(ownRhythm = false) {
   const send = (report: CaptureReport) => reports.push(report);
   const loop = new CaptureLoop(source, frames, { framesPerSecond: 20, now: () => nowMs, send });
   return {
-    ...{ loop, source, reports, captures, skips, looks },
+    ...{ loop, source, reports, captures, skips, looks, rates },
     states: () => reports.filter(({ type }) => type === 'state').length,
     plan: (ms: number | null) => {
       intervalMs = ms;
@@ -207,5 +209,24 @@ describe('CaptureLoop', () => {
     expect(loop.closed).toBe(true);
     expect(captures).toEqual([1000]);
     expect(reports.slice(-2).map(({ type }) => type)).toEqual(['fault', 'closed']);
+  });
+});
+
+describe('CaptureLoop and the source’s real rate', () => {
+  it('tells how often clouds come, whether or not they are taken', () => {
+    const { loop, ready, rates } = setUp(true);
+    loop.onRequest(STREAMING);
+    // Planned are 20 a second. 40 come, then 10.
+    for (let i = 0; i < 9; i++) ready(25);
+    expect(rates.at(-1)).toBeCloseTo(40);
+    for (let i = 0; i < 9; i++) ready(100);
+    expect(rates.at(-1)).toBeCloseTo(10);
+  });
+
+  it('knows no rate of a source that is asked: that comes when it is asked', () => {
+    const { loop, run, rates } = setUp();
+    loop.onRequest(STREAMING);
+    run(400);
+    expect(new Set(rates)).toEqual(new Set([null]));
   });
 });

@@ -4,6 +4,7 @@ import { type CaptureBudget, NO_BUDGET } from '../encode/capture-budget.ts';
 import type { CaptureReport, CaptureRequest, ReportSink } from './capture-messages.ts';
 import type { FrameCapture } from './frame-capture.ts';
 import type { FrameSource } from './frame-source.ts';
+import { SourceRate } from './source-rate.ts';
 
 const STATE_INTERVAL_MS = 20;
 /** An unchanged state is repeated at this interval, as a sign of life, ms. */
@@ -50,6 +51,8 @@ export class CaptureLoop {
   readonly #now: () => number;
   readonly #send: ReportSink;
   readonly #pace = new EvenPace();
+  /** Of a source with its own timing; one that is asked comes when it is asked. */
+  readonly #rate = new SourceRate();
   /** Time between two frames before the first plan, and as last planned, ms. */
   readonly #defaultIntervalMs: number;
   #plannedMs: number;
@@ -82,6 +85,7 @@ export class CaptureLoop {
       this.#readySinceMs = now();
       source.onReady = () => {
         this.#readySinceMs = this.#now();
+        this.#rate.came(this.#readySinceMs);
         this.#takeReady();
       };
     }
@@ -196,7 +200,7 @@ export class CaptureLoop {
 
   /** @returns the time until the next frame, ms; `null` if there was no cloud or no buffer */
   #capture(): number | null {
-    const intervalMs = this.#frames.capture(this.#budget);
+    const intervalMs = this.#frames.capture(this.#budget, this.#rate.perSecond);
     if (intervalMs !== null) {
       this.#lastFault = '';
       this.#nextLookMs = this.#now() + this.#lookIntervalMs;

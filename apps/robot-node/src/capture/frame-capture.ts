@@ -114,9 +114,10 @@ export class FrameCapture {
   /**
    * Captures and encodes one frame.
    *
+   * @param measuredFramesPerSecond how often clouds have come of late; `null` while that is not known
    * @returns the time until the next one, ms; `null` if there was no cloud or no buffer
    */
-  capture(budget: CaptureBudget): number | null {
+  capture(budget: CaptureBudget, measuredFramesPerSecond: number | null): number | null {
     const buffer = this.#pool.take();
     if (buffer === null) return null;
     this.#pool.release(buffer);
@@ -132,7 +133,8 @@ export class FrameCapture {
     const frameNumber = this.#frameNumber;
     const probeBytes = this.#probeBytes(budget);
     const workMs = this.#workMs;
-    const encoded = this.#formats.encode(frame, { frameNumber, budget, probeBytes, workMs, latencyTest });
+    const request = { frameNumber, budget, probeBytes, workMs, measuredFramesPerSecond, latencyTest };
+    const encoded = this.#formats.encode(frame, request);
     this.#frameNumber = nextSequence32(frameNumber);
     this.#announceStream();
     const { intervalMs, usefulBitsPerSecond } = encoded;

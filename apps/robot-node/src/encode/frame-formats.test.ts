@@ -49,7 +49,14 @@ function encode(
     (format): CodedBudget => ({ format, targetBitsPerSecond: 20e6, plainBitsPerSecond }),
   );
   const budget = { targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true, probe: null, coded };
-  const request = { frameNumber: 1, budget, probeBytes: 0, workMs: 0, latencyTest: false };
+  const request = {
+    frameNumber: 1,
+    budget,
+    probeBytes: 0,
+    workMs: 0,
+    measuredFramesPerSecond: null,
+    latencyTest: false,
+  };
   return encoder
     .encode(frame, request)
     .frames.map(({ encoded, audience }: FormattedFrame) => [encoded.format, audience]);

@@ -24,6 +24,8 @@ export interface FormatRequest {
   probeBytes: number;
   /** Time that the capture thread takes per frame, ms. */
   workMs: number;
+  /** Clouds per second that really come; `null` while that is not known. */
+  measuredFramesPerSecond: number | null;
   latencyTest: boolean;
 }
 
@@ -75,9 +77,9 @@ export class FrameFormats {
    * @throws {CodecError} for a frame beyond the source's capacity
    */
   encode(frame: SourceFrame, request: FormatRequest): FormattedFrames {
-    const { frameNumber, budget, probeBytes, workMs, latencyTest } = request;
+    const { frameNumber, budget, probeBytes, workMs, measuredFramesPerSecond, latencyTest } = request;
     const rawPoints = frame.form === 'points' ? frame.count : frame.depth.length;
-    const input = { ...budget, probeBytes, rawPoints, workMs };
+    const input = { ...budget, probeBytes, rawPoints, workMs, measuredFramesPerSecond };
     const coded = this.#encodeCoded(frame, request, input);
     if (coded === null) {
       const { framesPerSecond, points } = this.#planner.plan(input);

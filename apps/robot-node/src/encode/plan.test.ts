@@ -84,7 +84,8 @@ describe('FramePlanner, for latency', () => {
     expect(at(5)).toBe(60);
     expect(at(10)).toBeCloseTo(50);
     expect(at(20)).toBeCloseTo(25);
-    expect(at(200)).toBe(10);
+    // More than there is time for is not planned: the frames would be too small for the link.
+    expect(at(200)).toBe(5);
     const coded = planner({ anyRate: true }).planCoded('organised', { ...INPUT, workMs: 10 });
     expect(coded.framesPerSecond).toBeCloseTo(50);
     expect(coded.framesPerSecond * coded.budgetBytes * 8).toBeLessThan(INPUT.targetBitsPerSecond);
@@ -134,6 +135,63 @@ describe('FramePlanner, for latency', () => {
         }
       }),
     );
+  });
+});
+
+describe('FramePlanner, for a source that is slower than declared', () => {
+  const at = (measured: number | null, options: Partial<PlanOptions> = {}, input: Partial<PlanInput> = {}) =>
+    planner({ mostFramesPerSecond: 18, ...options }).plan({
+      ...{ ...INPUT, ...input },
+      measuredFramesPerSecond: measured,
+    });
+
+  it.each(['latency', 'paper'] as const)(
+    'shares the rate among the frames that come, policy %s',
+    (policy) => {
+      const { points, framesPerSecond } = at(10, { policy });
+      expect(framesPerSecond).toBe(10);
+      expect(wireBitsPerSecond(points, 10)).toBeGreaterThan(0.99 * INPUT.targetBitsPerSecond);
+      expect(wireBitsPerSecond(points, 10)).toBeLessThanOrEqual(INPUT.targetBitsPerSecond);
+    },
+  );
+
+  it('makes coded frames as fine as the frames that come may be', () => {
+    const budget = (measuredFramesPerSecond: number | null) =>
+      planner({ mostFramesPerSecond: 18 }).planCoded('organised', {
+        ...{ ...INPUT, targetBitsPerSecond: 5e6 },
+        measuredFramesPerSecond,
+      }).budgetBytes;
+    expect(budget(10) / budget(null)).toBeCloseTo(1.8, 2);
+  });
+
+  it('expects no more than was declared, and takes what is nearly that for it', () => {
+    expect([40, 18.4, 17.3, null].map((measured) => at(measured).framesPerSecond)).toEqual([18, 18, 18, 18]);
+    expect(at(17).framesPerSecond).toBe(17);
+  });
+
+  it('leaves out frames of a measured rate as of a declared one, to 10 a second', () => {
+    const few = { targetBitsPerSecond: 3e6 };
+    expect(at(19.8, { mostFramesPerSecond: 30 }, few).framesPerSecond).toBeCloseTo(9.9);
+    expect(at(10, { mostFramesPerSecond: 30 }, few).framesPerSecond).toBe(10);
+    expect(at(5, { mostFramesPerSecond: 30 }, few).framesPerSecond).toBe(5);
+  });
+
+  it('stays with every frame although the measured rate varies', () => {
+    const plan = planner({ mostFramesPerSecond: 60 });
+    const rates = [20, 20.8, 19.5, 21, 20.2].map((measuredFramesPerSecond) => {
+      const input = { ...INPUT, targetBitsPerSecond: 4.8e6, measuredFramesPerSecond };
+      return plan.plan(input).framesPerSecond / measuredFramesPerSecond;
+    });
+    expect(rates).toEqual([1, 1, 1, 1, 1]);
+  });
+
+  it('claims no more of the path than the frames that come can use', () => {
+    const useful = (measuredFramesPerSecond: number | null) =>
+      planner({ mostFramesPerSecond: 18 }).usefulBitsPerSecond('points64', {
+        ...INPUT,
+        measuredFramesPerSecond,
+      });
+    expect(useful(9) / useful(null)).toBeCloseTo(0.5);
   });
 });
 

@@ -24,7 +24,7 @@ export type PlanPolicy = (typeof PLAN_POLICIES)[number];
 
 export interface PlanOptions {
   policy: PlanPolicy;
-  /** The source's highest frame rate, frames/s. */
+  /** The source's highest frame rate, frames/s, as declared. Fewer may come. */
   mostFramesPerSecond: number;
   /** The source gives a frame whenever it is asked, so the rate need not be a whole fraction of the highest. */
   anyRate: boolean;
@@ -55,6 +55,8 @@ export interface PlanInput {
   display?: DrawnMost | undefined;
   /** Time that the capture thread takes per frame, ms, with waiting for busy processors as far as it counts. */
   workMs: number;
+  /** The rate at which clouds have really come of late, frames/s; `null` or left out while it is not known. */
+  measuredFramesPerSecond?: number | null | undefined;
 }
 
 export type CodedFormat = Exclude<CloudFormat, 'points64'>;
@@ -108,16 +110,18 @@ const CODED_NEEDS: Readonly<Record<CodedFormat, CodedNeed>> = {
 const CODED_SLACK = 1.06;
 /** So much more than a computer says it draws is no more. */
 const DRAWN_SLACK = 1.1;
+/** A measured rate from this share of the declared one on is the declared one: clocks and jitter differ by so much. */
+const AS_DECLARED = 0.95;
 /** A probe may enlarge a frame by at most this factor. */
 const MOST_PROBE_FACTOR = 8;
 
 export class FramePlanner {
   readonly #options: PlanOptions;
-  #framesPerSecond: number;
+  /** The last choice: every how manieth frame of the source. */
+  #divisor = 1;
 
   constructor(options: PlanOptions) {
     this.#options = options;
-    this.#framesPerSecond = options.mostFramesPerSecond;
   }
 
   /** The plan for the frame that is being captured. */
@@ -218,8 +222,23 @@ export class FramePlanner {
     return Math.max(Math.floor(most / POINTS_PER_PACKET), 1) * POINTS_PER_PACKET;
   }
 
-  #mostFramesPerSecond({ display }: PlanInput): number {
-    return Math.min(this.#options.mostFramesPerSecond, display?.framesPerSecond ?? Number.POSITIVE_INFINITY);
+  #mostFramesPerSecond(input: PlanInput): number {
+    return Math.min(
+      this.#sourceFramesPerSecond(input),
+      input.display?.framesPerSecond ?? Number.POSITIVE_INFINITY,
+    );
+  }
+
+  /**
+   * The rate at which frames come. A budget made for more frames than come would be used only in part: the frames
+   * would be too small, and whoever measures what arrives would take that for all that the link carries.
+   */
+  #sourceFramesPerSecond({ measuredFramesPerSecond, workMs }: PlanInput): number {
+    const { mostFramesPerSecond, anyRate } = this.#options;
+    // A source that is asked gives no more than there is time to take.
+    if (anyRate) return workMs > 0 ? Math.min(mostFramesPerSecond, 1000 / workMs) : mostFramesPerSecond;
+    const measured = measuredFramesPerSecond ?? mostFramesPerSecond;
+    return measured >= mostFramesPerSecond * AS_DECLARED ? mostFramesPerSecond : measured;
   }
 
   /**
@@ -234,15 +253,18 @@ export class FramePlanner {
   ): number {
     const { mostFramesPerSecond, anyRate } = this.#options;
     const { workMs } = input;
+    const sourceRate = anyRate ? mostFramesPerSecond : this.#sourceFramesPerSecond(input);
+    // A measured rate is not exact: a third of 28 frames/s is as good as 10.
+    const accuracy = sourceRate < mostFramesPerSecond ? AS_DECLARED : 1;
     const drawn = this.#mostFramesPerSecond(input);
-    const floor = Math.min(LEAST_FRAMES_PER_SECOND, drawn);
+    const floor = Math.min(LEAST_FRAMES_PER_SECOND, drawn) * accuracy;
     const least = Math.min(wanted, mostPoints);
     const load = anyRate ? MOST_LOAD_AT_ANY_RATE : MOST_LOAD;
     const affordable = workMs > 0 ? (1000 * load) / workMs : Number.POSITIVE_INFINITY;
     for (let divisor = 1; ; divisor++) {
-      const candidate = mostFramesPerSecond / divisor;
-      const next = mostFramesPerSecond / (divisor + 1);
-      const margin = candidate > this.#framesPerSecond ? UPWARD_MARGIN : 1;
+      const candidate = sourceRate / divisor;
+      const next = sourceRate / (divisor + 1);
+      const margin = divisor < this.#divisor ? UPWARD_MARGIN : 1;
       // A source with a rate of its own gives the next whole fraction of it that can be drawn.
       if (!anyRate && candidate > drawn * DRAWN_SLACK) continue;
       const inTime = anyRate || candidate * (margin === 1 ? 1 : 1.1) <= affordable;
@@ -250,7 +272,7 @@ export class FramePlanner {
       const rate = anyRate ? Math.max(Math.min(candidate, affordable, drawn), floor) : candidate;
       const fits = pointsPerSecond / rate >= least * margin && inTime;
       if (!fits && next >= floor) continue;
-      this.#framesPerSecond = candidate;
+      this.#divisor = divisor;
       return rate;
     }
   }

@@ -65,6 +65,8 @@ export class ReferenceOperator implements FrameTarget {
   readonly #options: ReferenceOperatorOptions;
   readonly #events: ReferenceOperatorEvents;
   #limit: ReportedLimit | null = null;
+  /** What the rate control was last told, bit/s on the wire. */
+  #appliedLimit = Number.POSITIVE_INFINITY;
   /** As with the reference system's robot, nothing is sent before the operator starts the stream. */
   #started = false;
   #quiet = false;
@@ -181,8 +183,14 @@ export class ReferenceOperator implements FrameTarget {
   #onBandwidth(data: string | Uint8Array): void {
     if (typeof data === 'string')
       throw new ProtocolError('invalid', 'bandwidth message', '', 'text, not bytes');
-    const limit = this.#limit?.add(decodeBandwidth(data)) ?? null;
-    if (limit === null) return;
+    this.#limit?.reported(decodeBandwidth(data));
+    this.#applyLimit();
+  }
+
+  #applyLimit(): void {
+    const limit = this.#limit?.bitsPerSecond ?? Number.POSITIVE_INFINITY;
+    if (limit === this.#appliedLimit) return;
+    this.#appliedLimit = limit;
     this.sender?.onReceiverLimit(limit);
     this.#events.onBudgetChanged();
   }
@@ -209,6 +217,8 @@ export class ReferenceOperator implements FrameTarget {
     sender.onFrameSent = ({ frame }) => {
       if (isGreen(frame)) this.#greenWanted = false;
       if (frame instanceof SharedFrame) this.driver.sentCaptureMs = frame.frame.capturedAtMs;
+      this.#limit?.sent(frame.packets, this.#host.now());
+      this.#applyLimit();
     };
     sender.onFrameDropped = (frame) => {
       if (isGreen(frame) && this.#greenWanted) this.#host.requestLatencyFrame();
