@@ -1,5 +1,8 @@
 #!/usr/bin/env node
-/** `farpoint-robot`: runs the robot; `init` writes a configuration, `doctor` checks everything, `audit` verifies a log. */
+/**
+ * `farpoint-robot`: runs the robot; `init` writes a configuration, `doctor` checks everything, `release` releases the
+ * emergency stop, `audit` verifies a log.
+ */
 const [, , command] = process.argv;
 const rest = process.argv.slice(3);
 
@@ -8,6 +11,8 @@ const rest = process.argv.slice(3);
 if (command === 'init') process.exitCode = (await import('./commands/init.ts')).init(rest, process);
 else if (command === 'doctor')
   process.exit(await (await import('./commands/doctor.ts')).doctor(rest, process));
+else if (command === 'release')
+  process.exitCode = await (await import('./commands/release.ts')).release(rest, process);
 else if (command === 'audit')
   process.exitCode = (await import('@farpoint/audit')).auditCommand('farpoint-robot', rest, process);
 else await (await import('./run.ts')).run();

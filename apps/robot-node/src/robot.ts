@@ -286,6 +286,7 @@ export class Robot {
 
   #tick(): void {
     this.driving.tick();
+    this.#host.tick();
     this.#paths.tick();
     this.sessions.tick();
     this.reference?.tick();

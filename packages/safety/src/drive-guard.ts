@@ -238,10 +238,10 @@ export class DriveGuard {
    * Only the lease holder or a supervisor can release it, within the policy (estop-release.ts). Motion then needs a new
    * command, from a hand that has let go (estop.ts).
    *
-   * @param of number of the latch that is meant; left out, it is the present one
+   * @param operatorId `null`: somebody at the robot, as if driving @param of the latch that is meant; else the present one
    */
-  releaseEstop(operatorId: string, supervises = false, of?: number): EstopReleaseOutcome {
-    const holdsLease = this.#leases.holder === operatorId;
+  releaseEstop(operatorId: string | null, supervises = false, of?: number): EstopReleaseOutcome {
+    const holdsLease = operatorId === null || this.#leases.holder === operatorId;
     return releaseEstop(this.#estop, this.#estopRelease, { operatorId, holdsLease, supervises, of });
   }
 

@@ -21,7 +21,8 @@ export type EstopReleaseRefusal =
 export type EstopReleaseOutcome = { released: true } | { released: false; reason: EstopReleaseRefusal };
 
 export interface EstopRelease {
-  operatorId: string;
+  /** `null`: somebody at the robot. */
+  operatorId: string | null;
   holdsLease: boolean;
   supervises: boolean;
   /** Number of the latch that is meant; left out, it is the present one. */
@@ -45,7 +46,7 @@ export function releaseEstop(
   if (of !== undefined && of !== estop.number) return refused('newer-latch');
   if (!supervises && policy === 'supervisor' && estop.ofOperator) return refused('not-supervisor');
   if (!supervises && policy === 'latcher' && estop.latchers.present > 0) {
-    if (!estop.latchers.has(operatorId)) return refused('not-latcher');
+    if (operatorId === null || !estop.latchers.has(operatorId)) return refused('not-latcher');
     estop.latchers.withdraw(operatorId);
     if (estop.latchers.present > 0) return refused('others-latched');
   }

@@ -96,6 +96,11 @@ export class RobotAudit {
     else if (!latched) this.#record({ kind: 'estop-released', details: { by: 'robot', stop } });
   }
 
+  /** Somebody at the robot has released the emergency stop. */
+  releasedAtRobot(): void {
+    this.#record({ kind: 'estop-released', details: { by: 'somebody at the robot' } });
+  }
+
   /** The robot drives back by itself, or no longer. @param end why no longer; `null`: it begins */
   returned(end: ReturnEnd | null, metres: number): void {
     if (end === null) this.#record({ kind: 'return-began' });

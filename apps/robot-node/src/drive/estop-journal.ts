@@ -8,6 +8,7 @@ import { join } from 'node:path';
 import { type EstopSource, type RobotStop, robotStops } from '@farpoint/safety';
 import { makeFolder, replaceFile } from '@farpoint/service';
 import { z } from 'zod';
+import { ReleaseRequest } from './release-request.ts';
 
 const runSchema = z.strictObject({
   version: z.literal(1),
@@ -19,7 +20,7 @@ const runSchema = z.strictObject({
   heldBy: z.array(z.enum(robotStops)).max(robotStops.length).default([]),
 });
 
-type Run = z.infer<typeof runSchema>;
+export type Run = z.infer<typeof runSchema>;
 
 /** Why a robot starts with its emergency stop latched. */
 export type LatchedStart =
@@ -37,6 +38,8 @@ export interface RunStart {
 
 export class EstopJournal {
   readonly start: RunStart;
+  /** By which somebody at the robot asks for the release. */
+  readonly request: ReleaseRequest;
   readonly #path: string;
   readonly #onFault: (error: Error) => void;
   #latchedBy: EstopSource | null;
@@ -51,7 +54,8 @@ export class EstopJournal {
    * @param onFault called if a change could not be written; the robot goes on, and its next start is latched
    */
   constructor(folder: string, robotId: string, onFault: (error: Error) => void) {
-    this.#path = join(folder, `${robotId}.run.json`);
+    this.#path = runFile(folder, robotId);
+    this.request = new ReleaseRequest(folder, robotId);
     this.#onFault = onFault;
     const last = lastRun(this.#path);
     let { latched } = last;
@@ -61,6 +65,8 @@ export class EstopJournal {
     try {
       makeFolder(folder, 0o750);
       this.#write(true);
+      // Whoever asked before the start cannot know of it.
+      this.request.withdraw();
     } catch (error) {
       latched ??= { by: 'robot', reason: 'unwritable', detail: (error as Error).message };
       this.#latchedBy = latched.by;
@@ -95,6 +101,19 @@ export class EstopJournal {
   #write(running: boolean): void {
     const run: Run = { version: 1, running, latchedBy: this.#latchedBy, heldBy: [...this.#heldBy] };
     replaceFile(this.#path, `${JSON.stringify(run)}\n`, 0o640);
+  }
+}
+
+function runFile(folder: string, robotId: string): string {
+  return join(folder, `${robotId}.run.json`);
+}
+
+/** What a robot remembers now; `null` if it has never run, or that cannot be read. */
+export function keptRun(folder: string, robotId: string): Run | null {
+  try {
+    return runSchema.parse(JSON.parse(readFileSync(runFile(folder, robotId), 'utf8')));
+  } catch {
+    return null;
   }
 }
 

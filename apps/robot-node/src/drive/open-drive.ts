@@ -163,7 +163,7 @@ function openJournal(
     audit.startsLatched(latched.reason);
     log.warn(
       { reason: latched.reason, detail: latched.detail },
-      'starts with the emergency stop latched: whoever drives must release it',
+      'starts with the emergency stop latched: whoever drives must release it, or somebody at the robot by `farpoint-robot release`',
     );
   }
   return estop;

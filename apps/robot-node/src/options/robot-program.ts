@@ -75,6 +75,7 @@ export const robotProgram = defineProgram({
   commands: {
     init: 'writes a commented configuration file',
     doctor: 'checks everything and says what to fix',
+    release: 'releases the emergency stop, at the robot',
     audit: 'verifies an audit log',
   },
   options,

@@ -77,6 +77,8 @@ export class ReferenceProfile {
     this.#options = options;
     this.#host = host;
     this.#log = log.child({ profile: 'reference' });
+    // A robot that starts latched may have lost an operator who drove.
+    if (host.drive.guard.estopState().latched) this.#heldMs = host.now();
     this.#line = new MessageLine(
       {
         url: options.url,

@@ -22,6 +22,7 @@ function driven() {
   stations.push(drive);
   const host = new RobotSessionHost({
     drive,
+    estop: { request: { take: () => false } },
     operators: () => new Map(),
     sensors: () => ({ updateBudgets: () => undefined }),
     audit: { driver: () => undefined },

@@ -4,6 +4,7 @@ import type { Logger } from '@farpoint/service';
 import type { LeaseCause, RobotAudit } from '../audit/robot-audit.ts';
 import type { DriveStation } from '../drive/drive-station.ts';
 import type { EstopJournal } from '../drive/estop-journal.ts';
+import { LocalRelease } from '../drive/local-release.ts';
 import type { CloudSensor } from '../sensors/cloud-sensor.ts';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
 import type { CommandLog } from '../telemetry/command-log.ts';
@@ -41,10 +42,21 @@ export class RobotSessionHost implements SessionHost {
   #driver: string | null = null;
   /** Whoever drives can latch and release the emergency stop without end, but not fill the log. */
   readonly #estopLines = new LimitedLines();
+  readonly #localRelease: LocalRelease;
 
   constructor(parts: RobotSessionHostParts) {
     this.drive = parts.drive;
     this.#parts = parts;
+    this.#localRelease = new LocalRelease(parts.estop.request, parts.drive.guard, parts.log);
+  }
+
+  /** Call this every 25 ms. */
+  tick(): void {
+    if (!this.#localRelease.look(this.now())) return;
+    this.drive.apply();
+    this.#keepEstop();
+    this.#parts.audit.releasedAtRobot();
+    for (const { messages } of this.#parts.operators().values()) messages.sendEstop();
   }
 
   now(): number {
