@@ -140,7 +140,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
     because: 'needs root',
   },
   'farpoint-robot doctor --config /etc/farpoint/robot.yaml': { help: true },
-  'sudo -u farpoint farpoint-robot release --config /etc/farpoint/robot.yaml': { help: true },
+  'sudo -u farpoint farpoint-robot release --id ROBOT --state-dir /var/lib/farpoint': { help: true },
   'farpoint-robot release': { help: true },
   'pnpm robot release': { help: true },
   'farpoint-robot init --source KIND': { help: true },

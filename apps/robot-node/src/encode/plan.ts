@@ -117,7 +117,7 @@ const MOST_PROBE_FACTOR = 8;
 
 export class FramePlanner {
   readonly #options: PlanOptions;
-  /** The last choice: every how manieth frame of the source. */
+  /** The last choice: one of so many frames of the source. */
   #divisor = 1;
 
   constructor(options: PlanOptions) {
