@@ -17,7 +17,7 @@ function seenAt(depth: number, rowsDown = 1, mount = LEVEL): SeenThings {
 
 it('knows since when a thing was seen, and only where it stands', () => {
   const seen = seenAt(2);
-  expect(seen.thingSinceMs({ x: 1.74, y: 0.01 }, RADIUS)).toBe(700);
+  expect(seen.thingSinceMs({ x: 1.76, y: 0.01 }, RADIUS)).toBe(700);
   expect(seen.thingSinceMs({ x: 1.5, y: 0 }, RADIUS)).toBe(NEVER);
   expect(seen.thingSinceMs({ x: 2, y: 0.5 }, RADIUS)).toBe(NEVER);
 });

@@ -14,8 +14,8 @@ const [LOWEST_M, HIGHEST_M] = [0.1, 1];
 const THROUGH = 1.05;
 /** The guard looks no farther for holes, metres. */
 const HOLES_WITHIN_M = 4;
-/** Farther away than this from a contact, a thing is another one, metres. */
-const REACH_M = 0.05;
+/** What is seen of a surface may lie in the next cell, by its noise, metres. */
+const REACH_M = 0.02;
 
 export class SeenThings {
   /** When a thing was first and last seen over each cell, and when a hole in it, ms. */

@@ -35,8 +35,11 @@ const HALF_DIAGONAL = Math.SQRT1_2;
 const TOWARDS = 0.35;
 /** And towards an edge of the floor: nothing holds a robot that slips. */
 const TOWARDS_EDGE = 0.1;
-/** What is by less than this farther than the nearest obstacle counts as equally near, cells. */
+/** And towards the nearest of all, where that may touch the robot, as far as cells can tell. */
+const TOWARDS_TOUCHING = 0.1;
+/** What is by less than this farther than the nearest obstacle counts as equally near, cells; and as the nearest itself. */
 const NEAREST_CELLS = 0.25;
+const SAME_CELLS = 0.02;
 
 /** Sweeps a footprint over the floor. Keeps its buffers: one per guard. */
 export class FreeWaySearch {
@@ -96,14 +99,18 @@ export class FreeWaySearch {
       if (known === kind) least = Math.min(least, distance);
     });
     if (least === Number.POSITIVE_INFINITY) return null;
+    const { cellM } = this.#map;
+    const mayTouch = least < HALF_DIAGONAL * cellM;
     let found: 'obstacle' | 'drop-off' | null = null;
     this.#within(margin, sweep, (x, y, near, known) => {
       // What lies ahead along a wall comes no nearer than the wall is: the sweep looks after the rest.
-      if (known !== kind || near.distance > least + NEAREST_CELLS * this.#map.cellM) return;
+      if (known !== kind || near.distance > least + NEAREST_CELLS * cellM) return;
       // How a thing that stands still moves, seen from the robot.
       const dx = -wish.linear.x + wish.angular.z * y;
       const dy = -wish.linear.y - wish.angular.z * x;
-      if (near.x * dx + near.y * dy < -towards * Math.hypot(dx, dy)) found ??= causeOf(known);
+      const isNearest = near.distance <= least + SAME_CELLS * cellM;
+      const most = mayTouch && isNearest ? Math.min(towards, TOWARDS_TOUCHING) : towards;
+      if (near.x * dx + near.y * dy < -most * Math.hypot(dx, dy)) found ??= causeOf(known);
     });
     return found;
   }

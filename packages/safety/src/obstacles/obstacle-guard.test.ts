@@ -42,6 +42,17 @@ describe('the obstacle guard', () => {
     }
   });
 
+  test.each([
+    [0.3, 'stops'],
+    [-0.1, 'goes'],
+    [-0.5, 'goes'],
+  ])('beside a post that may touch the robot, heading %f rad towards it, it %s', (yaw, expected) => {
+    const guard = new ObstacleGuard(DISC, 1);
+    guard.moved({ x: 0, y: 0, yaw }, zeroTwist(), 1000);
+    guard.see(0, floor().paint('occupied', -0.05, 0, 0.25, 0.3));
+    expect(guard.bound(go(0.1), 1010).factor > 0 ? 'goes' : 'stops').toBe(expected);
+  });
+
   test('slows the robot down before an obstacle, by the way that is left', () => {
     let last = 0;
     for (const x of [0.45, 0.5, 0.6, 0.7, 0.8]) {
