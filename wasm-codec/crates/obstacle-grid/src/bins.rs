@@ -11,22 +11,25 @@ const NEAREST: f32 = 0.02;
 /// Farther points are not looked at, metres: their squares stay finite.
 const FARTHEST: f32 = 1e6;
 /// What a point adds to its cell: nothing, one to the obstacle's count, or one to the floor's.
-const ADDS: [u64; 4] = [0, 1, 1 << 32, 0];
+const ADDS: [u64; 4] = [0, 1, 1 << FLOOR_BITS, 0];
+/// The lowest band of heights, where the point is one of an obstacle.
+const LOWEST_BAND: [u64; 4] = [0, 1 << BAND_BITS, 0, 0];
+const FLOOR_BITS: u32 = 24;
+const BAND_BITS: u32 = 48;
+const COUNT_MASK: u64 = (1 << FLOOR_BITS) - 1;
+/// The height up to which the robot would hit something is divided into so many bands.
+const BANDS: u32 = 64 - BAND_BITS;
 
 /// The counts of one cloud.
 pub(crate) struct Bins {
     side: usize,
-    /// Points of obstacles in the lower half, of the floor in the upper. The last entry takes what is in no cell.
+    /// From the lowest bit: points of obstacles, points of the floor, and in which bands of heights obstacles have points. In
+    /// one number, because each point costs one access then. The last entry takes what is in no cell.
     counts: Vec<u64>,
     /// Rays that passed through the floor's level.
     holes: Vec<u32>,
     any_hole: bool,
-    /// The lowest and the highest point of obstacles in each cell, metres. The last entry takes what is in no cell.
-    spans: Vec<[f32; 2]>,
 }
-
-/// What no obstacle spans.
-const NOTHING: [f32; 2] = [f32::INFINITY, f32::NEG_INFINITY];
 
 /// What does not change from point to point, in every lane.
 pub(crate) struct Rule {
@@ -39,6 +42,8 @@ pub(crate) struct Rule {
     height: f32x4,
     drop: f32x4,
     slope: f32x4,
+    bands_per_metre: f32x4,
+    highest_band: f32x4,
     /// What is higher than this is in no cell.
     top: f32x4,
     sensor: [f32; 3],
@@ -57,6 +62,8 @@ impl Rule {
             height: f32x4::splat(settings.height),
             drop: f32x4::splat(-settings.drop),
             slope: f32x4::splat(settings.slope),
+            bands_per_metre: f32x4::splat(BANDS as f32 / settings.height),
+            highest_band: f32x4::splat((BANDS - 1) as f32),
             top: f32x4::splat(
                 settings.height.max(settings.clearance + settings.slope * side / 2.0 * settings.cell),
             ),
@@ -75,19 +82,11 @@ impl Rule {
 
 impl Bins {
     pub(crate) fn new(side: usize) -> Self {
-        let cells = side * side;
-        Self {
-            side,
-            counts: vec![0; cells + 1],
-            holes: vec![0; cells],
-            any_hole: false,
-            spans: vec![NOTHING; cells + 1],
-        }
+        Self { side, counts: vec![0; side * side + 1], holes: vec![0; side * side], any_hole: false }
     }
 
     pub(crate) fn clear(&mut self) {
         self.counts.fill(0);
-        self.spans.fill(NOTHING);
         if self.any_hole {
             self.holes.fill(0);
         }
@@ -102,12 +101,15 @@ impl Bins {
     /// Points of obstacles, points of the floor, and rays through the floor in a cell.
     pub(crate) fn of(&self, cell: usize) -> (u32, u32, u32) {
         let count = self.counts[cell];
-        (count as u32, (count >> 32) as u32, self.holes[cell])
+        ((count & COUNT_MASK) as u32, ((count >> FLOOR_BITS) & COUNT_MASK) as u32, self.holes[cell])
     }
 
-    /// The lowest and the highest point of obstacles in a cell, metres.
-    pub(crate) fn span_of(&self, cell: usize) -> [f32; 2] {
-        self.spans[cell]
+    /// From the lowest to the highest point of obstacles in a cell, metres, to the bounds of their bands. Only of a cell with
+    /// an obstacle.
+    pub(crate) fn span_of(&self, cell: usize, settings: &Settings) -> [f32; 2] {
+        let bands = self.counts[cell] >> BAND_BITS;
+        let (low, high) = (bands.trailing_zeros(), u64::BITS - bands.leading_zeros());
+        [low, high].map(|band| band as f32 * settings.height / BANDS as f32)
     }
 
     /// Counts four points of the grid's frame. Lanes of `valid` that are not all ones are left out.
@@ -138,19 +140,13 @@ impl Bins {
         let cell = column.fast_trunc_int() + row.fast_trunc_int() * rule.stride;
         let cells = ((cell & counted) | (rule.nowhere & !counted)).to_array();
         let kinds = ((obstacle & i32x4::splat(1)) | (floor & i32x4::splat(2))).to_array();
-        for (cell, kind) in cells.into_iter().zip(kinds) {
-            // Both are in range: the cell by `inside`, the kind by its making.
+        let band = (z * rule.bands_per_metre).fast_max(zero).fast_min(rule.highest_band);
+        let bands = band.fast_trunc_int().to_array();
+        for ((cell, kind), band) in cells.into_iter().zip(kinds).zip(bands) {
+            // All are in range: the cell by `inside`, the others by their making.
             if let Some(count) = self.counts.get_mut(cell as usize) {
-                *count += ADDS[(kind & 3) as usize];
-            }
-        }
-        if (obstacle & counted).to_bitmask() != 0 {
-            let standing = ((cell & obstacle & counted) | (rule.nowhere & !(obstacle & counted))).to_array();
-            for (cell, height) in standing.into_iter().zip(z.to_array()) {
-                if let Some([low, high]) = self.spans.get_mut(cell as usize) {
-                    *low = low.min(height);
-                    *high = high.max(height);
-                }
+                let kind = (kind & 3) as usize;
+                *count = (*count + ADDS[kind]) | (LOWEST_BAND[kind] << (band & 15));
             }
         }
     }

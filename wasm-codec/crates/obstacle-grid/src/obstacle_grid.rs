@@ -167,7 +167,7 @@ impl ObstacleGrid {
         let centre = |i: usize| (i as f32 + 0.5 - side as f32 / 2.0) * cell;
         for at in 0..side * side {
             let height = if self.classes[at] == Class::Occupied as u8 {
-                let [low, high] = self.bins.span_of(at);
+                let [low, high] = self.bins.span_of(at, &self.settings);
                 ((low + LOWEST_PART).min(high) / HEIGHT_STEP).ceil()
             } else if self.classes[at] == Class::Free as u8 {
                 let [low, high] =

@@ -81,7 +81,7 @@ fn an_obstacle_is_gone_when_its_lowest_part_is() {
         level(up, 0.0).min(wall).min(low).min(board)
     };
     let (grid, _) = look(&image(depth));
-    for (y, top) in [(1.52, 0.26), (-1.52, 0.12), (0.02, 0.82)] {
+    for (y, top) in [(1.52, 0.2), (-1.52, 0.14), (0.02, 0.75)] {
         assert_eq!(class_at(&grid, 2.02, y), Class::Occupied as u8, "{y}");
         assert!((height_at(&grid, 2.02, y) - top).abs() < 0.05, "{y}: {}", height_at(&grid, 2.02, y));
     }
