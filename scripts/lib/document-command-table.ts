@@ -270,6 +270,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
         'guard',
         'guard-runs',
         'guard-runs --rooms',
+        'guard-runs --sensors drawn',
         'first-drive',
         'stopping',
         'faults',
