@@ -15,7 +15,9 @@ export class ReleaseRequest {
 
   /** @throws {Error} of the system */
   make(): void {
-    writeFileSync(this.#path, '', { mode: 0o640 });
+    this.withdraw();
+    // What stands there by then is a link of the robot's user, perhaps to a file of root's: it is not followed.
+    writeFileSync(this.#path, '', { mode: 0o640, flag: 'wx' });
   }
 
   /** Forgets a request that nobody has taken. @throws {Error} of the system */
