@@ -81,12 +81,12 @@ describe('bridge', { timeout: 30_000 }, () => {
     const shown = await robot('shown', lead);
     const { made, streaming } = await bridge();
     await shown.heard('start');
-    const points = 12_000;
+    const points = 3000;
     const frames: ReadFrame[] = [];
     const stop = stream(shown, 0, points);
     while (frames.length < 60) frames.push(readKnownFrame(await streaming.bytes()));
     stop();
-    expect(link.packets).toBeGreaterThan(60 * 80);
+    expect(link.packets).toBeGreaterThan(60 * 20);
     for (const [i, { frame, places, strays }] of frames.entries()) {
       expect(strays).toBe(0);
       expect(new Set(places).size).toBe(places.length);
@@ -95,10 +95,10 @@ describe('bridge', { timeout: 30_000 }, () => {
       if (i > 0) expect(frame).toBe((frames[i - 1] as ReadFrame).frame + 1);
     }
     const received = frames.reduce((sum, { places }) => sum + places.length, 0);
-    // Two in a hundred were lost; almost all retransmissions arrived in time.
-    expect(received / (frames.length * points)).toBeGreaterThan(0.97);
     const { shown: connection } = made.roster;
-    expect(connection?.packetsRecovered).toBeGreaterThan(0);
+    // Two in a hundred were lost. All of them are sent again; on a busy machine, some too late for their frames.
+    expect(received / (frames.length * points)).toBeGreaterThan(0.97);
+    expect(connection?.packetsRecovered).toBeGreaterThan(10);
     // Every point that arrived in time was sent to the page.
     const { drops } = connection!.assembler;
     expect(Object.keys(drops).filter((reason) => reason !== 'duplicate' && reason !== 'late')).toEqual([]);

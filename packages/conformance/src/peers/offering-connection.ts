@@ -5,6 +5,7 @@ import { REFERENCE_MEDIA } from '@farpoint/protocol';
 import { createReferencePeerConnection, referenceChannels } from '@farpoint/reference-profile';
 import { MediaStreamTrack, type RTCDataChannel, RtpHeader, RtpPacket } from 'werift';
 import { Inbox } from './inbox.ts';
+import { retransmit } from './retransmit.ts';
 
 export interface OfferingEvents {
   onCandidate(candidate: string): void;
@@ -46,6 +47,10 @@ export class OfferingConnection {
         else events.onWord(data.toString());
       });
       checkReady();
+    });
+    connection.connectionStateChange.subscribe((state) => {
+      const dtls = connection.dtlsTransports[0];
+      if (state === 'connected' && dtls !== undefined) retransmit(dtls);
     });
     connection.onIceCandidate.subscribe((candidate) => {
       if (candidate !== undefined) events.onCandidate(candidate.toJSON().candidate);
