@@ -49,7 +49,7 @@ export const bench: Bench = {
       name: 'signaling',
       command: [
         ...['node', 'apps/signaling/src/main.ts', '--no-reference', '--log-level', 'warn'],
-        ...['--host', '127.0.0.1', '--port', String(port)],
+        ...['--host', '127.0.0.1', '--port', String(port), '--public-metrics'],
         ...[
           '--max-connections',
           String(connections + 64),
