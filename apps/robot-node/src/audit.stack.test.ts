@@ -1,28 +1,18 @@
 /** What the running robot writes to its audit log, and what it does not write to any log. */
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { auditCommand } from '@farpoint/audit';
-import { makeProof, soleFingerprint } from '@farpoint/grants';
-import { grantTo, makeIssuer } from '@farpoint/grants/testing';
 import type { Role } from '@farpoint/protocol';
-import { afterAll, expect, it, vi } from 'vitest';
-import { SignaledOperator } from './testing/signaled-operator.ts';
-import { useRobot } from './testing/use-robot.ts';
+import { expect, it, vi } from 'vitest';
+import { useGrantingRobot } from './testing/use-granting-robot.ts';
 
 const ROBOT = 'sim-1';
 const TOKEN = 'a-token-of-the-robot';
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-audit-'));
-const file = join(folder, 'audit.jsonl');
-const keyFile = join(folder, 'grant-keys.json');
-const issuer = await makeIssuer('k1');
-writeFileSync(keyFile, JSON.stringify({ keys: [issuer.publicJwk] }));
-afterAll(() => rmSync(folder, { recursive: true }));
-
-const robot = useRobot(ROBOT, [
-  ...['--rate-control', 'fixed', '--sim-size', '64', '--max-points', '600', '--token', TOKEN],
-  ...['--grant-keys', keyFile, '--audit-log', file],
-]);
+let file = '';
+const { robot, grant, connect, openWith } = await useGrantingRobot(ROBOT, (folder) => {
+  file = join(folder, 'audit.jsonl');
+  return ['--token', TOKEN, '--audit-log', file];
+});
 
 interface Entry {
   kind: string;
@@ -37,19 +27,7 @@ const entries = () =>
     .split('\n')
     .map((line) => JSON.parse(line) as Entry);
 
-async function connectAs(role: Role, name: string): Promise<SignaledOperator> {
-  const { grant, key } = await grantTo(issuer, Date.now() / 1000, { role, name, sub: name.toLowerCase() });
-  return robot.keep(
-    await SignaledOperator.connect(robot.stack.signalingUrl, ROBOT, {
-      credentials: async ({ session, offer, answer }) => {
-        const operatorFingerprint = soleFingerprint(answer) ?? '';
-        const robotFingerprint = soleFingerprint(offer) ?? '';
-        const facts = { robot: ROBOT, session, operatorFingerprint, robotFingerprint };
-        return { grant, proof: await makeProof(grant, facts, key, Date.now() / 1000) };
-      },
-    }),
-  );
-}
+const connectAs = async (role: Role, name: string) => connect(await grant(name, role));
 
 it('a drive from start to end, in a chain that verifies', { timeout: 60_000 }, async () => {
   const ada = await connectAs('drive', 'Ada');
@@ -70,7 +48,7 @@ it('a drive from start to end, in a chain that verifies', { timeout: 60_000 }, a
       i % 2 === 1 ? { type: 'estop', latch: true } : { type: 'estop', latch: false, of },
     );
   }
-  const stranger = robot.keep(await SignaledOperator.open(robot.stack.signalingUrl, ROBOT, {}));
+  const stranger = await openWith();
   await stranger.until(({ type }) => type === 'session.closed');
   await sue.close();
   await vi.waitFor(() => expect(entries().at(-1)).toMatchObject({ kind: 'session-ended' }), {

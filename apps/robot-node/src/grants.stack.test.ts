@@ -1,55 +1,30 @@
 /** Only who has a grant gets in: an independent WebRTC client against the running robot and signaling service. */
 import { createHmac } from 'node:crypto';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { issueGrant, makeOperatorKey, makeProof, soleFingerprint } from '@farpoint/grants';
+import { issueGrant, makeOperatorKey } from '@farpoint/grants';
 import { type GrantedOperator, grantTo, makeIssuer } from '@farpoint/grants/testing';
 import type { Role } from '@farpoint/protocol';
-import { afterAll, beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it } from 'vitest';
 import { metricOf } from './testing/metric-of.ts';
-import { type Credentials, SignaledOperator } from './testing/signaled-operator.ts';
-import { useRobot } from './testing/use-robot.ts';
+import { type ChangedFacts, shownGrant } from './testing/shown-grant.ts';
+import type { Credentials, SignaledOperator } from './testing/signaled-operator.ts';
+import { useGrantingRobot } from './testing/use-granting-robot.ts';
 
 const ROBOT = 'sim-1';
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-grants-'));
-const keyFile = join(folder, 'grant-keys.json');
-const issuer = await makeIssuer('k1');
-const other = await makeIssuer('k2', 'ES256');
-const trust = (...issuers: { publicJwk: object }[]) =>
-  writeFileSync(keyFile, JSON.stringify({ keys: issuers.map(({ publicJwk }) => publicJwk) }));
-trust(issuer);
-afterAll(() => rmSync(folder, { recursive: true }));
-
-const robot = useRobot(ROBOT, [
-  ...['--rate-control', 'fixed', '--sim-size', '64', '--max-points', '600', '--max-operators', '16'],
-  ...['--grant-keys', keyFile],
+const { robot, issuer, folder, trust, connectWith, openWith } = await useGrantingRobot(ROBOT, [
+  ...['--max-operators', '16'],
 ]);
+const keyFile = join(folder, 'grant-keys.json');
+const other = await makeIssuer('k2', 'ES256');
 
 const nowS = () => Date.now() / 1000;
-type Facts = Parameters<Credentials>[0];
 
-/** What the holder of a grant shows. */
-function shownBy(
-  { grant, key }: Pick<GrantedOperator, 'grant' | 'key'>,
-  change: (facts: Facts) => Partial<Facts & { robot: string; madeAtS: number }> = () => ({}),
-): Credentials {
-  return async (facts) => {
-    const { session, offer, answer, robot: id = ROBOT, madeAtS = nowS() } = { ...facts, ...change(facts) };
-    const fingerprints = {
-      operatorFingerprint: soleFingerprint(answer) ?? '',
-      robotFingerprint: soleFingerprint(offer) ?? '',
-    };
-    return { grant, proof: await makeProof(grant, { robot: id, session, ...fingerprints }, key, madeAtS) };
-  };
-}
-
-async function connect(credentials: Credentials): Promise<SignaledOperator> {
-  return robot.keep(await SignaledOperator.connect(robot.stack.signalingUrl, ROBOT, { credentials }));
-}
+const shownBy = (grant: Pick<GrantedOperator, 'grant' | 'key'>, change?: ChangedFacts) =>
+  shownGrant(ROBOT, grant, change);
 
 async function connectAs(role: Role, name: string): Promise<SignaledOperator> {
-  return connect(shownBy(await grantTo(issuer, nowS(), { role, name, sub: name })));
+  return connectWith(shownBy(await grantTo(issuer, nowS(), { role, name, sub: name })));
 }
 
 type Client = SignaledOperator['client'];
@@ -142,7 +117,7 @@ describe('who is admitted', { timeout: 30_000 }, () => {
   it('a grant that ends soon: a warning, then the session ends and the lease is free', async () => {
     const watcher = await connectAs('watch', 'Wim');
     const grant = await grantTo(issuer, nowS(), { exp: Math.ceil(nowS()) + 10, name: 'Eve' });
-    const operator = await connect(shownBy(grant));
+    const operator = await connectWith(shownBy(grant));
     await takeLease(operator.client);
     const { inS } = await operator.client.message('expires');
     expect(inS).toBeLessThanOrEqual(11);
@@ -167,7 +142,7 @@ describe('who is admitted', { timeout: 30_000 }, () => {
       trust(other);
       process.kill(pid, 'SIGHUP');
       await kept.until((message) => message.type === 'session.closed' && message.reason === 'not-granted');
-      const { client } = await connect(shownBy(fresh));
+      const { client } = await connectWith(shownBy(fresh));
       expect((await client.message('welcome')).access?.name).toBe('Grace');
     } finally {
       trust(issuer, other);
@@ -242,7 +217,7 @@ describe('who is not', { timeout: 30_000 }, () => {
   it('a grant and proof that somebody overheard in another session', async () => {
     let overheard: Awaited<ReturnType<Credentials>> = {};
     const own = shownBy(ada);
-    const honest = await connect(async (facts) => {
+    const honest = await connectWith(async (facts) => {
       overheard = await own(facts);
       return overheard;
     });
@@ -253,9 +228,7 @@ describe('who is not', { timeout: 30_000 }, () => {
 
   async function expectRefusal(reason: string, credentials: Credentials): Promise<void> {
     const before = await refusals(reason);
-    const operator = robot.keep(
-      await SignaledOperator.open(robot.stack.signalingUrl, ROBOT, { credentials }),
-    );
+    const operator = await openWith(credentials);
     await operator.until(({ type }) => type === 'session.closed');
     const closed = operator.heard.filter(({ type }) => type === 'session.closed');
     expect(closed).toMatchObject([{ reason: 'not-granted' }]);

@@ -80,9 +80,9 @@ export class StateTopics {
   readonly #times: StampTimes = {
     of: (source, stampNs, mayBeAhead) => {
       const isTransform = source === '' || source.startsWith('tf ');
-      if (!isTransform) return this.#inOrder(source, stampNs);
-      const judged = this.#stamps.inAnyOrder(source, stampNs, this.#receivedMs, mayBeAhead);
-      return typeof judged === 'number' ? judged : stampRefusals[judged];
+      return isTransform
+        ? this.#stamps.ofTransform(source, stampNs, this.#receivedMs, mayBeAhead)
+        : this.#inOrder(source, stampNs);
     },
   };
 

@@ -3,7 +3,7 @@ import type { Pose } from '@farpoint/protocol';
 import { type RosFault, type RosGraph, type TopicTable, WorldState } from '@farpoint/ros';
 import { listen } from '../capture/ros-listener.ts';
 import type { RosClock } from '../ros/capture-time.ts';
-import { StampClock, stampRefusals } from '../ros/stamp-clock.ts';
+import { StampClock } from '../ros/stamp-clock.ts';
 
 /** Of tf: as many as a robot's joints publish while the thread does something else. */
 const QUEUE = 100;
@@ -28,10 +28,8 @@ export class SensorFrames {
     const stamps = new StampClock(clock);
     this.#world = new WorldState(
       {
-        of: (source, stampNs, mayBeAhead) => {
-          const judged = stamps.inAnyOrder(source, stampNs, this.#receivedMs, mayBeAhead);
-          return typeof judged === 'number' ? judged : stampRefusals[judged];
-        },
+        of: (source, stampNs, mayBeAhead) =>
+          stamps.ofTransform(source, stampNs, this.#receivedMs, mayBeAhead),
       },
       base,
     );

@@ -9,8 +9,17 @@ const HEADER_BYTES = 8;
 const SLOTS = 3;
 const SLOT_MASK = 3;
 const FRESH = 4;
-/** Capture time, placed, first cell's x and y, how long it took to make, disputed, and whether heights are known. */
-const FACTS = 7;
+/** Where each fact of a grid is in its slot. */
+const FACT = {
+  capturedAtMs: 0,
+  placed: 1,
+  firstX: 2,
+  firstY: 3,
+  tookMs: 4,
+  disputed: 5,
+  hasHeights: 6,
+} as const;
+const FACTS = Object.keys(FACT).length;
 
 export interface GridShape {
   side: number;
@@ -59,15 +68,14 @@ export class SharedGridWriter {
   write({ classes, heights, ...grid }: WrittenGrid): void {
     const { capturedAtMs, placed, firstX, firstY, tookMs, disputed = false } = grid;
     const slot = this.#slots[this.#own] as ReturnType<typeof slotsOf>[number];
-    slot.facts.set([
-      capturedAtMs,
-      placed ? 1 : 0,
-      firstX,
-      firstY,
-      tookMs,
-      disputed ? 1 : 0,
-      heights === undefined ? 0 : 1,
-    ]);
+    const { facts } = slot;
+    facts[FACT.capturedAtMs] = capturedAtMs;
+    facts[FACT.placed] = Number(placed);
+    facts[FACT.firstX] = firstX;
+    facts[FACT.firstY] = firstY;
+    facts[FACT.tookMs] = tookMs;
+    facts[FACT.disputed] = Number(disputed);
+    facts[FACT.hasHeights] = Number(heights !== undefined);
     slot.classes.set(classes);
     if (heights !== undefined) slot.heights.set(heights);
     this.#own = Atomics.exchange(this.#state, 0, this.#own | FRESH) & SLOT_MASK;
@@ -94,13 +102,18 @@ export class SharedGridReader {
     if ((Atomics.load(this.#state, 0) & FRESH) === 0) return null;
     this.#own = Atomics.exchange(this.#state, 0, this.#own) & SLOT_MASK;
     const { facts, classes, heights } = this.#slots[this.#own] as ReturnType<typeof slotsOf>[number];
-    const [capturedAtMs, placed, firstX, firstY, tookMs, disputed, hasHeights] = facts as unknown as [
-      ...[number, number, number, number, number, number, number],
-    ];
+    const fact = (name: keyof typeof FACT) => facts[FACT[name]] as number;
     this.count.grids++;
-    this.count.lastMs = tookMs;
-    const is = { placed: placed === 1, disputed: disputed === 1 };
-    const grid = { ...this.#shape, capturedAtMs, ...is, firstX, firstY, classes };
-    return hasHeights === 1 ? { ...grid, heights } : grid;
+    this.count.lastMs = fact('tookMs');
+    const grid: SensorGrid = {
+      ...this.#shape,
+      capturedAtMs: fact('capturedAtMs'),
+      placed: fact('placed') === 1,
+      disputed: fact('disputed') === 1,
+      firstX: fact('firstX'),
+      firstY: fact('firstY'),
+      classes,
+    };
+    return fact('hasHeights') === 1 ? { ...grid, heights } : grid;
   }
 }

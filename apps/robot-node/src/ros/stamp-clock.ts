@@ -66,6 +66,12 @@ export class StampClock {
     return this.#judged(source, stampNs, receivedMs, localised ? MOST_AHEAD_LOCALISED_MS : MOST_AHEAD_MS);
   }
 
+  /** When what a transform says was so, ms on the robot's clock; else, in words, why its stamp is refused. */
+  ofTransform(source: string, stampNs: bigint, receivedMs: number, localised?: boolean): number | string {
+    const judged = this.inAnyOrder(source, stampNs, receivedMs, localised);
+    return typeof judged === 'number' ? judged : stampRefusals[judged];
+  }
+
   #judged(source: string, stampNs: bigint, receivedMs: number, mostAheadMs: number): number | StampRefusal {
     // Some drivers never stamp.
     if (stampNs === 0n) return this.#lastNs.has(source) ? 'missing' : receivedMs;
