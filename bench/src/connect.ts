@@ -1,26 +1,31 @@
 /** `pnpm bench connect`: how long it takes to establish a session. */
+import { spawn } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { ReferenceOperator } from '@farpoint/conformance';
-import { makeProof, soleFingerprint } from '@farpoint/grants';
 import { grantTo, makeIssuer } from '@farpoint/grants/testing';
 import { LocalStack } from '@farpoint/local-stack';
-import { SignaledOperator } from '@farpoint/robot-node/testing';
+import { type Credentials, SignaledOperator } from '@farpoint/robot-node/testing';
+import { metricOf } from '@farpoint/robot-node/testing/metric-of';
+import { shownGrant } from '@farpoint/robot-node/testing/shown-grant';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
-const USAGE = `pnpm bench connect [--count 20] [--json]
+const USAGE = `pnpm bench connect [--count 20] [--starts 5] [--busy 0] [--json]
 
 Real signaling and robot (simulated office), each in its own process, without a network between them. An operator in this
 process connects --count times in each profile, one after the other. It starts the DTLS handshake as soon as its own
 connectivity checks succeed, which may be before the robot's do. Farpoint profile: from opening the signaling socket to the
-robot's welcome; with a grant: at a robot that asks for one, with the proof that goes with it. Reference profile: from the client port of signaling to the open data channels, once the robot's offer exists.`;
+robot's welcome; with a grant: at a robot that asks for one, with the proof that goes with it. Reference profile: from the
+client port of signaling to the open data channels, once the robot's offer exists. Then everything is started anew --starts
+times, and the first operator of a robot connects in each profile. --busy: so many busy loops run beside it.`;
 
 const ROBOT = 'sim-1';
 const GRANTED = 'sim-2';
 const NAME = 'Simulated robot';
+const OTHER_NAME = 'Another simulated robot';
 
 export const bench: Bench = {
   name: 'connect',
@@ -30,93 +35,116 @@ export const bench: Bench = {
       args: argv,
       options: {
         count: { type: 'string', default: '20' },
+        starts: { type: 'string', default: '5' },
+        busy: { type: 'string', default: '0' },
         json: { type: 'boolean' },
         help: { type: 'boolean' },
       },
     });
     if (values.help) return console.log(USAGE);
     const count = numberOption('count', values.count, 1);
+    const starts = numberOption('starts', values.starts, 0);
+    const busy = numberOption('busy', values.busy, 0);
     const folder = mkdtempSync(join(tmpdir(), 'farpoint-bench-connect-'));
     const keys = join(folder, 'grant-keys.json');
     const issuer = await makeIssuer();
     writeFileSync(keys, JSON.stringify({ keys: [issuer.publicJwk] }));
     const args = ['--sim-size', '64'];
+    const env = { FARPOINT_LOG_LEVEL: 'warn' };
+    const loops = Array.from({ length: busy }, () =>
+      spawn(process.execPath, ['-e', 'for (;;);'], { stdio: 'ignore' }),
+    );
     const stack = await LocalStack.start({
       robots: [
         { id: ROBOT, name: NAME, reference: true, args },
         { id: GRANTED, name: NAME, args: [...args, '--grant-keys', keys] },
       ],
-      env: { FARPOINT_LOG_LEVEL: 'warn' },
+      env,
     });
     try {
       // The robot makes one offer at a time, and the next one when that operator has left.
-      const offered = async (connected: number) => {
-        while ((await metric(stack, 'reference_offers')) <= connected) {
-          await new Promise((resolve) => setTimeout(resolve, 20));
-        }
-      };
-      const clients = `ws://127.0.0.1:${stack.ports.referenceClient}`;
-      const farpointMs = await times(count, async () => {
-        const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT, { helloAtOnce: true });
-        return () => operator.close();
-      });
-      const { grant, key } = await grantTo(issuer, Date.now() / 1000);
-      const grantedMs = await times(count, async () => {
-        const operator = await SignaledOperator.connect(stack.signalingUrl, GRANTED, {
-          helloAtOnce: true,
-          credentials: async ({ session, offer, answer }) => {
-            const operatorFingerprint = soleFingerprint(answer) ?? '';
-            const robotFingerprint = soleFingerprint(offer) ?? '';
-            const facts = { robot: GRANTED, session, operatorFingerprint, robotFingerprint };
-            return { grant, proof: await makeProof(grant, facts, key, Date.now() / 1000) };
-          },
+      const offered = (connected: number) => offers(stack, ROBOT, connected);
+      const clients = clientsOf(stack);
+      const at = (robot: string, options: { credentials?: Credentials } = {}) =>
+        SignaledOperator.connect(stack.signalingUrl, robot, { helloAtOnce: true, ...options });
+      const farpointMs = await times(count, () => at(ROBOT));
+      const credentials = shownGrant(GRANTED, await grantTo(issuer, Date.now() / 1000));
+      const grantedMs = await times(count, () => at(GRANTED, { credentials }));
+      const referenceMs = await times(count, () => ReferenceOperator.connect(clients, NAME), offered);
+      const firstMs: number[] = [];
+      const firstReferenceMs: number[] = [];
+      for (let n = 0; n < starts; n++) {
+        const fresh = await LocalStack.start({
+          robots: [
+            { id: ROBOT, name: NAME, args },
+            { id: GRANTED, name: OTHER_NAME, reference: true, args },
+          ],
+          env,
         });
-        return () => operator.close();
-      });
-      const referenceMs = await times(
-        count,
-        async () => {
-          const operator = await ReferenceOperator.connect(clients, NAME);
-          return () => operator.close();
-        },
-        offered,
-      );
-      const results = { farpointMs, grantedMs, referenceMs };
+        try {
+          await offers(fresh, GRANTED, 0);
+          firstMs.push(
+            await timed(() => SignaledOperator.connect(fresh.signalingUrl, ROBOT, { helloAtOnce: true })),
+          );
+          firstReferenceMs.push(await timed(() => ReferenceOperator.connect(clientsOf(fresh), OTHER_NAME)));
+        } finally {
+          await fresh.stop();
+        }
+      }
+      const firsts = {
+        firstMs: rounded(distribution(firstMs), 0),
+        firstReferenceMs: rounded(distribution(firstReferenceMs), 0),
+      };
+      const results = { farpointMs, grantedMs, referenceMs, ...firsts };
       printTable(
         ['connected after, ms', 'p50', 'p95', 'p99', 'max'],
         [
           ['Farpoint’s profile', ...distributionCells(farpointMs)],
           ['with a grant', ...distributionCells(grantedMs)],
           ['reference profile', ...distributionCells(referenceMs)],
+          ['a robot’s first, Farpoint’s profile', ...distributionCells(firsts.firstMs)],
+          ['a robot’s first, reference profile', ...distributionCells(firsts.firstReferenceMs)],
         ],
       );
-      if (values.json) printJson({ bench: 'connect', count, ...results });
+      if (values.json) printJson({ bench: 'connect', count, starts, busy, ...results });
     } finally {
       await stack.stop();
+      for (const loop of loops) loop.kill('SIGKILL');
       rmSync(folder, { recursive: true });
     }
   },
 };
 
-async function metric(stack: LocalStack, name: string): Promise<number> {
-  const text = await (await fetch(`${stack.robotAdminUrl(ROBOT)}/metrics`)).text();
-  const line = text.split('\n').find((row) => row.startsWith(`farpoint_robot_${name} `));
-  return Number(line?.split(' ').at(-1) ?? 0);
+interface Connected {
+  close(): Promise<unknown>;
 }
 
-/** @param connect returns a function that closes the connection again */
+const clientsOf = (stack: LocalStack) => `ws://127.0.0.1:${stack.ports.referenceClient}`;
+
+/** Waits until the robot has made more offers in the reference profile than this. */
+async function offers(stack: LocalStack, robot: string, connected: number): Promise<void> {
+  while ((await metricOf(stack.robotAdminUrl(robot), 'farpoint_robot_reference_offers')) <= connected)
+    await new Promise((resolve) => setTimeout(resolve, 20));
+}
+
+/** How long it takes until the operator is connected, ms. */
+async function timed(connect: () => Promise<Connected>): Promise<number> {
+  const began = performance.now();
+  const operator = await connect();
+  const ms = performance.now() - began;
+  await operator.close();
+  return ms;
+}
+
 async function times(
   count: number,
-  connect: () => Promise<() => Promise<unknown>>,
+  connect: () => Promise<Connected>,
   ready: (connected: number) => Promise<unknown> = async () => undefined,
 ) {
   const ms: number[] = [];
   for (let n = 0; n < count; n++) {
     await ready(n);
-    const began = performance.now();
-    const close = await connect();
-    ms.push(performance.now() - began);
-    await close();
+    ms.push(await timed(connect));
   }
   return rounded(distribution(ms), 0);
 }

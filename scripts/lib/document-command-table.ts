@@ -271,6 +271,8 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
         'guard-runs',
         'guard-runs --rooms',
         'guard-runs --sensors drawn',
+        'connect --busy 2',
+        'bridge --profile --points 22500',
         'first-drive',
         'stopping',
         'faults',

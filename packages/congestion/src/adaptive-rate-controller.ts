@@ -2,6 +2,7 @@ import type { PacketResult } from '@farpoint/rtp';
 import { BitRate } from '@farpoint/timing';
 import { Competition } from './competition.ts';
 import { DelayLaw, growth, noiseAllowanceMs, toleratedQueueMs } from './delay-law.ts';
+import { FramePace } from './frame-pace.ts';
 import { InFlight } from './in-flight.ts';
 import { LossJudge } from './loss-judge.ts';
 import { PathObserver } from './path-observer.ts';
@@ -55,6 +56,9 @@ export class AdaptiveRateController implements RateController {
   /** Upper bound of the target rate. The estimate may exceed it, up to `#max`, because frames may be paced faster. */
   readonly #most: number;
   readonly #max: number;
+  readonly #frame: FramePace;
+  /** The train on its way is for the pace of a frame, not for the estimate. */
+  #probesPace = false;
   readonly #path = new PathObserver();
   readonly #flight = new InFlight();
   readonly #delay = new DelayLaw();
@@ -82,6 +86,7 @@ export class AdaptiveRateController implements RateController {
     this.#min = options.minBitsPerSecond ?? 150_000;
     this.#most = Math.max(options.maxBitsPerSecond ?? 200e6, this.#min);
     this.#max = PACE_HEADROOM * this.#most;
+    this.#frame = new FramePace(this.#most);
     this.#estimate = Math.min(Math.max(options.startBitsPerSecond ?? 3e6, this.#min), this.#most);
   }
 
@@ -115,7 +120,9 @@ export class AdaptiveRateController implements RateController {
 
   onTick(nowMs: number): void {
     const { feedbackIntervalMs, baseRttMs } = this.#path;
-    if (this.#probe.onTick(nowMs, baseRttMs)) this.#plan.onIgnored();
+    const unsent = this.#probe.onTick(nowMs, baseRttMs);
+    if (unsent && this.#probesPace) this.#frame.onUnsent(nowMs);
+    else if (unsent) this.#plan.onIgnored();
     if (this.#state !== 'silent') {
       const sinceMs = nowMs - this.#lastFeedbackMs;
       if (!Silence.begins(this.#flight.bytes, sinceMs, feedbackIntervalMs, baseRttMs)) {
@@ -124,6 +131,7 @@ export class AdaptiveRateController implements RateController {
       }
       this.#state = 'silent';
       this.#silence.begin(this.#lastFeedbackMs);
+      this.#frame.onFull(nowMs);
       this.#probe.cancel();
     }
     this.#silence.onTick(this.#flight.bytes, nowMs);
@@ -143,7 +151,8 @@ export class AdaptiveRateController implements RateController {
     const d = this.#decision;
     d.targetBitsPerSecond = this.targetBitsPerSecond(nowMs);
     // The receiver's limit bounds the total rate. The pace of a frame depends on the path alone.
-    d.pacingBitsPerSecond = Math.max(this.#pathBitsPerSecond * PACING, LEAST_PACING);
+    const shownPace = this.#state === 'silent' ? 0 : this.#frame.bitsPerSecond;
+    d.pacingBitsPerSecond = Math.max(this.#pathBitsPerSecond * PACING, shownPace, LEAST_PACING);
     d.bytesInFlight = this.#flight.bytes;
     d.congestionWindowBytes = this.#windowBytes();
     d.probe = this.#state === 'silent' ? null : this.#probe.wish;
@@ -205,6 +214,7 @@ export class AdaptiveRateController implements RateController {
       return;
     }
     const reading = this.#delay.read(o, toleratedMs, allowanceMs, noiseMs);
+    this.#frame.onMessage(reading === 'over', nowMs);
     if (reading === 'over') {
       const before = this.#estimate;
       this.#estimate = this.#delay.estimateWhenOver(this.#path, before, toleratedMs);
@@ -249,6 +259,7 @@ export class AdaptiveRateController implements RateController {
       const through = (KEEP_IN_LOSS * o.ackedBitsPerSecond) / (1 - this.#loss.base);
       this.#estimate = Math.min(this.#estimate, Math.max(through, LOSS_CUT * this.#estimate));
       this.#loss.cutAt(nowMs);
+      this.#frame.onFull(nowMs);
       this.#onOveruse(1, nowMs);
     } else if (verdict === 'innocent') {
       this.#estimate = Math.max(this.#estimate, this.#beforeTrial);
@@ -258,17 +269,22 @@ export class AdaptiveRateController implements RateController {
   #onProbe(results: readonly PacketResult[], nowMs: number): void {
     const outcome = this.#probe.onFeedback(results, this.#flight);
     if (outcome === null || this.#state !== 'steady') return;
-    this.#estimate = this.#plan.onOutcome(outcome, this.#estimate, this.#path.noiseMs, nowMs);
+    if (this.#probesPace) this.#frame.onOutcome(outcome, nowMs);
+    else this.#estimate = this.#plan.onOutcome(outcome, this.#estimate, this.#path.noiseMs, nowMs);
   }
 
   #wishProbe(nowMs: number): void {
     if (this.#state !== 'steady' || this.#probe.busy || this.#loss.onTrial) return;
-    if (this.#estimate >= this.#max) return;
-    const idle = this.#used() < 0.5;
-    if (!this.#plan.isDue(nowMs - this.#lastOveruseMs, idle, nowMs)) return;
-    const rate = this.#plan.rate(this.#estimate, this.#max);
-    this.#probe.ask(rate, this.#plan.bytes(rate, this.#path.noiseMs), nowMs);
-    this.#plan.onAsked(nowMs);
+    this.#probesPace = this.#estimate >= this.#max;
+    const rate = this.#probesPace ? this.#frame.trainRate(this.#estimate, nowMs) : this.#plannedRate(nowMs);
+    if (rate === null) return;
+    this.#probe.ask(rate, this.#plan.bytes(Math.min(rate, this.#max), this.#path.noiseMs), nowMs);
+    if (!this.#probesPace) this.#plan.onAsked(nowMs);
+  }
+
+  #plannedRate(nowMs: number): number | null {
+    const due = this.#plan.isDue(nowMs - this.#lastOveruseMs, this.#used() < 0.5, nowMs);
+    return due ? this.#plan.rate(this.#estimate, this.#max) : null;
   }
 
   /** Restarts when feedback returns after a silence. */

@@ -68,6 +68,23 @@ test('a burst window saves wake-ups and keeps the rate', () => {
   expect(times).toEqual(Array.from({ length: 48 }, (_, i) => Math.floor(i / 4)));
 });
 
+test('a burst has no more bytes than allowed, however high the rate and however late the wake-up', () => {
+  const pacer = exact(400 * MBIT, { burstMs: 2.5, burstBytes: 64_000 });
+  const [first, second] = [frame(1, 300), frame(1, 300)];
+  const packetBytes = first.bytes / first.packets;
+  pacer.enqueue(first, 0);
+  const sent = [0, 5, 6].map((now) => {
+    let bytes = 0;
+    for (let run = pacer.due(now); run !== null; run = pacer.due(now)) bytes += run.count * packetBytes;
+    return bytes;
+  });
+  expect(sent[0]).toBeCloseTo(64_000, -3.5);
+  // What is caught up, and what is sent ahead.
+  expect(sent[1]).toBeCloseTo(128_000, -3.5);
+  expect(sent[2]).toBeLessThanOrEqual(64_000);
+  expect(pacer.enqueue(second, 7)).toEqual([]);
+});
+
 test('marks the last run of a frame', () => {
   const pacer = exact(10 * MBIT);
   pacer.enqueue(frame(1, 2), 0);

@@ -51,6 +51,11 @@ export interface PacerOptions {
   factor?: number;
   /** Packets may be sent this much early, ms: fewer wake-ups, small bursts. */
   burstMs?: number;
+  /**
+   * But no more bytes than this, and after a late wake-up no more than this is caught up: receivers and switches take
+   * only so much at once.
+   */
+  burstBytes?: number;
   /** After a late wake-up, at most this much is caught up, ms; beyond that the schedule moves. */
   catchUpMs?: number;
   /** A frame that has been in progress for this long gives way to a newer one, ms. */
@@ -98,6 +103,7 @@ export class PacketPacer<T extends PacedFrame> {
       maxWaitingFrames: options.maxWaitingFrames ?? 1,
       factor: options.factor ?? 1.1,
       burstMs: options.burstMs ?? 1,
+      burstBytes: options.burstBytes ?? Number.POSITIVE_INFINITY,
       catchUpMs: options.catchUpMs ?? 10,
       maxFrameMs: options.maxFrameMs ?? 250,
     };
@@ -175,11 +181,13 @@ export class PacketPacer<T extends PacedFrame> {
       ({ current, waiting }) => current !== null || waiting.length > 0,
     ) as Lane<T>;
     const current = lane.current ?? begin(lane, nowMs);
-    this.#nextMs = Math.max(dueMs, nowMs - this.#options.catchUpMs);
     const { frame } = current;
     const spacingMs = this.#spacingMs(frame);
+    const { burstMs, burstBytes, catchUpMs } = this.#options;
+    const mostMs = (burstBytes / frame.bytes) * spacingMs * frame.packets;
+    this.#nextMs = Math.max(dueMs, nowMs - Math.min(catchUpMs, mostMs));
     const first = current.sent;
-    const until = nowMs + this.#options.burstMs;
+    const until = nowMs + Math.min(burstMs, mostMs);
     let count = 0;
     while (first + count < frame.packets && (count === 0 || this.#nextMs < until)) {
       count++;

@@ -8,8 +8,12 @@ const TRAIN_BYTES = 7500;
 const TRAIN_PER_NOISE = 4;
 const LEAST_WAIT_MS = 250;
 const MOST_WAIT_MS = 1400;
-/** While the source does not use the rate it has, a higher one is of no interest. */
-const IDLE_WAIT_MS = 5000;
+/**
+ * While the source does not use the rate it has, a higher one only shortens a frame's way. The wait doubles with each
+ * train that has found a limit.
+ */
+const LEAST_IDLE_WAIT_MS = 1000;
+const MOST_IDLE_WAIT_MS = 5000;
 const DEEP_CUT = 0.6;
 const FACTOR = 1.5;
 const FACTOR_AT_START = 3;
@@ -62,7 +66,8 @@ export class ProbePlan {
 
   /** @returns whether it is time for a train */
   isDue(sinceOveruseMs: number, idle: boolean, nowMs: number): boolean {
-    const waitMs = this.searching ? 0 : idle ? IDLE_WAIT_MS : this.#waitMs;
+    const idleMs = Math.min(LEAST_IDLE_WAIT_MS * 2 ** this.#failures, MOST_IDLE_WAIT_MS);
+    const waitMs = this.searching ? 0 : idle ? idleMs : this.#waitMs;
     return nowMs - this.#lastMs >= waitMs && sinceOveruseMs >= Math.max(waitMs, LEAST_WAIT_MS);
   }
 

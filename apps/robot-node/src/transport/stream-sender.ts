@@ -18,6 +18,11 @@ const CLOUD_STREAM = 0;
 /** Packets leave in bursts of this length, ms. Waking up for each packet would cost more than sending it. */
 const BURST_MS = 2.5;
 /**
+ * Twice as many, sent after a late wake-up, still fit a socket buffer of 212,992 bytes, the most that Linux gives a browser
+ * by default: a packet of 1,250 bytes takes some 2,300 of it, and the kernel doubles the size.
+ */
+const BURST_BYTES = 64_000;
+/**
  * A probe train waits this many frames for a frame of its length. After that, a frame of at least this many packets
  * is enough.
  */
@@ -77,6 +82,7 @@ export class StreamSender {
     this.#pacer = new PacketPacer(controller.decision(now()).pacingBitsPerSecond, {
       factor: 1,
       burstMs: BURST_MS,
+      burstBytes: BURST_BYTES,
     });
     const { counters } = this;
     this.#feedback = new StreamFeedback({
