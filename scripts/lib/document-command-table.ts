@@ -247,6 +247,8 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   ...Object.fromEntries(
     [
       ...['mtp', 'link', 'link --mode auto', 'transport', 'sampler', 'pack', 'codec', 'codec --cloud …'],
+      ...['guard-runs', 'guard-runs --rooms', 'guard-runs --sensors drawn'],
+      ...['connect --busy 2', 'bridge --profile --points 22500'],
       ...[
         'codec --cloud FILE…',
         'connect',
@@ -268,11 +270,6 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
         'recording --videos 3 --seconds 40 --captured-fps 10',
         'congestion',
         'guard',
-        'guard-runs',
-        'guard-runs --rooms',
-        'guard-runs --sensors drawn',
-        'connect --busy 2',
-        'bridge --profile --points 22500',
         'first-drive',
         'stopping',
         'faults',
