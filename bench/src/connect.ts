@@ -51,9 +51,6 @@ export const bench: Bench = {
     writeFileSync(keys, JSON.stringify({ keys: [issuer.publicJwk] }));
     const args = ['--sim-size', '64'];
     const env = { FARPOINT_LOG_LEVEL: 'warn' };
-    const loops = Array.from({ length: busy }, () =>
-      spawn(process.execPath, ['-e', 'for (;;);'], { stdio: 'ignore' }),
-    );
     const stack = await LocalStack.start({
       robots: [
         { id: ROBOT, name: NAME, reference: true, args },
@@ -61,6 +58,9 @@ export const bench: Bench = {
       ],
       env,
     });
+    const loops = Array.from({ length: busy }, () =>
+      spawn(process.execPath, ['-e', 'for (;;);'], { stdio: 'ignore' }),
+    );
     try {
       // The robot makes one offer at a time, and the next one when that operator has left.
       const offered = (connected: number) => offers(stack, ROBOT, connected);

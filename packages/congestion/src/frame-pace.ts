@@ -27,8 +27,8 @@ const MOST_WAIT_MS = 30_000;
 
 /**
  * How fast the packets of one frame may follow each other on a path that carries more than all sources could use. It
- * shortens the way of a frame and raises no rate: at the first sign of a queue or of loss, frames go at the estimate's
- * pace again.
+ * shortens the way of a frame and raises no rate. When the path turns out to be full, frames go at the estimate's pace
+ * again.
  */
 export class FramePace {
   readonly #most: number;
@@ -73,7 +73,7 @@ export class FramePace {
     if (this.#queues >= QUEUES) this.onFull(nowMs);
   }
 
-  /** What was known of the path no longer holds. */
+  /** The path loses more than it should, or is silent: what was known of it no longer holds. */
   onFull(nowMs: number): void {
     this.#queues = 0;
     if (this.#bitsPerSecond === 0) return;
