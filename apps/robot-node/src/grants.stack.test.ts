@@ -1,7 +1,6 @@
 /** Only who has a grant gets in: an independent WebRTC client against the running robot and signaling service. */
 import { createHmac } from 'node:crypto';
 import { writeFileSync } from 'node:fs';
-import { join } from 'node:path';
 import { issueGrant, makeOperatorKey } from '@farpoint/grants';
 import { type GrantedOperator, grantTo, makeIssuer } from '@farpoint/grants/testing';
 import type { Role } from '@farpoint/protocol';
@@ -12,10 +11,10 @@ import type { Credentials, SignaledOperator } from './testing/signaled-operator.
 import { useGrantingRobot } from './testing/use-granting-robot.ts';
 
 const ROBOT = 'sim-1';
-const { robot, issuer, folder, trust, connectWith, openWith } = await useGrantingRobot(ROBOT, [
-  ...['--max-operators', '16'],
-]);
-const keyFile = join(folder, 'grant-keys.json');
+const { robot, issuer, keyFile, trust, grant, connect, connectWith, openWith } = await useGrantingRobot(
+  ROBOT,
+  ['--max-operators', '16'],
+);
 const other = await makeIssuer('k2', 'ES256');
 
 const nowS = () => Date.now() / 1000;
@@ -23,9 +22,7 @@ const nowS = () => Date.now() / 1000;
 const shownBy = (grant: Pick<GrantedOperator, 'grant' | 'key'>, change?: ChangedFacts) =>
   shownGrant(ROBOT, grant, change);
 
-async function connectAs(role: Role, name: string): Promise<SignaledOperator> {
-  return connectWith(shownBy(await grantTo(issuer, nowS(), { role, name, sub: name })));
-}
+const connectAs = async (role: Role, name: string) => connect(await grant(name, role));
 
 type Client = SignaledOperator['client'];
 
@@ -116,8 +113,8 @@ describe('who is admitted', { timeout: 30_000 }, () => {
 
   it('a grant that ends soon: a warning, then the session ends and the lease is free', async () => {
     const watcher = await connectAs('watch', 'Wim');
-    const grant = await grantTo(issuer, nowS(), { exp: Math.ceil(nowS()) + 10, name: 'Eve' });
-    const operator = await connectWith(shownBy(grant));
+    const ending = await grantTo(issuer, nowS(), { exp: Math.ceil(nowS()) + 10, name: 'Eve' });
+    const operator = await connect(ending);
     await takeLease(operator.client);
     const { inS } = await operator.client.message('expires');
     expect(inS).toBeLessThanOrEqual(11);
@@ -142,7 +139,7 @@ describe('who is admitted', { timeout: 30_000 }, () => {
       trust(other);
       process.kill(pid, 'SIGHUP');
       await kept.until((message) => message.type === 'session.closed' && message.reason === 'not-granted');
-      const { client } = await connectWith(shownBy(fresh));
+      const { client } = await connect(fresh);
       expect((await client.message('welcome')).access?.name).toBe('Grace');
     } finally {
       trust(issuer, other);

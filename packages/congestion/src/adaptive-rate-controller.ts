@@ -151,8 +151,8 @@ export class AdaptiveRateController implements RateController {
     const d = this.#decision;
     d.targetBitsPerSecond = this.targetBitsPerSecond(nowMs);
     // The receiver's limit bounds the total rate. The pace of a frame depends on the path alone.
-    const shownPace = this.#state === 'silent' ? 0 : this.#frame.bitsPerSecond;
-    d.pacingBitsPerSecond = Math.max(this.#pathBitsPerSecond * PACING, shownPace, LEAST_PACING);
+    const estimatePace = this.#pathBitsPerSecond * PACING;
+    d.pacingBitsPerSecond = Math.max(estimatePace, this.#frame.bitsPerSecond, LEAST_PACING);
     d.bytesInFlight = this.#flight.bytes;
     d.congestionWindowBytes = this.#windowBytes();
     d.probe = this.#state === 'silent' ? null : this.#probe.wish;

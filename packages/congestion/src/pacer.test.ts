@@ -70,9 +70,9 @@ test('a burst window saves wake-ups and keeps the rate', () => {
 
 test('a burst has no more bytes than allowed, however high the rate and however late the wake-up', () => {
   const pacer = exact(400 * MBIT, { burstMs: 2.5, burstBytes: 64_000 });
-  const [first, second] = [frame(1, 300), frame(1, 300)];
-  const packetBytes = first.bytes / first.packets;
-  pacer.enqueue(first, 0);
+  const long = frame(1, 300);
+  const packetBytes = long.bytes / long.packets;
+  pacer.enqueue(long, 0);
   const sent = [0, 5, 6].map((now) => {
     let bytes = 0;
     for (let run = pacer.due(now); run !== null; run = pacer.due(now)) bytes += run.count * packetBytes;
@@ -82,7 +82,6 @@ test('a burst has no more bytes than allowed, however high the rate and however 
   // What is caught up, and what is sent ahead.
   expect(sent[1]).toBeCloseTo(128_000, -3.5);
   expect(sent[2]).toBeLessThanOrEqual(64_000);
-  expect(pacer.enqueue(second, 7)).toEqual([]);
 });
 
 test('marks the last run of a frame', () => {

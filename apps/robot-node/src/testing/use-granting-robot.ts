@@ -15,8 +15,8 @@ export interface GrantingRobot {
   readonly robot: RobotUnderTest;
   /** The issuer that the robot trusts. */
   readonly issuer: Issuer;
-  /** A folder that goes after the file's tests. */
-  readonly folder: string;
+  /** The file of the keys that the robot trusts; it goes after the file's tests. */
+  readonly keyFile: string;
   /** Writes whose keys the robot trusts once it reads them again. */
   trust(...issuers: Issuer[]): void;
   /** A grant of its own for a session of this person. */
@@ -62,7 +62,7 @@ export async function useGrantingRobot(
     robot.keep(await SignaledOperator.connect(robot.stack.signalingUrl, id, { credentials }));
   let grants = 0;
   return {
-    ...{ robot, issuer, folder, trust, openWith, connectWith },
+    ...{ robot, issuer, keyFile, trust, openWith, connectWith },
     grant: (name, role) => grantTo(issuer, Date.now() / 1000, { name, sub: name, role, jti: `g${++grants}` }),
     open: (grant) => openWith(shownGrant(id, grant)),
     connect: (grant) => connectWith(shownGrant(id, grant)),
