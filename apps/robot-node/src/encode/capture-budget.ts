@@ -7,6 +7,8 @@ export interface CaptureBudget {
   overheadBytes: number;
   /** If nobody is watching, nothing is captured. */
   streaming: boolean;
+  /** Somebody drives by what is captured: what delays a frame counts for more than its finest details. */
+  prompt?: true;
   /** No operator watches: what is captured is for live viewers only, and is not sent. */
   unsent?: true;
   /**

@@ -102,7 +102,7 @@ export class FrameFormats {
     const usefulBitsPerSecond = this.#useful.update({
       wireBits: this.#planner.wireBits(formatted.encoded.packets, input),
       budgetBits: this.#planner.wireBits(coded.budgetBytes / MAX_POINT_DATA_BYTES, input),
-      limited: coded.budgetBytes < Math.floor(this.#planner.enoughBytes(format, rawPoints)),
+      limited: coded.limited,
       framesPerSecond,
       mostBitsPerSecond: this.#planner.usefulBitsPerSecond(format, input),
     });

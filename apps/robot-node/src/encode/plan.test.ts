@@ -82,12 +82,12 @@ describe('FramePlanner, for latency', () => {
   it('asks a source without a fixed rate as often as the thread has time', () => {
     const at = (workMs: number) => planner({ anyRate: true }).plan({ ...INPUT, workMs }).framesPerSecond;
     expect(at(5)).toBe(60);
-    expect(at(10)).toBeCloseTo(50);
-    expect(at(20)).toBeCloseTo(25);
+    expect(at(10)).toBeCloseTo(46);
+    expect(at(20)).toBeCloseTo(23);
     // More than there is time for is not planned: the frames would be too small for the link.
     expect(at(200)).toBe(5);
     const coded = planner({ anyRate: true }).planCoded('organised', { ...INPUT, workMs: 10 });
-    expect(coded.framesPerSecond).toBeCloseTo(50);
+    expect(coded.framesPerSecond).toBeCloseTo(46);
     expect(coded.framesPerSecond * coded.budgetBytes * 8).toBeLessThan(INPUT.targetBitsPerSecond);
   });
 
@@ -99,7 +99,7 @@ describe('FramePlanner, for latency', () => {
         plan.planCoded('organised', { ...INPUT, targetBitsPerSecond: mbps * 1e6, workMs }).framesPerSecond;
       return Array.from({ length: 600 }, (_, i) => (i + 1) / 10).find((mbps) => at(mbps) > 30) ?? Number.NaN;
     };
-    expect(returnsAt(10) / returnsAt(5)).toBeCloseTo(50 / 60, 2);
+    expect(returnsAt(10) / returnsAt(5)).toBeCloseTo(46 / 60, 2);
   });
 
   it('makes a frame large enough for the requested probe train', () => {
@@ -201,13 +201,26 @@ describe('FramePlanner, coded', () => {
   it('sends whole frames, prefers finer to more frequent ones, and none finer than can be seen', () => {
     const at = (mbps: number, workMs = 5) =>
       planner().planCoded('organised', { ...INPUT, targetBitsPerSecond: mbps * 1e6, workMs });
-    expect(at(100)).toEqual({ framesPerSecond: 60, budgetBytes: Math.floor((230_400 * 2.4) / 8) });
+    const most = { framesPerSecond: 60, budgetBytes: Math.floor((230_400 * 2.4) / 8), limited: false };
+    expect(at(100)).toEqual(most);
     expect(at(8).framesPerSecond).toBe(15);
     // The rest of the rate is less than a frame's share of it.
     expect(dataBits(at(8))).toBeGreaterThan(7e6);
     expect(dataBits(at(8))).toBeLessThan(8e6);
     expect(at(1).framesPerSecond).toBe(10);
     expect(at(100, 20).framesPerSecond).toBe(30);
+  });
+
+  it('while somebody drives, makes a frame finer than a camera only where it is sent within 10 ms all the same', () => {
+    const at = (mbps: number, prompt = true) =>
+      planner().planCoded('organised', { ...INPUT, targetBitsPerSecond: mbps * 1e6, prompt });
+    const bitsAt = (mbps: number) => (at(mbps).budgetBytes * 8) / 230_400;
+    expect([38, 41.44, 45].map(bitsAt)).toEqual([2, 2, 2]);
+    const dataShare = MAX_POINT_DATA_BYTES / wireBytesOfPacket(INPUT.overheadBytes);
+    expect(at(56).budgetBytes).toBe(Math.floor((56e6 * dataShare) / 8 / 100));
+    expect(bitsAt(70)).toBeCloseTo(2.4, 3);
+    expect([14, 41.44, 56, 70].map((mbps) => at(mbps).limited)).toEqual([true, false, false, false]);
+    expect((at(45, false).budgetBytes * 8) / 230_400).toBeCloseTo(2.4, 3);
   });
 
   it('gives more bits to clouds without a grid', () => {

@@ -53,6 +53,8 @@ export interface PlanInput {
   probeBytes: number;
   /** The most that those it is for can draw. */
   display?: DrawnMost | undefined;
+  /** Somebody drives by what is seen: what delays a frame counts for more than its finest details. */
+  prompt?: boolean | undefined;
   /** Time that the capture thread takes per frame, ms, with waiting for busy processors as far as it counts. */
   workMs: number;
   /** The rate at which clouds have really come of late, frames/s; `null` or left out while it is not known. */
@@ -75,6 +77,8 @@ export interface CodedPlan {
   framesPerSecond: number;
   /** Bytes for the data of all packets. */
   budgetBytes: number;
+  /** Whether a higher bit rate would make the frame finer. */
+  limited: boolean;
 }
 
 /** Of `points64`. */
@@ -92,20 +96,24 @@ const UPWARD_MARGIN = 1.25;
  */
 const MOST_LOAD = 0.7;
 /** For a source without a fixed rate: on a fully loaded computer, each additional frame delays all of them. */
-const MOST_LOAD_AT_ANY_RATE = 0.5;
+const MOST_LOAD_AT_ANY_RATE = 0.46;
 /** What a coded frame needs, bits per point of the raw cloud. */
 interface CodedNeed {
   /** The frame is complete but coarse. Below this, the frame rate drops instead. */
   whole: number;
-  /** Much finer than a depth camera's own precision. Any higher rate makes the stream faster, not finer. */
+  /** As fine as a depth camera's own precision. While somebody drives, more is spent only where it hardly delays the frame. */
+  good: number;
+  /** Much finer than that. Any higher rate makes the stream faster, not finer. */
   enough: number;
 }
 const CODED_NEEDS: Readonly<Record<CodedFormat, CodedNeed>> = {
   // Camera frames within 0.5 mm · z², with colours at 34 dB, take 1.9 to 2.3 bits.
-  organised: { whole: 1.6, enough: 2.4 },
+  organised: { whole: 1.6, good: 2, enough: 2.4 },
   // The step is fixed, so that only the number of points can change.
-  unorganised: { whole: 16, enough: 64 },
+  unorganised: { whole: 16, good: 64, enough: 64 },
 };
+/** While somebody drives, a frame that takes longer to send than this, ms, is not made finer than good. */
+const PROMPT_MS = 10;
 /** A coded frame may turn out smaller than its budget by this factor; one that carries a probe train must not. */
 const CODED_SLACK = 1.06;
 /** So much more than a computer says it draws is no more. */
@@ -179,26 +187,22 @@ export class FramePlanner {
     const dataShare = MAX_POINT_DATA_BYTES / wireBytes;
     const bitsPerSecond = input.targetBitsPerSecond * dataShare;
     const framesPerSecond = this.#chooseFrameRate(bitsPerSecond / need.whole, rawPoints, input, rawPoints);
-    const enough = this.enoughBytes(format, this.#drawnPoints(format, input));
+    const points = this.#drawnPoints(format, input);
+    const finest = bytesOfBits(points * need.enough);
+    const prompt = Math.max(bytesOfBits(points * need.good), BitRate.bytesIn(bitsPerSecond, PROMPT_MS));
+    const enough = input.prompt === true ? Math.min(prompt, finest) : finest;
     const afforded = Math.min(BitRate.toBytesPerSecond(bitsPerSecond) / framesPerSecond, enough);
     const probed = Math.min(
       input.probeBytes * dataShare * CODED_SLACK,
       MOST_PROBE_FACTOR * Math.max(afforded, LEAST_BYTES),
     );
-    return {
-      framesPerSecond,
-      budgetBytes: Math.floor(Math.max(afforded, probed, MAX_POINT_DATA_BYTES)),
-    };
+    const budgetBytes = Math.floor(Math.max(afforded, probed, MAX_POINT_DATA_BYTES));
+    return { framesPerSecond, budgetBytes, limited: budgetBytes < Math.floor(enough) };
   }
 
   /** What so many packets' worth of data takes on the wire, all headers counted, bits. */
   wireBits(packets: number, { overheadBytes }: PlanInput): number {
     return bitsOfBytes(packets * wireBytesOfPacket(overheadBytes));
-  }
-
-  /** The most data that a coded frame like this one can use, bytes. */
-  enoughBytes(format: CodedFormat, rawPoints: number): number {
-    return bytesOfBits(rawPoints * CODED_NEEDS[format].enough);
   }
 
   /** The highest bit rate that frames like this one can use, all headers counted, bit/s. */

@@ -118,6 +118,12 @@ it('lets the driver decide formats and rate, and sends points64 in parallel to t
   expect(received('everyone')).toHaveLength(4);
 });
 
+it('wants frames without delay while somebody drives', () => {
+  const viewers = [new Viewer('driver', 8e6, BOTH), new Viewer('watcher', 8e6, BOTH)];
+  expect(setUp(viewers, 'driver').budget?.prompt).toBe(true);
+  expect(setUp(viewers, null).budget?.prompt).toBeUndefined();
+});
+
 it('sends points64 to everyone if the driver reads nothing else', () => {
   const { budget } = setUp([new Viewer('driver', 8e6, []), new Viewer('both', 1e6, BOTH)], 'driver');
   expect(budget).toMatchObject({ coded: [], targetBitsPerSecond: 8e6 });

@@ -110,6 +110,7 @@ export class FrameFanOut {
       probe: probe === null ? null : { clusterId: probe.clusterId, bytes: probe.bytes },
       overheadBytes: Math.max(0, ...streaming.map((operator) => operator.sender?.overheadBytes ?? 0)),
       streaming: true,
+      ...(driving === undefined ? {} : { prompt: true }),
     };
     this.#tell(next);
   }
@@ -123,6 +124,7 @@ export class FrameFanOut {
       isDeepStrictEqual(next.coded, last.coded) &&
       isDeepStrictEqual(next.display, last.display) &&
       next.streaming === last.streaming &&
+      next.prompt === last.prompt &&
       next.unsent === last.unsent
     ) {
       return;

@@ -4,21 +4,23 @@ import {
   BufferAttribute,
   BufferGeometry,
   DoubleSide,
-  Float32BufferAttribute,
+  DynamicDrawUsage,
   Group,
-  Line,
   LineBasicMaterial,
-  LineLoop,
+  LineSegments,
   Mesh,
   MeshBasicMaterial,
 } from 'three';
-import { poseOnArc, stoppingDistance, sweptWidth, writeRibbon } from './swept-path.ts';
+import { poseOnArc, type SweptWidth, stoppingDistance, sweptWidth, writeRibbon } from './swept-path.ts';
 
 /** How far ahead the way is shown, s, and metres at least. */
 const AHEAD_S = 2;
 const LEAST_AHEAD_M = 0.3;
-/** Steps of a ribbon. */
+/** Steps of a ribbon, and pairs of points between them. */
 const STEPS = 24;
+const PAIRS = STEPS + 1;
+/** How strongly each part is drawn, 0–1. */
+const STRENGTHS = { stop: 0.45, ahead: 0.16, outline: 1, standing: 0.8, stopLine: 1 } as const;
 /** Above the floor, so that its points do not cover it, m. */
 const HEIGHT_M = 0.03;
 /** Until the robot has said how old the driver's view is, ms. */
@@ -38,90 +40,154 @@ export interface DrivenPath {
   tone: PathTone;
 }
 
-class Ribbon {
+/** Floor to where the robot would stand, and beyond: two ribbons as one object, because each object takes a display frame time. */
+class Ribbons {
   readonly mesh: Mesh<BufferGeometry, MeshBasicMaterial>;
-  readonly #positions: Float32Array;
-  readonly #attribute: BufferAttribute;
+  readonly #stop: Float32Array;
+  readonly #ahead: Float32Array;
+  readonly #positions: BufferAttribute;
 
-  constructor(opacity: number) {
-    this.#positions = new Float32Array((STEPS + 1) * 6);
-    for (let i = 2; i < this.#positions.length; i += 3) this.#positions[i] = HEIGHT_M;
-    this.#attribute = new BufferAttribute(this.#positions, 3);
+  constructor() {
+    const positions = new Float32Array(2 * PAIRS * 6);
+    for (let i = 2; i < positions.length; i += 3) positions[i] = HEIGHT_M;
+    this.#stop = positions.subarray(0, PAIRS * 6);
+    this.#ahead = positions.subarray(PAIRS * 6);
+    this.#positions = movingAttribute(positions);
     const geometry = new BufferGeometry();
-    geometry.setAttribute('position', this.#attribute);
-    geometry.setIndex(
-      Array.from({ length: STEPS }, (_, i) => 2 * i).flatMap((at) => [
-        at,
-        at + 1,
-        at + 2,
-        at + 1,
-        at + 3,
-        at + 2,
+    geometry.setAttribute('position', this.#positions);
+    geometry.setAttribute(
+      'color',
+      strengthAttribute([
+        [STRENGTHS.stop, 2 * PAIRS],
+        [STRENGTHS.ahead, 2 * PAIRS],
       ]),
     );
+    const steps = Array.from({ length: STEPS }, (_, i) => 2 * i);
+    const quads = [...steps, ...steps.map((at) => at + 2 * PAIRS)];
+    geometry.setIndex(quads.flatMap((at) => [at, at + 1, at + 2, at + 1, at + 3, at + 2]));
     const material = new MeshBasicMaterial({
-      transparent: true,
-      opacity,
-      side: DoubleSide,
-      forceSinglePass: true,
-      depthWrite: false,
+      ...{ vertexColors: true, transparent: true, depthWrite: false },
+      ...{ side: DoubleSide, forceSinglePass: true },
     });
     this.mesh = new Mesh(geometry, material);
     this.mesh.frustumCulled = false;
   }
 
-  /** The last pair of points: x, y, z each. */
+  /** The last pair of points of the floor to where the robot would stand: x, y, z each. */
   get end(): Float32Array {
-    return this.#positions.subarray(-6);
+    return this.#stop.subarray(-6);
   }
 
-  set(curvature: number, width: { left: number; right: number }, from: number, to: number): void {
-    writeRibbon(curvature, width, from, to, this.#positions);
-    this.#attribute.needsUpdate = true;
+  /** @param edge where the ribbons begin, and then end, metres of the way */
+  set(
+    curvature: number,
+    width: SweptWidth,
+    [edge, standing, ahead]: readonly [edge: number, standing: number, ahead: number],
+  ): void {
+    writeRibbon(curvature, width, edge, standing, this.#stop);
+    writeRibbon(curvature, width, standing, ahead, this.#ahead);
+    this.#positions.needsUpdate = true;
   }
+}
+
+/** The robot's outline where it is, where it would stand, and the line up to which it would drive, as one object. */
+class Outlines {
+  readonly lines: LineSegments<BufferGeometry, LineBasicMaterial>;
+  #corners: RobotBody['footprint'] = [];
+
+  constructor() {
+    const material = new LineBasicMaterial({ vertexColors: true, transparent: true });
+    this.lines = new LineSegments(new BufferGeometry(), material);
+    this.lines.frustumCulled = false;
+  }
+
+  set corners(corners: RobotBody['footprint']) {
+    this.#corners = corners;
+    const { length } = corners;
+    const positions = new Float32Array((2 * length + 1) * 6);
+    for (let i = 2; i < positions.length; i += 3) positions[i] = HEIGHT_M;
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', movingAttribute(positions));
+    geometry.setAttribute(
+      'color',
+      strengthAttribute([
+        [STRENGTHS.outline, 2 * length],
+        [STRENGTHS.standing, 2 * length],
+        [STRENGTHS.stopLine, 2],
+      ]),
+    );
+    this.lines.geometry.dispose();
+    this.lines.geometry = geometry;
+    this.#write(0, { x: 0, y: 0, yaw: 0 });
+    this.hideWay();
+  }
+
+  hideWay(): void {
+    this.lines.geometry.setDrawRange(0, 2 * this.#corners.length);
+  }
+
+  /** @param end the points between which the line lies up to which the robot would drive */
+  showWay(stands: { x: number; y: number; yaw: number }, end: Float32Array): void {
+    const { length } = this.#corners;
+    this.#write(2 * length, stands);
+    this.#positions.set(end, 4 * length * 3);
+    this.lines.geometry.setDrawRange(0, 4 * length + 2);
+  }
+
+  get #positions(): BufferAttribute {
+    return this.lines.geometry.getAttribute('position') as BufferAttribute;
+  }
+
+  /** Writes the outline from a vertex on. */
+  #write(first: number, { x, y, yaw }: { x: number; y: number; yaw: number }): void {
+    const positions = this.#positions;
+    const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
+    const { length } = this.#corners;
+    for (let i = 0; i < length; i++) {
+      const corner = this.#corners[i] as RobotBody['footprint'][number];
+      const [u, v] = [x + c * corner.x - s * corner.y, y + s * corner.x + c * corner.y];
+      // Each corner ends one side and begins the next.
+      positions.setXY(first + 2 * i, u, v);
+      positions.setXY(first + ((2 * i + 2 * length - 1) % (2 * length)), u, v);
+    }
+    positions.needsUpdate = true;
+  }
+}
+
+function movingAttribute(numbers: Float32Array): BufferAttribute {
+  return new BufferAttribute(numbers, 3).setUsage(DynamicDrawUsage);
+}
+
+/** White vertices of these strengths: the material gives them their colour. */
+function strengthAttribute(
+  runs: readonly (readonly [strength: number, vertices: number])[],
+): BufferAttribute {
+  const numbers = runs.flatMap(([strength, vertices]) => Array.from({ length: vertices }, () => strength));
+  return new BufferAttribute(new Float32Array(numbers.flatMap((strength) => [1, 1, 1, strength])), 4);
 }
 
 export class DrivePath {
   /** In base_link's axes. */
   readonly object = new Group();
-  readonly #stop = new Ribbon(0.45);
-  readonly #ahead = new Ribbon(0.16);
-  readonly #stopLine: Line<BufferGeometry, LineBasicMaterial>;
-  readonly #outline: LineLoop<BufferGeometry, LineBasicMaterial>;
-  /** The outline where it would stand. */
-  readonly #standing: LineLoop<BufferGeometry, LineBasicMaterial>;
-  readonly #way = new Group();
+  readonly #ribbons = new Ribbons();
+  readonly #outlines = new Outlines();
   #body: RobotBody | null = null;
   /** What is shown: how far the robot goes before it stands, m, and its tone; `null` while it shows no way. */
   shown: { stopM: number; tone: PathTone } | null = null;
+  #path: DrivenPath | null = null;
   /** How far the footprint reaches ahead and behind, m. */
   #front = 0;
   #back = 0;
 
   constructor() {
-    const end = new BufferGeometry().setAttribute(
-      'position',
-      new Float32BufferAttribute(new Float32Array(6), 3),
-    );
-    this.#stopLine = new Line(end, new LineBasicMaterial({ transparent: true }));
-    this.#stopLine.frustumCulled = false;
-    this.#outline = new LineLoop(
-      new BufferGeometry(),
-      new LineBasicMaterial({ color: COLOURS.free, transparent: true }),
-    );
-    this.#standing = new LineLoop(
-      new BufferGeometry(),
-      new LineBasicMaterial({ transparent: true, opacity: 0.8 }),
-    );
-    this.#standing.frustumCulled = false;
-    this.#way.add(this.#ahead.mesh, this.#stop.mesh, this.#stopLine, this.#standing);
-    this.object.add(this.#outline, this.#way);
+    this.#ribbons.mesh.visible = false;
+    this.object.add(this.#ribbons.mesh, this.#outlines.lines);
     this.object.visible = false;
   }
 
   /** Whether nearer points do not hide it. */
   set onTop(onTop: boolean) {
-    for (const { material } of [...this.#wayParts, this.#outline]) material.depthTest = !onTop;
+    for (const material of this.#materials) material.depthTest = !onTop;
   }
 
   /** The robot's outline; `null` while it is not known: then nothing is shown. */
@@ -130,44 +196,47 @@ export class DrivePath {
     this.#body = body;
     this.object.visible = body !== null;
     if (body === null) return;
-    const corners = body.footprint.flatMap(({ x, y }) => [x, y, HEIGHT_M]);
-    this.#outline.geometry.dispose();
-    this.#outline.geometry = new BufferGeometry().setAttribute(
-      'position',
-      new Float32BufferAttribute(corners, 3),
-    );
-    this.#standing.geometry = this.#outline.geometry;
+    this.#outlines.corners = body.footprint;
     this.#front = Math.max(...body.footprint.map(({ x }) => x));
     this.#back = Math.min(...body.footprint.map(({ x }) => x));
+    this.#draw();
   }
 
   /** The way on which the robot is told to go; `null` if nobody here drives it. */
   show(path: DrivenPath | null): void {
-    const moves = path !== null && path.linear !== 0;
-    this.#way.visible = moves && this.#body !== null;
-    this.#outline.material.color.setHex(COLOURS[path?.tone ?? 'free']);
+    const before = this.#path;
+    this.#path = path;
+    if (!isSame(path, before)) this.#draw();
+  }
+
+  #draw(): void {
+    const path = this.#path;
+    for (const material of this.#materials) material.color.setHex(COLOURS[path?.tone ?? 'free']);
     this.shown = null;
-    if (!moves || this.#body === null) return;
+    const shows = path !== null && path.linear !== 0 && this.#body !== null;
+    this.#ribbons.mesh.visible = shows;
+    if (!shows || this.#body === null) {
+      this.#outlines.hideWay();
+      return;
+    }
     const { linear, angular, loopMs = USUAL_LOOP_MS, tone } = path;
     const curvature = angular / linear;
-    const width = sweptWidth(this.#body.footprint, curvature);
     const direction = Math.sign(linear);
     const edge = linear > 0 ? this.#front : this.#back;
     const stopM = stoppingDistance(linear, loopMs, this.#body.decelerationMps2);
     this.shown = { stopM, tone };
     const aheadM = Math.max(stopM, LEAST_AHEAD_M, AHEAD_S * Math.abs(linear));
-    this.#stop.set(curvature, width, edge, edge + direction * stopM);
-    this.#ahead.set(curvature, width, edge + direction * stopM, edge + direction * aheadM);
-    const line = this.#stopLine.geometry.getAttribute('position') as BufferAttribute;
-    line.set(this.#stop.end);
-    line.needsUpdate = true;
-    const stands = poseOnArc(curvature, direction * stopM);
-    this.#standing.position.set(stands.x, stands.y, 0);
-    this.#standing.rotation.z = stands.yaw;
-    for (const { material } of this.#wayParts) material.color.setHex(COLOURS[tone]);
+    const ends = [edge, edge + direction * stopM, edge + direction * aheadM] as const;
+    this.#ribbons.set(curvature, sweptWidth(this.#body.footprint, curvature), ends);
+    this.#outlines.showWay(poseOnArc(curvature, direction * stopM), this.#ribbons.end);
   }
 
-  get #wayParts() {
-    return [this.#stop.mesh, this.#ahead.mesh, this.#stopLine, this.#standing];
+  get #materials() {
+    return [this.#ribbons.mesh.material, this.#outlines.lines.material];
   }
+}
+
+function isSame(a: DrivenPath | null, b: DrivenPath | null): boolean {
+  if (a === null || b === null) return a === b;
+  return a.linear === b.linear && a.angular === b.angular && a.loopMs === b.loopMs && a.tone === b.tone;
 }

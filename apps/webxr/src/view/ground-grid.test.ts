@@ -1,30 +1,34 @@
 import { expect, test } from 'vitest';
-import { GroundGrid, gridSegments } from './ground-grid.ts';
+import { GroundGrid, gridLines } from './ground-grid.ts';
 
-test('draws every line end to end, in segments no longer than their distance from the eye or 1 m', () => {
-  const ends = gridSegments();
-  const lines = new Map<string, number[]>();
-  for (let i = 0; i < ends.length; i += 4) {
-    const [x0 = 0, z0 = 0, x1 = 0, z1 = 0] = ends.slice(i, i + 4);
-    // A software renderer drops a longer segment completely if one of its ends is behind the camera.
-    const far = Math.max(Math.min(Math.abs(x0), Math.abs(x1)), Math.min(Math.abs(z0), Math.abs(z1)));
-    // The eye is up to half a step away from the grid's centre.
-    expect(Math.hypot(x1 - x0, z1 - z0)).toBeLessThanOrEqual(Math.max(1, far - 2));
+test('has a line every metre near the robot, and every 4 m far away', () => {
+  const reaches = new Map<string, number[]>();
+  for (const [x0, z0, x1, z1] of gridLines()) {
     const [line, from, to] = x0 === x1 ? [`x ${x0}`, z0, z1] : [`z ${z0}`, x0, x1];
-    const known = lines.get(line) ?? [from];
-    expect(known.at(-1)).toBe(from);
-    lines.set(line, [...known, to]);
+    expect(reaches.has(line)).toBe(false);
+    reaches.set(line, [from, to]);
   }
-  expect(ends.length / 4).toBeLessThan(410);
-  // Every metre near the robot; far away every 4 m.
   for (const axis of ['x', 'z']) {
     for (let at = -8; at <= 8; at++) {
-      const known = lines.get(`${axis} ${at}`) ?? [];
-      expect([known[0], known.at(-1)]).toEqual(at % 4 === 0 ? [-20, 20] : at % 2 === 0 ? [-12, 12] : [-8, 8]);
+      const reach = at % 4 === 0 ? 20 : at % 2 === 0 ? 12 : 8;
+      expect(reaches.get(`${axis} ${at}`)).toEqual([-reach, reach]);
     }
     for (let at = 9; at <= 20; at++)
-      expect([at, lines.has(`${axis} ${at}`)]).toEqual([at, at % 4 === 0 || (at % 2 === 0 && at <= 12)]);
+      expect([at, reaches.has(`${axis} ${at}`)]).toEqual([at, at % 4 === 0 || (at % 2 === 0 && at <= 12)]);
   }
+});
+
+test('tells both ends of a line where the other one is', () => {
+  const { geometry } = new GroundGrid().object;
+  const ends = (name: string) => {
+    const { array } = geometry.getAttribute(name);
+    return Array.from({ length: array.length / 3 }, (_, i) => [...array.slice(3 * i, 3 * i + 3)]);
+  };
+  const [own, other] = [ends('position'), ends('otherEnd')];
+  expect(own).toHaveLength(2 * gridLines().length);
+  own.forEach((end, i) => {
+    expect(other[i % 2 === 0 ? i + 1 : i - 1]).toEqual(end);
+  });
 });
 
 test('follows in steps that put its lines on lines', () => {

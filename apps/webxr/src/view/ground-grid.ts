@@ -1,5 +1,5 @@
 /** A grid on the floor that gives the eye a reference. */
-import { BufferGeometry, Color, Float32BufferAttribute, LineBasicMaterial, LineSegments } from 'three';
+import { BufferGeometry, Color, Float32BufferAttribute, LineSegments, ShaderMaterial } from 'three';
 
 /** Up to this distance on each side, a multiple of {@link STEP_M}. */
 const HALF_M = 20;
@@ -19,38 +19,47 @@ const HEIGHT_M = -0.01;
 const APPROACH = 0.5;
 const SETTLED_M = 0.02;
 
-/** Lengths of segments, m; the first that is short enough for its distance, or the last. */
-const LENGTHS = [16, 8, 4, 2, 1];
-/** How far the eye may be from the grid's centre, m. */
-const OFF_CENTRE_M = STEP_M / 2;
-
-/**
- * Ends of the grid's lines: x and z in turn, both ends of one segment after the other. A software renderer drops a
- * whole segment if one of its ends is behind the camera. A segment no longer than its distance is out of sight in
- * that case. Fewer segments are faster to draw: they are as long as they may be, and far away, where lines run
- * together, there are fewer.
- */
-export function gridSegments(): number[] {
-  const ends: number[] = [];
-  for (let across = -HALF_M; across <= HALF_M; across++) {
-    const reach = REACHES.find(([every]) => across % every === 0)?.[1] ?? 0;
-    if (Math.abs(across) > reach) continue;
-    for (let from = -reach; from < reach; ) {
-      const to = from + lengthAt(Math.abs(across), from, reach);
-      ends.push(across, from, across, to, from, across, to, across);
-      from = to;
-    }
-  }
-  return ends;
+/** The grid's lines, around its centre: x and z of both ends. Far away, where lines run together, there are fewer. */
+export function gridLines(): [x0: number, z0: number, x1: number, z1: number][] {
+  const offsets = Array.from({ length: 2 * HALF_M + 1 }, (_, i) => i - HALF_M);
+  return offsets.flatMap((at) => {
+    const reach = REACHES.find(([every]) => at % every === 0)?.[1] ?? 0;
+    if (Math.abs(at) > reach) return [];
+    return [
+      [at, -reach, at, reach],
+      [-reach, at, reach, at],
+    ] as [number, number, number, number][];
+  });
 }
 
-function lengthAt(across: number, from: number, reach: number): number {
-  const fits = (length: number) => {
-    const to = from + length;
-    const nearest = from < 0 && to > 0 ? 0 : Math.min(Math.abs(from), Math.abs(to));
-    return to <= reach && length <= Math.max(across, nearest) - OFF_CENTRE_M;
-  };
-  return LENGTHS.find(fits) ?? 1;
+/**
+ * Colours as they are, with each line cut off where it would pass behind the camera. A software renderer drops a whole line if
+ * one of its ends is there; many short lines instead would take it a millisecond of each display frame.
+ */
+function lineMaterial(): ShaderMaterial {
+  return new ShaderMaterial({
+    vertexColors: true,
+    vertexShader: `
+      attribute vec3 otherEnd;
+      varying vec3 vColour;
+      void main() {
+        mat4 toClip = projectionMatrix * modelViewMatrix;
+        vec4 own = toClip * vec4(position, 1.0);
+        vec4 other = toClip * vec4(otherEnd, 1.0);
+        float inFront = own.z + own.w;
+        float otherInFront = other.z + other.w;
+        vColour = color;
+        gl_Position = inFront < 0.0 && otherInFront > 0.0
+          ? mix(own, other, 1.0001 * inFront / (inFront - otherInFront))
+          : own;
+      }`,
+    fragmentShader: `
+      varying vec3 vColour;
+      void main() {
+        gl_FragColor = vec4(vColour, 1.0);
+        #include <colorspace_fragment>
+      }`,
+  });
 }
 
 /**
@@ -60,23 +69,22 @@ export class GroundGrid {
   readonly object: LineSegments;
 
   constructor() {
-    const ends = gridSegments();
-    const positions = new Float32Array((ends.length / 2) * 3);
-    const colours = new Float32Array(positions.length);
+    const lines = gridLines();
     const [middle, others] = [new Color(MIDDLE), new Color(OTHERS)];
-    for (let i = 0; i < ends.length / 4; i++) {
-      const [x0 = 0, z0 = 0, x1 = 0, z1 = 0] = ends.slice(i * 4, i * 4 + 4);
-      positions.set([x0, 0, z0, x1, 0, z1], i * 6);
-      const { r, g, b } = (x0 === 0 && x1 === 0) || (z0 === 0 && z1 === 0) ? middle : others;
-      colours.set([r, g, b, r, g, b], i * 6);
-    }
+    const attribute = (numbers: number[]) => new Float32BufferAttribute(numbers, 3);
     const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new Float32BufferAttribute(positions, 3));
-    geometry.setAttribute('color', new Float32BufferAttribute(colours, 3));
-    this.object = new LineSegments(
-      geometry,
-      new LineBasicMaterial({ vertexColors: true, toneMapped: false }),
+    geometry.setAttribute('position', attribute(lines.flatMap(([x0, z0, x1, z1]) => [x0, 0, z0, x1, 0, z1])));
+    geometry.setAttribute('otherEnd', attribute(lines.flatMap(([x0, z0, x1, z1]) => [x1, 0, z1, x0, 0, z0])));
+    geometry.setAttribute(
+      'color',
+      attribute(
+        lines.flatMap(([x0, z0, x1, z1]) => {
+          const { r, g, b } = (x0 === 0 && x1 === 0) || (z0 === 0 && z1 === 0) ? middle : others;
+          return [r, g, b, r, g, b];
+        }),
+      ),
     );
+    this.object = new LineSegments(geometry, lineMaterial());
     this.object.position.y = HEIGHT_M;
   }
 

@@ -5,6 +5,8 @@ export const LAYER_SIDE = 256;
 const MASK = LAYER_SIDE - 1;
 const HALF = LAYER_SIDE / 2;
 const FORGOTTEN = Number.NEGATIVE_INFINITY;
+/** Four cells of which nothing is known, as one number. */
+const FOUR_UNKNOWN = floorClasses.unknown * 0x01010101;
 
 /** How long a cell is remembered. */
 export interface FloorMemory {
@@ -78,9 +80,14 @@ export class FloorLayer {
     const until = Math.min(side, right - firstX);
     const [seenMs, known, seenTravel] = [this.#seenMs, this.#classes, this.#seenTravel];
     const { occupiedMemoryMs } = this.#memory;
+    const fours = foursOf(classes, side);
     for (let j = Math.max(0, low - firstY); j < Math.min(side, high - firstY); j++) {
       const row = ((firstY + j) & MASK) * LAYER_SIDE;
       for (let i = from; i < until; i++) {
+        if (fours !== null && i % 4 === 0 && fours[(j * side + i) >> 2] === FOUR_UNKNOWN) {
+          i += 3;
+          continue;
+        }
         const said = classes[j * side + i] as number;
         if (said === floorClasses.unknown) continue;
         const cell = row + ((firstX + i) & MASK);
@@ -138,4 +145,10 @@ export class FloorLayer {
   travelAt(x: number, y: number): number {
     return this.#seenTravel[(y & MASK) * LAYER_SIDE + (x & MASK)] as number;
   }
+}
+
+/** A grid's cells four at a time, as numbers: of most cells nothing is known. `null` if they do not lie so in memory. */
+function foursOf(classes: Uint8Array, side: number): Uint32Array | null {
+  if (side % 4 !== 0 || classes.byteOffset % 4 !== 0) return null;
+  return new Uint32Array(classes.buffer, classes.byteOffset, classes.length >> 2);
 }

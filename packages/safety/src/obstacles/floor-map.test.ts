@@ -47,6 +47,38 @@ test('a rectangle that is read at once says of each cell what the cell says', ()
   );
 });
 
+test('a grid says the same wherever it lies in memory, also where little of it is known', () => {
+  const side = LAYER_SIDE + 8;
+  const cells = fc.array(fc.record({ at: fc.nat(side * side - 1), known: fc.constantFrom(1, 2, 3) }));
+  fc.assert(
+    fc.property(
+      cells,
+      fc.integer({ min: -9, max: 9 }),
+      fc.nat(3),
+      fc.nat(3),
+      (known, first, offset, other) => {
+        const [one, two] = [offset, other].map((byteOffset) => {
+          const classes = new Uint8Array(new ArrayBuffer(side * side + 4), byteOffset, side * side);
+          for (const cell of known) classes[cell.at] = cell.known;
+          const map = new FloorMap({ ...MEMORY, cellM: 0.05 });
+          const at = { firstX: first - side / 2, firstY: -first - side / 2 };
+          map.merge({ classes, ...at, side, cellM: 0.05, placed: true, capturedAtMs: 0 }, 0);
+          return known.map(({ at: cell }) =>
+            map.classAt(at.firstX + (cell % side), at.firstY + Math.floor(cell / side), 0, 0),
+          );
+        }) as [number[], number[]];
+        expect(one).toEqual(two);
+        const last = new Map(known.map((cell) => [cell.at, cell.known]));
+        const isKept = (cell: number) => {
+          const [x, y] = [first - side / 2 + (cell % side), -first - side / 2 + Math.floor(cell / side)];
+          return Math.min(x, y) >= -LAYER_SIDE / 2 && Math.max(x, y) < LAYER_SIDE / 2;
+        };
+        expect(one).toEqual(known.map(({ at }) => (isKept(at) ? last.get(at) : floorClasses.unknown)));
+      },
+    ),
+  );
+});
+
 test.each([
   ['the floor below it', 10, 'occupied'],
   ['as much as stood there', 40, 'free'],
