@@ -145,7 +145,7 @@ export class CaptureLoop {
     const after = this.#now();
     // Timers cut off fractions: it would be called early, and once more.
     if (this.#ownRhythm) return Math.max(Math.ceil(this.#nextStateMs - after), 0);
-    return Math.min(Math.max(this.#nextFrameMs - after, 0), MAX_WAIT_MS);
+    return Math.min(Math.max(Math.ceil(this.#nextFrameMs - after), 0), MAX_WAIT_MS);
   }
 
   /** Whether the source has its own timing: it calls `onReady` when it has a cloud, and ticks only report its state. */
