@@ -105,7 +105,7 @@ export { type DriveWish, toTwist } from './drive/velocity-mapping.ts';
 export { LatencyError, type LatencyProbe, type LatencyReport } from './latency/latency-probe.ts';
 export type { LatencyFailure, LatencyResult } from './latency/latency-test.ts';
 export { type Distribution, SampleWindow } from './latency/sample-window.ts';
-export type { RobotLink } from './link/robot-link.ts';
+export type { RobotLink, RobotLinkEvents } from './link/robot-link.ts';
 export { MEMORY_LAYOUT } from './memory/memory-layout.ts';
 export type { MemoryStats } from './memory/memory-messages.ts';
 export type { MemoryPages } from './memory/memory-pages.ts';

@@ -3,6 +3,7 @@ import type { KnownRobots } from '../access/known-robots.ts';
 import type { OperatorCredentials } from '../access/operator-credentials.ts';
 import type { BridgeAddress } from '../bridge/bridge-settings.ts';
 import type { DriveInput } from '../drive/drive-input.ts';
+import type { RobotLink, RobotLinkEvents } from '../link/robot-link.ts';
 import type { TransformSupport } from '../peer/encoded-transform.ts';
 
 /** What a {@link RobotClient} is made with. {@link connect} fills it in for most pages. */
@@ -23,6 +24,11 @@ export interface RobotClientOptions {
   transform: TransformSupport;
   /** Takes the stream from a bridge instead of directly from the robots. */
   bridge?: BridgeAddress | null;
+  /**
+   * Makes the link instead of the library: for a transport of one's own, and for tests. The client owns the link that it
+   * returns. `worker` decodes clouds.
+   */
+  openLink?: ((worker: Worker, events: RobotLinkEvents) => RobotLink) | undefined;
   /** The cloud formats that the robot may choose from; default: all. */
   cloudFormats?: readonly CloudFormat[] | undefined;
   /**

@@ -6,6 +6,7 @@ import { WebRtcLink } from './webrtc-link.ts';
 
 /** @param worker decodes the clouds */
 export function openLink(options: RobotClientOptions, worker: Worker, events: RobotLinkEvents): RobotLink {
+  if (options.openLink !== undefined) return options.openLink(worker, events);
   const { bridge = null, knownRobots = knownInMemory() } = options;
   return bridge === null
     ? new WebRtcLink({ ...options, worker, knownRobots }, events)

@@ -14,10 +14,15 @@ import type { SignalingState } from '../signaling/signaling-state.ts';
 import type { SoundLine } from '../sound/sound-line.ts';
 import type { VideoTrack } from '../video/video-track.ts';
 
+/** What a {@link RobotLink} reports, besides what the robot sends. */
 export interface RobotLinkEvents extends RobotSessionEvents {
+  /** The connection to the signaling service has changed its state. */
   onSignaling(state: SignalingState): void;
+  /** The service lists these robots now. */
   onRobots(robots: readonly RobotListing[]): void;
+  /** The session is in this phase now. */
   onPhase(phase: SessionPhase): void;
+  /** The session was given up. */
   onLoss(loss: SessionLoss): void;
   /** Within a session: nothing is received (`false`), or something is again (`true`). */
   onPath(up: boolean): void;

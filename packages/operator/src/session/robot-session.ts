@@ -45,17 +45,23 @@ import { RobotModel } from './robot-model.ts';
 export type RobotChannel = 'session' | 'telemetry' | 'control' | 'pictures';
 
 export interface RobotSessionEvents {
+  /** The robot's first message of a session. */
   onWelcome(welcome: Welcome): void;
   /** The operator's grant ends soon. */
   onGrantExpires(inS: number): void;
+  /** Somebody else drives now, or nobody. */
   onLease(lease: LeaseState): void;
   /** Who has a session with the robot; from robots that ask for grants. */
   onOperators(operators: Operators): void;
+  /** The robot has refused a command. */
   onRejected(rejected: CommandRejected): void;
+  /** The state of the emergency stop. */
   onEstop(estop: EstopState): void;
   /** The robot has latched its emergency stop because of this press. */
   onEstopAck(press: number): void;
+  /** The frame of a latency test that the robot has painted. */
   onLatencyFrame(frame: LatencyFrame): void;
+  /** How the robot moves, where it is, and what it takes of the link. */
   onTelemetry(telemetry: Telemetry): void;
   /** A reading that is the newest of its topic. */
   onReading(reading: Reading): void;
@@ -85,6 +91,7 @@ export interface RobotSessionEvents {
   onVideos(videos: Videos['videos']): void;
   /** The robot's microphone, and what becomes of this operator's voice. */
   onSound(sound: Sound): void;
+  /** A camera's picture; `nowMs`: when its last packet arrived, `performance.now()`. */
   onPicture(picture: WholePicture, nowMs: number): void;
   /** The robot could not use a message from this client. */
   onRobotFault(message: string): void;
