@@ -1,4 +1,3 @@
-import type { Intervention } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 import type { Logger } from '@farpoint/service';
 import type { Refusal } from '@farpoint/webrtc';
@@ -10,8 +9,9 @@ import { openBroadcast } from './broadcast/open-broadcast.ts';
 import type { Capture } from './capture/capture.ts';
 import { monotonicMs, threadCpuMs } from './clock.ts';
 import type { DriveStation } from './drive/drive-station.ts';
-import { type Drive, openDrive } from './drive/open-drive.ts';
+import type { Drive } from './drive/open-drive.ts';
 import type { VelocitySink } from './drive/velocity-sink.ts';
+import { DriveCore } from './drive-core.ts';
 import { openReferenceProfile } from './reference/open-reference-profile.ts';
 import type { ReferenceProfile } from './reference/reference-profile.ts';
 import { RobotCameras } from './robot-cameras.ts';
@@ -21,9 +21,7 @@ import { type CloudSensor, failureReading } from './sensors/cloud-sensor.ts';
 import { CloudSensors } from './sensors/cloud-sensors.ts';
 import type { OperatorSession } from './session/operator-session.ts';
 import { OperatorSessions } from './session/operator-sessions.ts';
-import { PathKeeper } from './session/path-keeper.ts';
-import { RobotSessionHost } from './session/robot-session-host.ts';
-import { silenceLimits } from './session/silence.ts';
+import type { RobotSessionHost } from './session/robot-session-host.ts';
 import { welcome } from './session/welcome.ts';
 import { SignalingClient } from './signaling/signaling-client.ts';
 import { openSoundDevices } from './sound/open-sound-devices.ts';
@@ -70,7 +68,7 @@ export class Robot {
   readonly #logs: MeasurementLogs;
   readonly #host: RobotSessionHost;
   readonly #sendLoop = new SendLoop(monotonicMs, threadCpuMs);
-  readonly #paths: PathKeeper;
+  readonly #core: DriveCore;
   readonly #board: TelemetryBoard;
   readonly #reports: RobotReports;
   readonly #ticking: NodeJS.Timeout;
@@ -84,22 +82,19 @@ export class Robot {
     const capture = captures[0] as Capture;
     this.#board = openBoard(options, capture, recording, log);
     this.#logs = new MeasurementLogs(options);
-    const count = (reason: Intervention) => this.counters.interventions.add(reason);
     const state = () => this.#state;
-    const heard = () => [...this.operators.values(), this.reference?.operator];
-    this.driving = openDrive(options, { ...parts, heard, count, log });
-    const { station, estop, status, fix } = this.driving;
-    [this.drive, this.obstacles] = [station, parts.obstacles];
-    this.#host = new RobotSessionHost({
-      ...{ drive: this.drive, estop, counters: this.counters, recording, audit, log },
-      commandLog: this.#logs.commands,
+    this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
+    this.#core = new DriveCore(options, {
+      ...{ ...parts, counters: this.counters, signaling: this.signaling, commandLog: this.#logs.commands },
       operators: () => this.operators,
+      alsoHeard: () => this.reference?.operator,
       sensors: () => this.sensors,
       videos: () => this.cameras.videos,
-      now: monotonicMs,
-      driverLeft: () => this.driving.returns?.drive.left(monotonicMs()),
+      ...{ now: monotonicMs, log },
     });
-    this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
+    const { driving, host } = this.#core;
+    const { station, estop, status, fix } = driving;
+    [this.driving, this.drive, this.obstacles, this.#host] = [driving, station, parts.obstacles, host];
     this.sessions = new OperatorSessions(
       {
         ...{ id: options.id, places: options.places, iceServers: options.iceServers },
@@ -118,7 +113,7 @@ export class Robot {
         ...{ signaling: this.signaling, counters: this.counters, audit, log },
       },
       {
-        resume: (request, iceServers) => void this.#paths.resume(request, iceServers),
+        resume: (request, iceServers) => void this.#core.paths.resume(request, iceServers),
         connected: (operator) => {
           const { quantities, alarms } = this.#board;
           const told = { ...options, quantities, alarms: alarms.raised, nowS: Date.now() / 1000 };
@@ -185,12 +180,6 @@ export class Robot {
     const devices = openSoundDevices(options.sound, log);
     this.sound = new RobotSound({ ...shared, devices, now: monotonicMs });
     this.broadcast = openBroadcast(options, this, { videos, sendLoop: this.#sendLoop, log });
-    this.#paths = new PathKeeper({
-      ...{ operators: this.operators, drive: this.drive, signaling: this.signaling },
-      ...{ counters: this.counters, log, now: monotonicMs },
-      limits: silenceLimits(options.silenceMs, options.leaseSilenceMs),
-      leaseChanged: () => this.#host.leaseChanged('expired'),
-    });
     this.signaling.onMessage = (message) => this.sessions.onSignaling(message);
     this.#sendLoop.onWork = (ms) => this.counters.stageSeconds.add('send', ms / 1000);
     if (base !== null) {
@@ -285,9 +274,7 @@ export class Robot {
   }
 
   #tick(): void {
-    this.driving.tick();
-    this.#host.tick();
-    this.#paths.tick();
+    this.#core.tick();
     this.sessions.tick();
     this.reference?.tick();
     this.broadcast?.tick();

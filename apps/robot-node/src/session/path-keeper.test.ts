@@ -39,8 +39,9 @@ function setUp(connected = true) {
     },
   } as unknown as KeptOperator;
   const counters = { iceRestarts: 0, resumesRefused: new ReasonCounts() };
+  const operators = new Map([['s', operator]]);
   const keeper = new PathKeeper({
-    operators: new Map([['s', operator]]),
+    operators: () => operators,
     limits: silenceLimits(60_000, 3000),
     drive: drive as unknown as DriveStation,
     signaling: {

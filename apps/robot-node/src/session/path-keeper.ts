@@ -12,11 +12,15 @@ export type ResumeRequest = Extract<ServiceToRobot, { type: 'session.resume' }>;
 /** The parts of an operator session that {@link PathKeeper} uses. */
 export type KeptOperator = Pick<
   OperatorSession,
-  'tick' | 'sender' | 'heardMs' | 'quiet' | 'messages' | 'restarts' | 'resumeKey'
-> & { readonly peer: Pick<OperatorSession['peer'], 'connected' | 'close' | 'restart' | 'useIceServers'> };
+  'tick' | 'heardMs' | 'quiet' | 'messages' | 'restarts' | 'resumeKey'
+> & {
+  /** `null` while there is no path yet. */
+  readonly sender: unknown;
+  readonly peer: Pick<OperatorSession['peer'], 'connected' | 'close' | 'restart' | 'useIceServers'>;
+};
 
 export interface PathKeeperOptions {
-  operators: ReadonlyMap<string, KeptOperator>;
+  operators: () => ReadonlyMap<string, KeptOperator>;
   limits: SilenceLimits;
   drive: DriveStation;
   signaling: {
@@ -42,7 +46,7 @@ export class PathKeeper {
   /** Call every 25 ms. */
   tick(): void {
     const { operators, limits, drive, signaling, leaseChanged, now } = this.#options;
-    for (const operator of [...operators.values()]) {
+    for (const operator of [...operators().values()]) {
       operator.tick();
       if (operator.sender === null) continue;
       const silentMs = now() - operator.heardMs;
@@ -68,7 +72,7 @@ export class PathKeeper {
   async resume(request: ResumeRequest, iceServers: readonly IceServer[]): Promise<void> {
     const { operators, signaling, counters, log, now } = this.#options;
     const { session, claim } = request;
-    const operator = operators.get(session);
+    const operator = operators().get(session);
     if (operator === undefined) return this.#refuse(request, 'unknown-session');
     if (!operator.resumeKey.matches(request.resumeKey)) return this.#refuse(request, 'wrong-resume-key');
     // A session that is still being set up already has an offer.
@@ -81,7 +85,8 @@ export class PathKeeper {
       counters.iceRestarts++;
       const silentMs = Math.round(now() - operator.heardMs);
       log.info({ session: shortHash('session', session), silentMs }, 'ICE restart offered');
-      if (operators.get(session) === operator) signaling.send({ type: 'session.offer', session, sdp, claim });
+      if (operators().get(session) === operator)
+        signaling.send({ type: 'session.offer', session, sdp, claim });
     } catch (error) {
       log.error({ err: error, session: shortHash('session', session) }, 'no offer');
       operator.peer.close('connection-lost', 'no offer could be made');

@@ -18,12 +18,15 @@ import type { OperatorMessages, SessionHost } from './operator-messages.ts';
 import type { OperatorSession } from './operator-session.ts';
 import { tellRings, tellVideos } from './welcome.ts';
 
+/** The parts of an operator's session that {@link RobotSessionHost} uses. */
+export type HostedOperator = Pick<OperatorSession, 'messages' | 'askLatencyTest' | 'videos'>;
+
 export interface RobotSessionHostParts {
   drive: DriveStation;
   estop: EstopJournal;
-  operators: () => ReadonlyMap<string, OperatorSession>;
-  sensors: () => CloudSensors;
-  videos: () => VideoHub;
+  operators: () => ReadonlyMap<string, HostedOperator>;
+  sensors: () => Pick<CloudSensors, 'updateBudgets' | 'first'>;
+  videos: () => Pick<VideoHub, 'descriptions'>;
   counters: RobotCounters;
   recording: SessionRecording | null;
   audit: RobotAudit;

@@ -81,7 +81,10 @@ export function tellRings(
 }
 
 /** Tells an operator which videos there are, and which of them have no pictures. */
-export function tellVideos({ messages, videos }: OperatorSession, { descriptions }: VideoHub): void {
+export function tellVideos(
+  { messages, videos }: Pick<OperatorSession, 'messages' | 'videos'>,
+  { descriptions }: Pick<VideoHub, 'descriptions'>,
+): void {
   const { lines } = videos;
   if (lines.length === 0) return;
   messages.send({
