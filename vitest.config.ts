@@ -7,6 +7,7 @@ const STACK = `${ROOMS}/**/*.stack.test.ts`;
  * come too late for a robot to go on.
  */
 const ALONE = ['packages/dds/**/*.stack.test.ts', 'apps/robot-node/src/fault-table.stack.test.ts'];
+const SCENARIO = `${ROOMS}/**/*.scenario.test.ts`;
 const NOT_OURS = ['**/node_modules/**', '**/dist/**', '**/target/**'];
 /** Files that `pnpm test` leaves out, because they have passed with the same inputs. `--exclude` is not for projects. */
 const PASSED = (process.env.FARPOINT_PASSED_TESTS ?? '').split('\n').filter((file) => file !== '');
@@ -23,12 +24,23 @@ export default defineConfig({
         test: {
           name: 'pure',
           include: [`${ROOMS}/**/*.test.ts`],
-          exclude: [...NOT_OURS, STACK],
+          exclude: [...NOT_OURS, STACK, SCENARIO],
           setupFiles: ['scripts/lib/test-setup.ts', 'scripts/lib/pure-guard.ts'],
           // Nothing to isolate: modules are loaded once for all files, which is most of the time.
           isolate: false,
           pool: 'threads',
           // Vitest's default leaves one core idle: of two, that is half.
+          maxWorkers: '100%',
+        },
+      },
+      {
+        extends: true,
+        test: {
+          name: 'scenario',
+          include: [SCENARIO],
+          exclude: NOT_OURS,
+          setupFiles: ['scripts/lib/test-setup.ts'],
+          pool: 'threads',
           maxWorkers: '100%',
         },
       },

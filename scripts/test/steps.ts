@@ -192,6 +192,11 @@ export const STEPS: readonly Step[] = [
     run: async () => ofSuite(await runVitest({ project: 'pure', again: false })),
   },
   {
+    name: 'scenario',
+    what: 'operators, a link and a robot in virtual time (vitest)',
+    run: async () => ofSuite(await runVitest({ project: 'scenario', again: false })),
+  },
+  {
     name: 'rust',
     what: 'Rust: committed WASM is fresh, rebuilds from source, format, clippy, tests',
     run: runRust,

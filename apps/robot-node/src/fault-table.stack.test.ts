@@ -1,28 +1,35 @@
 /**
- * What goes wrong while a robot is driven with the grip held, and how soon it brakes: at the real programs, from the
- * cause to the first lower velocity that the wheels are told. Prints the times, and judges them mildly, for the
- * machine may be busy; `pnpm bench faults` judges each strictly.
+ * What goes wrong while a robot is driven with the grip held, at the real programs. The table with the limits that ship
+ * runs in virtual time (packages/scenario); here runs what virtual time cannot have, signals and threads that hang, and a
+ * few rows that show that the real programs are linked as the virtual ones are. `pnpm bench faults` runs all rows here and
+ * judges each time.
  */
-import { RESUME_WITHIN_MS } from '@farpoint/safety';
 import { isAvailable } from '@farpoint/shared-memory';
 import { afterAll, afterEach, beforeAll, describe, expect, test } from 'vitest';
 import { brakingFaults } from './testing/faults/braking-faults.ts';
-import { BRAKES_MS, type Driving, type Fault } from './testing/faults/fault.ts';
+import { BRAKES_MS, type Fault } from './testing/faults/fault.ts';
 import { SPEED } from './testing/faults/fault-hand.ts';
-import { FaultRig } from './testing/faults/fault-rig.ts';
+import { FaultRig, type RealDriving } from './testing/faults/fault-rig.ts';
 import { FaultTimes } from './testing/faults/fault-times.ts';
+import { hangingFaults } from './testing/faults/hanging-faults.ts';
 import { harmlessFaults } from './testing/faults/harmless-faults.ts';
 import { canHangThreads } from './testing/faults/hung-thread.ts';
-import { hangingFaults, type ReturningFault, returningFaults } from './testing/faults/returning-faults.ts';
+import { type ReturningFault, returningFaults } from './testing/faults/returning-faults.ts';
 
-/** By so much a busy machine may delay a robot, ms. */
-const BUSY_MS = 500;
-
-/**
- * So long without a frame, a robot may brake (its stall is 150 ms above its usual interval), and only a busy machine makes
- * it so long, ms.
- */
-const LATE_FRAME_MS = 150;
+/** One of each way by which the robot notices. */
+const SHORT = new Set([
+  'the page falls silent',
+  'the connection is closed',
+  'STOP on the session channel',
+  'rubbish on the control channel',
+  'the page draws nothing any more',
+  'the network is cut',
+  'a network that was away',
+]);
+const isShort = ({ name }: { name: string }) => SHORT.has(name);
+const isWhole = process.env.FARPOINT_LONG_TESTS === '1';
+const rowsOf = <Row extends { name: string }>(rows: readonly Row[]) =>
+  isWhole ? [...rows] : rows.filter(isShort);
 
 /** The robot brakes because its program ends or hangs: the wheels are told zero, or nothing any more. */
 const ending: { name: string; signal: NodeJS.Signals; saysZero: boolean }[] = [
@@ -54,70 +61,70 @@ describe.skipIf(!isAvailable())(
       times.save();
     }, 60_000);
 
-    async function drive({ behindLink = false, settled = false } = {}): Promise<Driving> {
+    async function drive({ behindLink = false, settled = false } = {}): Promise<RealDriving> {
       const operator = await rig.connect(behindLink);
       const { latched } = await operator.client.message('estop');
       const hand = await rig.hand(operator);
       if (latched) {
-        operator.client.releaseEstop();
-        await operator.client.message('estop', (state) => !state.latched);
+        operator.releaseEstop();
+        await operator.estop(false);
       }
       await hand.gripAnew();
       await (settled ? rig.untilSettled(hand) : rig.untilDriving(hand));
       return { rig, operator, hand };
     }
 
-    function judge(name: string, causeMs: number, withinMs: number): void {
+    /** Takes down when the robot braked: a bench judges that. */
+    function note(name: string, causeMs: number, withinMs: number): void {
       const found = rig.wheels.brakingAfter(causeMs);
-      expect(found).not.toBe(null);
-      const { afterMs, blindMs } = found as NonNullable<typeof found>;
+      if (found === null) throw new Error('the robot has not braked');
       // What this machine was too busy to look at is not the robot's.
-      times.add(name, afterMs, withinMs + blindMs);
-      expect(afterMs).toBeLessThanOrEqual(withinMs + BUSY_MS);
+      times.add(name, found.afterMs, withinMs + found.blindMs);
       expect(rig.wheels.fastest).toBeLessThanOrEqual(SPEED);
     }
 
     /** @returns when it began to go wrong: some causes take long to prepare, and may say when they began */
-    async function begin(cause: Fault['cause'], driving: Driving): Promise<number> {
+    async function begin(cause: Fault<RealDriving>['cause'], driving: RealDriving): Promise<number> {
       const causeMs = performance.now();
       const beganMs = await cause(driving);
       if (typeof beganMs === 'number') return beganMs;
       return rig.wheels.brakingAfter(causeMs) === null ? Math.max(causeMs, performance.now() - 1) : causeMs;
     }
 
-    test.each(brakingFaults)(
+    test.each(rowsOf(brakingFaults))(
       '$name: brakes and stays',
       async ({ name, cause, withinMs = BRAKES_MS, ...how }) => {
         const driving = await drive(how);
         const causeMs = await begin(cause, driving);
         await rig.wheels.until(({ linear }) => linear === 0);
-        judge(name, causeMs, withinMs);
+        note(name, causeMs, withinMs);
         await rig.wheels.beats(10);
         expect(rig.wheels.speed).toBe(0);
       },
     );
 
-    test.each(harmlessFaults)('$name: goes on', async ({ cause, ...how }) => {
+    test.runIf(isWhole).each(harmlessFaults)('$name: drives on', async ({ cause, ...how }) => {
       const driving = await drive(how);
-      const causeMs = performance.now();
       await cause(driving);
       await rig.wheels.beats(40);
-      // What chance makes of a bad link may stop it for a moment.
-      if (how.behindLink) return await rig.untilDriving(driving.hand);
-      // Somebody who joins delays a picture, and a robot whose pictures are late may go slower for a moment.
-      const stopped = rig.wheels.stopAfter(causeMs);
-      // Unless the machine kept the hand, its picture or the robot waiting, which stops a robot as any silence does.
-      const wasKept = (stopped?.blindMs ?? 0) >= 50 || (stopped?.silentMs ?? 0) >= 80;
-      if (!wasKept && driving.hand.longestWithoutFrame(causeMs) < LATE_FRAME_MS) expect(stopped).toBe(null);
+      // What chance makes of a bad link, or of a busy machine, may stop it for a moment.
+      await rig.untilDriving(driving.hand);
       expect(rig.wheels.fastest).toBeLessThanOrEqual(SPEED);
     });
 
-    async function returns({ name, cause, ends, withinMs, silent, ...how }: ReturningFault): Promise<void> {
+    async function returns({
+      name,
+      cause,
+      ends,
+      withinMs,
+      silent,
+      ...how
+    }: ReturningFault<RealDriving>): Promise<void> {
       const driving = await drive(how);
       const causeMs = await begin(cause, driving);
       try {
         await rig.wheels.until(({ linear }) => linear === 0);
-        if (withinMs !== undefined) judge(name, causeMs, withinMs);
+        if (withinMs !== undefined) note(name, causeMs, withinMs);
         // Longer than a gap after which it would move on.
         await (silent ? rig.wheels.silence(600) : rig.wheels.beats(40));
       } finally {
@@ -128,38 +135,16 @@ describe.skipIf(!isAvailable())(
       await rig.untilDriving(driving.hand);
     }
 
-    test('a gap of a quarter of a second in the commands: brakes, and moves on by its ramps', async () => {
-      const driving = await drive();
-      for (let tries = 0; ; tries++) {
-        const causeMs = performance.now();
-        const gapMs = await driving.hand.pauses(250);
-        const { fastest } = rig.wheels;
-        expect(rig.wheels.brakingAfter(causeMs)?.afterMs).toBeLessThanOrEqual(gapMs + BUSY_MS);
-        expect(fastest).toBeLessThanOrEqual(SPEED);
-        // A machine that was too busy made it longer than the robot allows.
-        if (gapMs < RESUME_WITHIN_MS - 50) break;
-        expect(tries).toBeLessThan(10);
-        await rig.untilDriving(driving.hand);
-      }
-      await rig.wheels.until(({ linear }) => linear === SPEED);
-      expect(driving.operator.client.session).not.toContainEqual(
-        expect.objectContaining({ type: 'rejected', reason: 'let-go-first' }),
-      );
-    });
-
-    test.each(returningFaults)('$name: stays until the hand has let go', returns);
+    test.each(rowsOf(returningFaults))('$name: stays until the hand has let go', returns);
 
     describe.skipIf(!canHangThreads())('threads that hang (needs python3 and ptrace)', () => {
       test.each(hangingFaults)('$name: stays until the hand has let go', returns);
     });
 
-    test('signaling is killed: the robot goes on', async () => {
-      await drive();
-      const causeMs = performance.now();
+    test('signaling is killed: the robot still drives', async () => {
+      const { hand } = await drive();
       await rig.stack.signaling.kill();
-      await rig.wheels.beats(40);
-      const stopped = rig.wheels.stopAfter(causeMs);
-      if (stopped !== null && stopped.blindMs < 50 && stopped.silentMs < 80) expect(stopped).toBe(null);
+      await rig.untilDriving(hand);
       await rig.stack.startSignaling();
     });
 
@@ -171,13 +156,11 @@ describe.skipIf(!isAvailable())(
         rig.robot.signal(signal);
         if (saysZero) {
           await rig.wheels.until(({ linear }) => linear === 0);
-          judge(name, causeMs, BRAKES_MS);
+          note(name, causeMs, BRAKES_MS);
           await rig.robot.exited;
         } else {
           await rig.wheels.silence(200);
-          const afterMs = Math.max(0, rig.wheels.lastWrittenMs - causeMs);
-          times.add(`${name}: the last word`, afterMs, BRAKES_MS);
-          expect(afterMs).toBeLessThanOrEqual(BRAKES_MS + BUSY_MS);
+          times.add(`${name}: the last word`, Math.max(0, rig.wheels.lastWrittenMs - causeMs), BRAKES_MS);
           await rig.robot.kill();
         }
         await rig.restartRobot();
@@ -187,10 +170,5 @@ describe.skipIf(!isAvailable())(
         expect(state.latched).toBe(!saysZero);
       },
     );
-
-    test('at most half of the faults take longer than they may', () => {
-      const late = times.rows.filter(({ ok }) => !ok);
-      expect(late.length, JSON.stringify(late)).toBeLessThanOrEqual(times.rows.length / 2);
-    });
   },
 );

@@ -104,28 +104,33 @@ describe('a robot that has lost its operators', { timeout: 90_000 }, () => {
     expect(kinds).toEqual(['"kind":"return-began"', '"kind":"return-ended"']);
   });
 
-  it.each(['gives the lease back', 'ends its session'])('stays where it is if its driver %s', async (how) => {
-    await start('--return-unseen', 'slow');
-    const driver = await connect();
-    await drive(driver.client);
-    if (how === 'gives the lease back') {
-      const { client } = driver;
-      client.sendSession({ type: 'leaseRelease' });
-      const newest = () => client.session.findLast((each) => each.type === 'lease');
-      await client.until(() => newest()?.holder === 'nobody');
-      await driver.vanish();
-    } else {
-      driver.leave();
-      await until(async () => (await metric('sessions_ended_total{reason="closed"}')) === 1);
-    }
-    // One that is lost waits from the first second on.
-    for (const endMs = performance.now() + 4000; performance.now() < endMs; ) {
-      const health = await (await fetch(`${stack.robotAdminUrl(ID)}/healthz`)).text();
-      expect(health).toContain('"phase":"standby"');
-      await new Promise((resolve) => setTimeout(resolve, 20));
-    }
-    expect(await metric('return_begun_total')).toBe(0);
-  });
+  it.each(['gives the lease back', 'closes its connection and ends its session'])(
+    'stays where it is if its driver %s',
+    async (how) => {
+      await start('--return-unseen', 'slow');
+      const driver = await connect();
+      await drive(driver.client);
+      if (how === 'gives the lease back') {
+        const { client } = driver;
+        client.sendSession({ type: 'leaseRelease' });
+        const newest = () => client.session.findLast((each) => each.type === 'lease');
+        await client.until(() => newest()?.holder === 'nobody');
+        await driver.vanish();
+      } else {
+        // As a page does: the end of the connection may reach the robot first.
+        await driver.client.close();
+        await until(async () => (await metric('sessions_ended_total{reason="connection-lost"}')) === 1);
+        driver.leave();
+      }
+      // One that is lost waits from the first second on.
+      for (const endMs = performance.now() + 4000; performance.now() < endMs; ) {
+        const health = await (await fetch(`${stack.robotAdminUrl(ID)}/healthz`)).text();
+        expect(health).toContain('"phase":"standby"');
+        await new Promise((resolve) => setTimeout(resolve, 20));
+      }
+      expect(await metric('return_begun_total')).toBe(0);
+    },
+  );
 
   it('stands as soon as its link is back, and waits for a fresh hand', async () => {
     await start('--return-unseen', 'slow');

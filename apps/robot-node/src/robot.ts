@@ -126,6 +126,7 @@ export class Robot {
         needsKeyFrame: (video) => this.cameras.videos.requestKeyFrame(video),
         latencyFrameLost: () => capture.requestLatencyTest(),
         ended: ({ id }, end) => this.#host.operatorGone(id, end),
+        left: (id) => this.#host.driverLeaves({ id }),
       },
     );
     const [stages, board] = [new StageTimer(), this.#board];

@@ -5,6 +5,11 @@ export class EventQueue {
   nowMs = 0;
   readonly #actions = new TimeHeap<() => void>();
 
+  /** When the next action is due; Infinity if there is none. */
+  get nextMs(): number {
+    return this.#actions.headMs;
+  }
+
   /** A past time means now; Infinity means never. */
   at(timeMs: number, action: () => void): void {
     if (timeMs !== Number.POSITIVE_INFINITY) this.#actions.push(Math.max(timeMs, this.nowMs), action);

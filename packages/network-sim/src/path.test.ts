@@ -141,3 +141,11 @@ test('flows on paths over one link share it, and each hears of its own packets',
     expect(sent).toBe(delivered + dropped);
   }
 });
+
+test('a packet that the link duplicates arrives twice, and others once', () => {
+  const { events, arrivals, send } = setUp({ profile: { ...profile, duplicate: 0.5 } });
+  send(...Array.from({ length: 20 }, (_, i) => 10 * i));
+  events.runUntil(1000);
+  const counts = Array.from({ length: 20 }, (_, i) => arrivals.filter(({ packet }) => packet === i).length);
+  expect(new Set(counts)).toEqual(new Set([1, 2]));
+});

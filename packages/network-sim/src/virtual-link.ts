@@ -7,6 +7,8 @@ import type { Stalls } from './stalls.ts';
 /** What happens to a packet, reported in virtual time from within the link, which must not be called back. */
 export interface PacketFate {
   /**
+   * Called twice for a packet that the link has duplicated.
+   *
    * @param atMs now, or later if the link stalled
    * @param queueMs from its arrival until its last bit had left the bottleneck, including stalls
    */
@@ -25,6 +27,8 @@ interface Waiting {
   readonly fate: PacketFate;
   readonly sentMs: number;
   readonly enteredMs: number;
+  /** How often it is still to be delivered. */
+  copies: number;
 }
 
 const ROUNDING_MS = 1e-6;
@@ -45,7 +49,7 @@ export class VirtualLink {
     this.#events = events;
     this.#stalls = stalls;
     const delivered = (handle: number, atMs: number, queueMs: number) => this.#deliver(handle, atMs, queueMs);
-    const sink = { delivered, duplicated: () => {} };
+    const sink = { delivered, duplicated: (handle: number) => this.#duplicate(handle) };
     this.model = new LinkModel({ profile, seed, startMs: events.nowMs, sink });
   }
 
@@ -53,7 +57,7 @@ export class VirtualLink {
   send(bytes: number, fate: PacketFate): void {
     const { nowMs } = this.#events;
     const entersMs = this.#stalls?.after(nowMs) ?? nowMs;
-    const packet = { fate, sentMs: nowMs, enteredMs: entersMs };
+    const packet = { fate, sentMs: nowMs, enteredMs: entersMs, copies: 1 };
     if (entersMs === nowMs) this.#offer(bytes, packet);
     else this.#events.at(entersMs, () => this.#offer(bytes, packet));
   }
@@ -70,14 +74,20 @@ export class VirtualLink {
   }
 
   #deliver(handle: number, atMs: number, queueMs: number): void {
-    const { fate, sentMs, enteredMs } = this.#packets[handle]!;
-    this.#release(handle);
+    const packet = this.#packets[handle]!;
+    const { fate, sentMs, enteredMs } = packet;
+    packet.copies--;
+    if (packet.copies === 0) this.#release(handle);
     const departedMs = enteredMs + queueMs;
     const leavesMs = this.#stalls?.after(departedMs) ?? departedMs;
     const comesMs = atMs + leavesMs - departedMs;
     // Packets held back by a stall arrive at one instant and in order; a rounding error must not reverse them.
     if (Math.abs(comesMs - this.#latestMs) > ROUNDING_MS) this.#latestMs = comesMs;
     fate.delivered(this.#latestMs, leavesMs - sentMs);
+  }
+
+  #duplicate(handle: number): void {
+    this.#packets[handle]!.copies++;
   }
 
   #release(handle: number): void {

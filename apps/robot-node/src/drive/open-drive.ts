@@ -46,9 +46,12 @@ export interface DriveOptions {
   stateFolder: string;
 }
 
+/** What a recording takes of driving. */
+export type DriveRecording = Pick<SessionRecording, 'velocity' | 'command' | 'latencyMeasured'>;
+
 export interface DriveParts {
   sink: VelocitySink;
-  recording: SessionRecording | null;
+  recording: DriveRecording | null;
   audit: RobotAudit;
   /** Simulated wheels; `null` for real ones. */
   base: object | null;

@@ -58,6 +58,8 @@ export interface OperatorSessionsEvents {
   latencyFrameLost: () => void;
   /** The operator has been removed from `operators`. */
   ended: (operator: OperatorSession, end: PeerEnd) => void;
+  /** The operator of a session that has ended meant its end. */
+  left: (session: string) => void;
 }
 
 /** The sessions with operators, each with its own connection. Signaling opens and closes them. */
@@ -117,6 +119,9 @@ export class OperatorSessions {
         break;
       case 'session.closed': {
         const operator = this.operators.get(message.session);
+        // The end of its connection may come first, as if that had been lost.
+        if (operator === undefined && message.reason === 'closed-by-operator')
+          this.#events.left(message.session);
         // Only a signaling connection was lost, the operator's or ours: the session lives on with its connection.
         if (message.reason === 'operator-left' && operator?.peer.connected) break;
         operator?.peer.close('closed', message.reason);

@@ -5,12 +5,12 @@ import type { LeaseCause, RobotAudit } from '../audit/robot-audit.ts';
 import type { DriveStation } from '../drive/drive-station.ts';
 import type { EstopJournal } from '../drive/estop-journal.ts';
 import { LocalRelease } from '../drive/local-release.ts';
+import type { DriveRecording } from '../drive/open-drive.ts';
 import type { CloudSensor } from '../sensors/cloud-sensor.ts';
 import type { CloudSensors } from '../sensors/cloud-sensors.ts';
 import type { CommandLog } from '../telemetry/command-log.ts';
 import { LimitedLines } from '../telemetry/limited-lines.ts';
 import type { RobotCounters } from '../telemetry/robot-counters.ts';
-import type { SessionRecording } from '../telemetry/session-recording.ts';
 import { isUnintended, type PeerEnd } from '../transport/peer-events.ts';
 import type { VideoHub } from '../video/video-hub.ts';
 import type { RatedMessage } from './message-rates.ts';
@@ -28,7 +28,7 @@ export interface RobotSessionHostParts {
   sensors: () => Pick<CloudSensors, 'updateBudgets' | 'first'>;
   videos: () => Pick<VideoHub, 'descriptions'>;
   counters: RobotCounters;
-  recording: SessionRecording | null;
+  recording: DriveRecording | null;
   audit: RobotAudit;
   commandLog: CommandLog | undefined;
   log: Logger;
@@ -90,7 +90,8 @@ export class RobotSessionHost implements SessionHost {
     this.#parts.sensors().updateBudgets();
   }
 
-  driverLeaves({ id }: OperatorMessages): void {
+  /** Also after the end of its session, when the robot hears that this was meant. */
+  driverLeaves({ id }: Pick<OperatorMessages, 'id'>): void {
     if (id === this.#driver) this.#parts.driverLeft();
   }
 

@@ -1,6 +1,7 @@
 import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
 import { BATCH_BYTES, type Batch } from '../cloud/batch.ts';
 import type { FromCloudWorker, ToCloudWorker } from '../cloud/worker-messages.ts';
+import type { RobotLink, RobotLinkEvents } from '../link/robot-link.ts';
 import { RobotClient } from './robot-client.ts';
 
 /** Stands in for the cloud worker. */
@@ -85,6 +86,28 @@ describe('RobotClient', () => {
     client.leave();
     expect(client.chosenRobotId).toBe(null);
     expect(phases).toEqual(['waiting', 'none']);
+  });
+
+  test('who leaves a robot gives the lease back first', () => {
+    const sent: string[] = [];
+    const link = {
+      ...{ phase: 'live', robotId: 'rover-1', interrupted: false, robots: [] },
+      sendCommand: () => sent.push('command'),
+      sendSession: ({ type }: { type: string }) => sent.push(type),
+      disconnect: () => sent.push('disconnect'),
+    } as unknown as RobotLink;
+    let events: RobotLinkEvents | undefined;
+    const client = new RobotClient({
+      ...{ signalingUrl: 'wss://x.org/operator', name: 'Operator', token: undefined, icePolicy: 'all' },
+      transform: 'script-transform',
+      openLink: (_, told) => {
+        events = told;
+        return link;
+      },
+    });
+    events?.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    client.leave();
+    expect(sent).toEqual(['leaseRelease', 'disconnect']);
   });
 
   test('a wish that is not renewed expires', () => {

@@ -20,8 +20,7 @@ import { clientParts } from './client-parts.ts';
 import { type ClientParts, linkEvents } from './link-events.ts';
 import type { RobotEvents } from './robot-events.ts';
 
-const TICK_MS = 25;
-const STATISTICS_MS = 250;
+const [TICK_MS, STATISTICS_MS] = [25, 250];
 
 /**
  * An operator's connection to robots. Events report what robots send; methods send what the operator wants. Use
@@ -138,9 +137,10 @@ export class RobotClient {
     this.#switch.choose(robotId, presentRobot(this.link, this.driver.holder), performance.now());
   }
 
-  /** Ends the session. The client stays connected to the signaling service. */
+  /** Ends the session on purpose: a robot that drives back after a loss stays. The client stays connected to the service. */
   leave(): void {
     this.#switch.cancel();
+    if (this.link.phase === 'live') this.driver.letGo(performance.now());
     this.link.disconnect();
   }
 
@@ -203,8 +203,8 @@ export class RobotClient {
   }
 
   /**
-   * Asks for these videos only: indices into the list of the `videos` event. Initially none.
-   * @param barcode whether the robot draws the capture time into their pictures, for everyone: to measure latency
+   * Asks for these videos only: indices into the list of the `videos` event. Initially none. `barcode`: whether the robot
+   * draws the capture time into their pictures, for everyone: to measure latency.
    */
   watchVideos(videos: readonly number[], barcode = false): void {
     this.link.sendSession({ type: 'videos', videos: [...videos], ...(barcode ? { barcode } : {}) });

@@ -1,5 +1,4 @@
-import { always, BRAKES_MS, change, type Fault, forward, VIEW_MS } from './fault.ts';
-import { SPEED } from './fault-hand.ts';
+import { always, BRAKES_MS, change, type Fault, forward, VIEW_MS, withVelocity } from './fault.ts';
 
 /** A round trip on the link, which is the robot's: `up` carries pictures, `down` commands. */
 const LINK_MS = 20;
@@ -9,8 +8,8 @@ export const brakingFaults: Fault[] = [
   // The operator's hand and page.
   { name: 'the page falls silent', cause: ({ hand }) => hand.sends(() => null) },
   { name: 'the connection is closed', cause: ({ operator }) => void operator.close() },
-  { name: 'the operator’s machine loses its power', cause: ({ operator }) => operator.client.vanish() },
-  { name: 'the control channel is closed', cause: ({ operator }) => void operator.client.control.close() },
+  { name: 'the operator’s machine loses its power', cause: ({ operator }) => operator.vanish() },
+  { name: 'the control channel is closed', cause: ({ operator }) => void operator.closeControl() },
   {
     name: 'the grip is let go and the stick held',
     cause: ({ hand }) => hand.sends(change(() => ({ deadMan: false }))),
@@ -22,20 +21,20 @@ export const brakingFaults: Fault[] = [
   { name: 'the stick is let go', cause: ({ hand }) => hand.letGoOfStick() },
   {
     name: 'the lease is given back',
-    cause: ({ operator }) => operator.client.sendSession({ type: 'leaseRelease' }),
+    cause: ({ operator }) => operator.sendSession({ type: 'leaseRelease' }),
   },
   {
     name: 'another operator takes over',
-    cause: async ({ rig }) => (await rig.connect()).client.sendSession({ type: 'leaseRequest', take: true }),
+    cause: async ({ rig }) => (await rig.connect()).sendSession({ type: 'leaseRequest', take: true }),
   },
   // STOP.
   {
     name: 'STOP on the session channel',
-    cause: ({ operator }) => operator.client.sendSession({ type: 'estop', latch: true }),
+    cause: ({ operator }) => operator.sendSession({ type: 'estop', latch: true }),
   },
   {
     name: 'STOP on the control channel',
-    cause: ({ operator }) => operator.client.sendControl({ type: 'estop', press: 1 }),
+    cause: ({ operator }) => operator.sendControl({ type: 'estop', press: 1 }),
   },
   // Commands.
   {
@@ -90,12 +89,11 @@ export const brakingFaults: Fault[] = [
   },
   {
     name: 'velocities that are not numbers',
-    cause: ({ hand }) => hand.sends((command) => JSON.stringify(command).replace(`"x":${SPEED}`, '"x":NaN')),
+    cause: ({ hand }) => hand.sends(withVelocity('NaN')),
   },
   {
     name: 'infinite velocities',
-    cause: ({ hand }) =>
-      hand.sends((command) => JSON.stringify(command).replace(`"x":${SPEED}`, '"x":1e999')),
+    cause: ({ hand }) => hand.sends(withVelocity('1e999')),
   },
   {
     name: 'rubbish on the control channel',

@@ -7,13 +7,14 @@ import {
   zeroTwist,
 } from '@farpoint/protocol';
 import type { OperatorClient } from '../operator-client.ts';
+import type { FaultyHand } from './fault.ts';
 
 const COMMAND_MS = 20;
 const FRAMES_KEPT = 500;
 export const SPEED = 0.25;
 
 /** A hand that holds on, whatever the robot says, and whose commands a fault can change. */
-export class FaultHand {
+export class FaultHand implements FaultyHand {
   #alter: (command: Command) => Command | string | null = (command) => command;
   #speed = SPEED;
   #deadMan = true;

@@ -4,6 +4,7 @@ import { join } from 'node:path';
 import { EmulatedLink, LocalStack, type ManagedProcess } from '@farpoint/local-stack';
 import { CloudProducer } from '@farpoint/shared-memory';
 import { SignaledOperator } from '../signaled-operator.ts';
+import type { Driving, FaultLink, FaultOperator, FaultyRobot, LinkChange } from './fault.ts';
 import { FaultHand, SPEED } from './fault-hand.ts';
 import { WheelLog } from './wheel-log.ts';
 
@@ -15,13 +16,56 @@ const REMEMBERED_MS = 1100;
 /** A busy machine may not let it drive undisturbed for that long: after this time, any driving counts as settled, ms. */
 const SETTLING_MS = 8000;
 
+/** A link between the real programs. */
+class RealLink implements FaultLink {
+  readonly emulated: EmulatedLink;
+
+  constructor(emulated: EmulatedLink) {
+    this.emulated = emulated;
+  }
+
+  tell(change: LinkChange): void {
+    this.emulated.tell(change);
+  }
+
+  renumber(): Promise<unknown> {
+    return this.emulated.renumber();
+  }
+}
+
+/** An operator of the real robot program. */
+export class RealOperator implements FaultOperator {
+  readonly client: SignaledOperator['client'];
+  readonly #operator: SignaledOperator;
+
+  constructor(operator: SignaledOperator) {
+    [this.#operator, this.client] = [operator, operator.client];
+  }
+
+  readonly sendSession: FaultOperator['sendSession'] = (message) => this.client.sendSession(message);
+  readonly sendControl: FaultOperator['sendControl'] = (message) => this.client.sendControl(message);
+  readonly sendText = (text: string) => this.client.control.send(text);
+  readonly closeControl = () => this.client.control.close();
+  readonly vanish = () => this.client.vanish();
+  readonly close = () => this.#operator.close();
+  readonly releaseEstop = () => this.client.releaseEstop();
+  readonly estop = (latched: boolean) => this.client.message('estop', (state) => state.latched === latched);
+}
+
+/** A real robot that is being driven. */
+export interface RealDriving extends Driving {
+  rig: FaultRig;
+  operator: RealOperator;
+  hand: FaultHand;
+}
+
 /** The real robot program between a camera and wheels in shared memory, and the operators of a test. */
-export class FaultRig {
+export class FaultRig implements FaultyRobot {
   readonly stack: LocalStack;
   readonly wheels: WheelLog;
   readonly folder: string;
-  link: EmulatedLink | null = null;
-  readonly #operators: SignaledOperator[] = [];
+  link: RealLink | null = null;
+  readonly #operators: RealOperator[] = [];
   readonly #hands: FaultHand[] = [];
   readonly #producer: CloudProducer;
   #camera: NodeJS.Timeout | null = null;
@@ -55,18 +99,19 @@ export class FaultRig {
   }
 
   /** @param behindLink whether all its packets go through a link that can be changed: {@link link} */
-  async connect(behindLink = false): Promise<SignaledOperator> {
+  async connect(behindLink = false): Promise<RealOperator> {
     if (behindLink)
-      this.link ??= await EmulatedLink.start(this.stack, { args: ['--rate-mbps', '20', '--rtt-ms', '10'] });
-    const url = behindLink && this.link !== null ? this.link.signalingUrl : this.stack.signalingUrl;
-    const operator = await SignaledOperator.connect(url, ROBOT);
+      this.link ??= new RealLink(
+        await EmulatedLink.start(this.stack, { args: ['--rate-mbps', '20', '--rtt-ms', '10'] }),
+      );
+    const url = behindLink && this.link !== null ? this.link.emulated.signalingUrl : this.stack.signalingUrl;
+    const operator = new RealOperator(await SignaledOperator.connect(url, ROBOT));
     this.#operators.push(operator);
     return operator;
   }
 
   /** A hand that holds on, with the lease. */
-  async hand(operator: SignaledOperator): Promise<FaultHand> {
-    const { client } = operator;
+  async hand({ client }: RealOperator): Promise<FaultHand> {
     // From whoever had it before, and may be gone without a word.
     client.sendSession({ type: 'leaseRequest', take: true });
     const { lease = '' } = await client.message('lease', ({ holder }) => holder === 'you');
@@ -115,7 +160,7 @@ export class FaultRig {
   async reset(): Promise<void> {
     for (const hand of this.#hands.splice(0)) hand.stop();
     this.startCamera();
-    this.link?.tell({ type: 'reset' });
+    this.link?.emulated.tell({ type: 'reset' });
     this.link?.tell({ type: 'blackhole', direction: 'both', active: false });
     this.link?.tell({ type: 'pause', direction: 'both', paused: false });
     await Promise.all(this.#operators.splice(0).map((operator) => operator.close().catch(() => undefined)));
@@ -127,7 +172,7 @@ export class FaultRig {
     for (const hand of this.#hands) hand.stop();
     await Promise.all(this.#operators.map((operator) => operator.close().catch(() => undefined)));
     this.wheels.close();
-    await this.link?.stop();
+    await this.link?.emulated.stop();
     await this.stack.stop();
     this.#producer.close();
     rmSync(this.folder, { recursive: true, force: true });

@@ -11,28 +11,27 @@ export const harmlessFaults: Fault[] = [
   },
   {
     name: 'a second operator asks for the lease politely',
-    cause: async ({ rig }) => (await rig.connect()).client.sendSession({ type: 'leaseRequest', take: false }),
+    cause: async ({ rig }) => (await rig.connect()).sendSession({ type: 'leaseRequest', take: false }),
   },
   {
     name: 'a second operator sends commands without the lease',
     cause: async ({ rig, hand }) => {
       const other = await rig.connect();
-      for (let i = 0; i < 20; i++)
-        other.client.sendControl({ ...hand.make(), lease: 'guess', twist: forward(-1) });
+      for (let i = 0; i < 20; i++) other.sendControl({ ...hand.make(), lease: 'guess', twist: forward(-1) });
     },
   },
   {
     name: 'a second operator sends rubbish',
     cause: async ({ rig }) => {
       const other = await rig.connect();
-      for (let i = 0; i < 20; i++) other.client.control.send('{');
+      for (let i = 0; i < 20; i++) other.sendText('{');
     },
   },
   {
     name: 'every command comes twice',
     cause: ({ hand, operator }) =>
       hand.sends((command) => {
-        operator.client.sendControl(command);
+        operator.sendControl(command);
         return command;
       }),
   },
@@ -41,7 +40,7 @@ export const harmlessFaults: Fault[] = [
     cause: ({ hand, operator }) => {
       const old = hand.newest as Command;
       hand.sends((command) => {
-        operator.client.sendControl(old);
+        operator.sendControl(old);
         return command;
       });
     },

@@ -1,34 +1,10 @@
-import { BRAKES_MS, type Driving, type Fault } from './fault.ts';
-import { HungThread } from './hung-thread.ts';
+import type { Driving, Fault } from './fault.ts';
 
-export interface ReturningFault extends Fault {
+export interface ReturningFault<Driven extends Driving = Driving> extends Fault<Driven> {
   /** Whether the wheels are told nothing meanwhile. */
   silent?: boolean;
-  ends(driving: Driving): void | Promise<void>;
+  ends(driving: Driven): void | Promise<void>;
 }
-
-/** A thread of the robot's program stands still for a while. */
-function hung(name: string): Pick<ReturningFault, 'cause' | 'ends'> {
-  let thread: HungThread | null = null;
-  return {
-    cause: async ({ rig, hand }) => {
-      thread = await HungThread.seize(rig.robot.pid, name);
-      await rig.untilSettled(hand);
-      // Finding the thread takes long, and the robot may brake before its standing still is reported.
-      const causeMs = performance.now();
-      await thread.stop();
-      return causeMs;
-    },
-    ends: () => thread?.goOn(),
-  };
-}
-
-/** Need {@link canHangThreads}. */
-export const hangingFaults: ReturningFault[] = [
-  { name: 'the capture thread hangs', withinMs: BRAKES_MS, ...hung('capture') },
-  // A native thread of the robot's then tells the wheels, once.
-  { name: 'the main thread hangs', withinMs: BRAKES_MS, silent: true, ...hung('MainThread') },
-];
 
 /** The cause goes away with the hand held on: nothing moves until it has let go. */
 export const returningFaults: ReturningFault[] = [
@@ -56,12 +32,11 @@ export const returningFaults: ReturningFault[] = [
   },
   {
     name: 'STOP, released',
-    cause: ({ operator }) => operator.client.sendSession({ type: 'estop', latch: true }),
+    cause: ({ operator }) => operator.sendSession({ type: 'estop', latch: true }),
     ends: async ({ operator }) => {
-      const { client } = operator;
-      await client.message('estop', ({ latched }) => latched);
-      client.releaseEstop();
-      await client.message('estop', ({ latched }) => !latched);
+      await operator.estop(true);
+      operator.releaseEstop();
+      await operator.estop(false);
     },
   },
 ];

@@ -1,0 +1,116 @@
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { constantCapacity, idealProfile, type LinkProfile, Random } from '@farpoint/network-sim';
+import { type Access, shippedOptions } from '@farpoint/robot-node/testing/drive-core';
+import type { WorldDescription } from '@farpoint/sim';
+import { Direction } from './direction.ts';
+import { EventLog } from './event-log.ts';
+import type { GuardSight } from './guard-sight.ts';
+import { ScenarioOperator } from './operator.ts';
+import { ScenarioRobot } from './robot.ts';
+import { Signaling } from './signaling.ts';
+import { TimedEvents } from './timed-events.ts';
+import { plain } from './worlds.ts';
+
+export interface ScenarioOptions {
+  seed?: number;
+  /** Of each direction; default: 20 Mbit/s, 5 ms. */
+  link?: Partial<LinkProfile>;
+  /** The robot's command line; default: none, which leaves the limits that ship. */
+  args?: readonly string[];
+  world?: WorldDescription;
+  sight?: GuardSight | null;
+}
+
+const LINK: LinkProfile = { ...idealProfile, capacity: constantCapacity(20), delayMs: 5 };
+
+/**
+ * Operators, a link for each, a signaling service and a robot, in the virtual time of the caller: it fakes the timers and
+ * clocks before, and moves them on with {@link run}.
+ */
+export class Scenario implements Disposable {
+  readonly log = new EventLog();
+  readonly signaling = new Signaling();
+  readonly robot: ScenarioRobot;
+  readonly operators: ScenarioOperator[] = [];
+  readonly #advance: (ms: number) => void;
+  readonly #events = new TimedEvents();
+  readonly #random: Random;
+  readonly #seed: number;
+  readonly #link: LinkProfile;
+  readonly #folder: string;
+
+  /** @param advance lets the fake timers run for this time, ms */
+  constructor(advance: (ms: number) => void, options: ScenarioOptions = {}) {
+    const { seed = 1, link = {}, args = [], world = plain(), sight = null } = options;
+    this.#advance = advance;
+    [this.#seed, this.#random, this.#link] = [seed, new Random(seed, 9), { ...LINK, ...link }];
+    this.#folder = mkdtempSync(join(tmpdir(), 'farpoint-scenario-'));
+    const { signaling, log } = this;
+    const parsed = shippedOptions(['--state-dir', this.#folder, '--id', 'robot', ...args]);
+    this.robot = new ScenarioRobot({ options: parsed, world, signaling, log, sight });
+    this.robot.onRestart = (session) => {
+      for (const { link: each } of this.operators) each.restarted(session);
+    };
+  }
+
+  /** Lets time pass, ms. */
+  run(ms: number): void {
+    this.#advance(ms);
+  }
+
+  /** As {@link run}, for what awaits something: that goes on at each whole millisecond. */
+  async settle(ms: number): Promise<void> {
+    for (let passed = 0; passed < ms; passed++) {
+      this.run(1);
+      for (let turns = 0; turns < 10; turns++) await Promise.resolve();
+    }
+  }
+
+  /** Lets time pass until something holds. @throws {Error} if that takes longer than `mostMs` */
+  until(is: () => boolean, mostMs = 10_000): void {
+    for (const endMs = performance.now() + mostMs; !is(); this.run(1))
+      if (performance.now() >= endMs) throw new Error(`not within ${mostMs} ms:\n${this.log.text}`);
+  }
+
+  /** An operator with a link of its own, who connects. @param access by its grant; `null`: the robot asks for none */
+  operator(name = `operator-${this.operators.length + 1}`, access: Access | null = null): ScenarioOperator {
+    const { robot, signaling, log } = this;
+    const seed = this.#seed * 16 + this.operators.length * 2;
+    const operator = new ScenarioOperator({
+      ...{ name, access, robot, signaling, log, random: () => this.#random.next() },
+      up: new Direction(this.#events, this.#link, seed),
+      down: new Direction(this.#events, this.#link, seed + 1),
+    });
+    this.operators.push(operator);
+    operator.client.start();
+    operator.client.choose(robot.id);
+    return operator;
+  }
+
+  /** A connected operator. */
+  connected(name?: string, access?: Access): ScenarioOperator {
+    const operator = this.operator(name, access);
+    this.until(() => operator.client.phase === 'live' && operator.client.telemetry !== null);
+    return operator;
+  }
+
+  /** An operator who drives ahead at this share of full speed, for longer than the robot remembers what it saw. */
+  driving(share = 0.5, access?: Access): ScenarioOperator {
+    const operator = this.connected(undefined, access);
+    const { hand } = operator;
+    this.run(100);
+    hand.push(share);
+    const speed = this.robot.core.host.drive.guard.limits.maxLinear * share;
+    this.until(() => Math.abs(this.robot.wheels.speed - speed) < 1e-6);
+    this.run(1500);
+    return operator;
+  }
+
+  [Symbol.dispose](): void {
+    for (const operator of this.operators) operator.close();
+    this.robot.close();
+    rmSync(this.#folder, { recursive: true, force: true });
+  }
+}

@@ -1,0 +1,72 @@
+import type { Command, Twist } from '@farpoint/protocol';
+import type { CommandVerdict } from '@farpoint/safety';
+import type { EventLog } from './event-log.ts';
+
+interface Told {
+  atMs: number;
+  linear: number;
+  angular: number;
+  /** Until when the newest command that was accepted by then moves the robot. */
+  validUntilMs: number;
+}
+
+/** What a robot's wheels are told, and what it made of each command. Times are `performance.now()`, ms. */
+export class WheelRecord {
+  readonly #log: EventLog;
+  readonly #watchdogMs: number;
+  readonly #told: Told[] = [];
+  /** When a velocity was last told, whether it changed or not. */
+  lastToldMs = 0;
+  /** The highest speed that was ever asked of the wheels, m/s. */
+  fastest = 0;
+  /** When the newest accepted command came. */
+  acceptedMs = 0;
+  /** Until when the newest accepted command moves the robot. */
+  validUntilMs = 0;
+
+  constructor(watchdogMs: number, log: EventLog) {
+    this.#watchdogMs = watchdogMs;
+    this.#log = log;
+  }
+
+  told({ linear: { x }, angular: { z } }: Twist): void {
+    const atMs = performance.now();
+    this.lastToldMs = atMs;
+    this.fastest = Math.max(this.fastest, Math.abs(x), Math.abs(z));
+    const before = this.#told.at(-1);
+    if (before?.linear === x && before.angular === z) return;
+    this.#told.push({ atMs, linear: x, angular: z, validUntilMs: this.validUntilMs });
+    this.#log.add('wheels', { linear: x, angular: z });
+  }
+
+  judged(session: string, { sequence }: Command, verdict: CommandVerdict): void {
+    const atMs = performance.now();
+    if (verdict.accepted) {
+      this.acceptedMs = atMs;
+      this.validUntilMs = atMs - verdict.spentMs + this.#watchdogMs;
+    }
+    this.#log.add(verdict.accepted ? 'accepted' : verdict.reason, { session, sequence });
+  }
+
+  /** Speed ahead that the wheels were told last, m/s. */
+  get speed(): number {
+    return this.#told.at(-1)?.linear ?? 0;
+  }
+
+  /** When the wheels were first told less than at this time, and what was valid then; `null` if they were not. */
+  braked(fromMs: number): { atMs: number; validUntilMs: number } | null {
+    const before = this.#told.findLast(({ atMs }) => atMs <= fromMs)?.linear ?? 0;
+    return this.#told.find(({ atMs, linear }) => atMs > fromMs && linear < before - 1e-9) ?? null;
+  }
+
+  /** When the wheels were first told to stand after this time; `null` if they were not. */
+  stoodMs(fromMs: number): number | null {
+    return this.#told.find(({ atMs, linear }) => atMs > fromMs && linear === 0)?.atMs ?? null;
+  }
+
+  /** The highest speed that they were told after this time, m/s. */
+  fastestSince(fromMs: number): number {
+    const since = this.#told.filter(({ atMs }) => atMs > fromMs);
+    return Math.max(0, ...since.map(({ linear }) => Math.abs(linear)));
+  }
+}
