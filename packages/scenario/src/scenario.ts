@@ -1,4 +1,4 @@
-import { mkdtempSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { constantCapacity, idealProfile, type LinkProfile, Random } from '@farpoint/network-sim';
@@ -23,6 +23,10 @@ export interface ScenarioOptions {
   sight?: GuardSight | null;
 }
 
+/** For so long an interval between two pictures counts at the robot, ms. */
+const REMEMBERED_MS = 1100;
+/** The robot writes what must outlive it to the disk, and waits for that: to memory, where there is a folder of it. */
+const memory = existsSync('/dev/shm') ? '/dev/shm' : tmpdir();
 const LINK: LinkProfile = { ...idealProfile, capacity: constantCapacity(20), delayMs: 5 };
 
 /**
@@ -46,10 +50,10 @@ export class Scenario implements Disposable {
     const { seed = 1, link = {}, args = [], world = plain(), sight = null } = options;
     this.#advance = advance;
     [this.#seed, this.#random, this.#link] = [seed, new Random(seed, 9), { ...LINK, ...link }];
-    this.#folder = mkdtempSync(join(tmpdir(), 'farpoint-scenario-'));
+    this.#folder = mkdtempSync(join(memory, 'farpoint-scenario-'));
     const { signaling, log } = this;
-    const parsed = shippedOptions(['--state-dir', this.#folder, '--id', 'robot', ...args]);
-    this.robot = new ScenarioRobot({ options: parsed, world, signaling, log, sight });
+    const robotOptions = { ...shippedOptions(args), stateFolder: this.#folder };
+    this.robot = new ScenarioRobot({ options: robotOptions, world, signaling, log, sight });
     this.robot.onRestart = (session) => {
       for (const { link: each } of this.operators) each.restarted(session);
     };
@@ -104,7 +108,7 @@ export class Scenario implements Disposable {
     hand.push(share);
     const speed = this.robot.core.host.drive.guard.limits.maxLinear * share;
     this.until(() => Math.abs(this.robot.wheels.speed - speed) < 1e-6);
-    this.run(1500);
+    this.run(REMEMBERED_MS);
     return operator;
   }
 

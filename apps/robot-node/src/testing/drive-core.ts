@@ -28,10 +28,17 @@ export { isUnintended } from '../transport/peer-events.ts';
 
 /** What the robot's program makes of its command line, without any file or variable: the limits that ship. */
 export function shippedOptions(args: readonly string[]): RobotOptions {
+  const key = args.join('\n');
+  const known = parsed.get(key);
+  if (known !== undefined) return known;
   const resolved = resolveOptions(robotProgram, { argv: [...args], env: {}, readFile: () => null });
   if (resolved.action !== 'run') throw new Error(`${args.join(' ')}: does not run`);
-  return toRobotOptions(resolved.values, resolved.where);
+  const options = toRobotOptions(resolved.values, resolved.where);
+  parsed.set(key, options);
+  return options;
 }
+
+const parsed = new Map<string, RobotOptions>();
 
 /** An audit log that nobody reads. */
 export function unreadAudit(): RobotAudit {

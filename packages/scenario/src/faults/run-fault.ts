@@ -9,7 +9,9 @@ import { drivingIn } from './scenario-rig.ts';
 const SHARE = 0.25;
 export const SPEED = 0.25;
 /** How long a robot is watched after the cause, and after its end, ms. */
-const WATCHED_MS = 2000;
+const WATCHED_MS = 1200;
+/** How long a robot takes at most until it drives as fast as before, ms. */
+const DRIVES_AGAIN_MS = 2000;
 /** How long a cause lasts that goes away, ms: longer than a gap after which the robot would move on. */
 const LASTS_MS = 1600;
 
@@ -109,7 +111,7 @@ export async function runReturn(
   driver.hand.letGo();
   scenario.run(700);
   driver.hand.push(SHARE);
-  scenario.run(WATCHED_MS);
+  scenario.run(DRIVES_AGAIN_MS);
   return {
     ...{ stood: stoodMs !== null, movedWhileWrong, movedBeforeLetGo },
     drivesAgain: Math.abs(wheels.speed - SPEED) < 1e-6,
