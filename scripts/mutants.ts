@@ -109,11 +109,15 @@ async function failuresOf(tests: string): Promise<string[]> {
     });
     return failed(readPlaywrightReport(readFileSync(report, 'utf8'), 'e2e').outcomes);
   }
-  const project = tests === 'pure' ? ['--project', 'pure'] : ['--project', 'stack*', tests];
+  const project = tests === 'pure' ? ['--project', 'pure'] : ['--project', projectOf(tests), tests];
   // The copy's own vitest: one of another place does not know the tests' `describe` and `it`.
   const args = ['exec', 'vitest', 'run', ...project, '--reporter=json', `--outputFile=${report}`];
   await run('pnpm', args, { cwd: copy });
   return failed(readVitestReport(readFileSync(report, 'utf8'), copy).outcomes);
+}
+
+function projectOf(file: string): string {
+  return file.endsWith('.scenario.test.ts') ? 'scenario' : 'stack*';
 }
 
 function failed(outcomes: readonly Outcome[]): string[] {
