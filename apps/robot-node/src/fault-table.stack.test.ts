@@ -126,7 +126,7 @@ describe.skipIf(!isAvailable())(
         await rig.wheels.until(({ linear }) => linear === 0);
         if (withinMs !== undefined) note(name, causeMs, withinMs);
         // Longer than a gap after which it would move on.
-        await (silent ? rig.wheels.silence(600) : rig.wheels.beats(40));
+        await (silent ? rig.wheels.silence(600) : rig.wheels.beats(15));
       } finally {
         await ends(driving);
       }
