@@ -34,6 +34,8 @@ const LINK: LinkProfile = { ...idealProfile, capacity: constantCapacity(20), del
  * clocks before, and moves them on with {@link run}.
  */
 export class Scenario implements Disposable {
+  /** Called with what happened in each scenario, at its end. */
+  static onEnd: ((log: string) => void) | null = null;
   readonly log = new EventLog();
   readonly signaling = new Signaling();
   readonly robot: ScenarioRobot;
@@ -115,6 +117,7 @@ export class Scenario implements Disposable {
   [Symbol.dispose](): void {
     for (const operator of this.operators) operator.close();
     this.robot.close();
+    Scenario.onEnd?.(this.log.text);
     rmSync(this.#folder, { recursive: true, force: true });
   }
 }
