@@ -14,6 +14,14 @@ const small = { width: 320, height: 240, framesPerS: 15, kbitPerS: 400 };
 const videosOf = (page: Pick<BrowserPage, 'evaluate'>) => page.evaluate(() => window.farpoint.videos());
 const source = (pattern: string) => ({ kind: 'test', pattern, width: 320, height: 240, framesPerS: 15 });
 
+function decodesH264(page: Pick<BrowserPage, 'evaluate'>): Promise<boolean> {
+  return page.evaluate(() =>
+    (RTCRtpReceiver.getCapabilities('video')?.codecs ?? []).some(
+      ({ mimeType }) => mimeType.toLowerCase() === 'video/h264',
+    ),
+  );
+}
+
 test('shows VP8 live and in step; one that it cannot decode says why', async ({
   firefoxPage,
   startStack,
@@ -35,13 +43,14 @@ test('shows VP8 live and in step; one that it cannot decode says why', async ({
   const [front, rear, arm] = await videos();
   expect([front?.fault, rear?.fault, front?.width, rear?.height]).toEqual([null, null, 320, 240]);
   // Firefox decodes H.264 only once it has fetched a plugin.
-  expect(arm?.fault !== null || (arm?.frames ?? 0) > 0).toBe(true);
+  if (await decodesH264(firefoxPage))
+    await expect.poll(async () => (await videos())[2]?.frames).toBeGreaterThan(0);
+  else expect(arm?.fault).toContain('H264');
   const { receiver, spreadMs, videos: shown, undated } = (await operator.stats()).videos;
   // Frames may come before the clocks of robot and page have been compared.
   expect(receiver).toBe('native');
   expect(undated).toBeLessThan(30);
   expect(spreadMs).not.toBeNull();
-  for (const { ageMs } of shown) expect(ageMs?.p50).toBeLessThan(1000);
   console.log(
     `age ms ${shown.map(({ ageMs }) => ageMs?.p50.toFixed(0))}, spread ${spreadMs?.p50.toFixed(1)}`,
   );
@@ -59,10 +68,7 @@ test('with `auto`, a Firefox without H.264 sees VP8 like everyone, until it has 
   firefoxPage,
   startStack,
 }, testInfo) => {
-  const decodes = await firefoxPage.evaluate(() =>
-    (RTCRtpReceiver.getCapabilities('video')?.codecs ?? []).map(({ mimeType }) => mimeType.toLowerCase()),
-  );
-  test.skip(decodes.includes('video/h264'), 'this Firefox has fetched its H.264 plugin');
+  test.skip(await decodesH264(firefoxPage), 'this Firefox has fetched its H.264 plugin');
   const cameras = [testCamera('Front', 'auto', { ...small, source: source('pinwheel') })];
   const stack = await startStack({ robots: [videoRobot(light, cameras)] });
   const options = { robot: light.id, canvas: '160x90' };

@@ -63,6 +63,8 @@ test('the robot is heard while Sound is on, and its microphone is off otherwise'
   await expect.poll(async () => (await sound(page)).level).toBeGreaterThan(0.5);
   await expect(page.locator('#sound')).toContainText('Live');
   expect(await metric(stack, 'sound_listeners')).toBe(1);
+  // By the robot's clock, what is played now was captured before.
+  await expect.poll(async () => (await sound(page)).delayMs).toBeGreaterThan(0);
   await operator.screenshot(testInfo, 'sound');
 
   await switchOf(page).click();
@@ -193,26 +195,4 @@ test('a microphone that fails says why on the page', async ({ page, startStack }
   await open(page, stack);
   await switchOf(page).click();
   await expect(page.locator('#sound')).toContainText('No sound: the microphone');
-});
-
-test('what is heard was captured shortly before', async ({ page, startStack }, testInfo) => {
-  const robot = soundRobot(lightRobot);
-  const stack = await startStack({ robots: [robot.spec] });
-  const operator = await open(page, stack);
-  await switchOf(page).click();
-  await expectTone(page, 600);
-  const delays: number[] = [];
-  for (let i = 0; i < 20; i++) {
-    await operator.expectFrames(2);
-    delays.push((await sound(page)).delayMs ?? Number.NaN);
-  }
-  delays.sort((a, b) => a - b);
-  const [median, most] = [delays[10] ?? Number.NaN, delays.at(-1) ?? Number.NaN];
-  testInfo.annotations.push({ type: 'capture to output', description: `${median} ms` });
-  console.log(
-    `  from capture to the browser’s output: median ${median.toFixed(0)} ms, at most ${most.toFixed(0)} ms`,
-  );
-  // Not a figure of speed: a clock that is off, or sound that piles up, shows as seconds.
-  expect(median).toBeGreaterThan(0);
-  expect(median).toBeLessThan(2000);
 });

@@ -22,8 +22,7 @@ test('the whole cloud arrives, stays where it was captured, and answers a latenc
   await operator.expectPoints(10_000);
   // 480 × 480 pixels, about 15 % of which a stereo camera cannot see.
   await expect.poll(async () => (await operator.stats()).pointsPerFrame).toBeGreaterThan(170_000);
-  const { drops, packetsLost } = await operator.stats();
-  expect(packetsLost).toBe(0);
+  const { drops } = await operator.stats();
   // Some packets may have arrived before the stream's header, and a busy machine's decoder falls behind.
   const { 'no-stream': _, 'decoder-behind': __, ...others } = drops;
   expect(others).toEqual({});
@@ -75,7 +74,7 @@ test('an operator that reads only points64 gets it, beside one that gets everyth
   await other.bringToFront();
   await plain.holdForward();
   await expect.poll(async () => (await plain.state()).holder).toBe('you');
-  await plain.expectFrames(5);
+  await expect.poll(async () => (await whole.stats()).pointsPerFrame).toBeLessThan(80_000);
   await plain.release();
 });
 
