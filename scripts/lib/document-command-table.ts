@@ -114,6 +114,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'node signaling.mjs audit verify audit.jsonl': { help: true },
   'pnpm robot audit verify FILE…': { help: true },
   'pnpm signaling audit verify FILE…': { help: true },
+  'pnpm test --only scenario': { help: true, because: 'runs every scenario' },
   'pnpm test --only supply': { help: true, because: 'runs until it is ended, and every test of it' },
   'docker buildx imagetools inspect node:24-alpine': { because: 'needs a container engine' },
   'pnpm signaling grant …': { help: true },

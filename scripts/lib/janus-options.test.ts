@@ -5,7 +5,10 @@ describe('the options of pnpm janus', () => {
   test('listen on loopback unless told otherwise', () => {
     expect(readJanusOptions([])).toEqual({
       verbose: false,
-      server: { host: '127.0.0.1', port: 8188, publicAddress: null },
+      server: {
+        ...{ host: '127.0.0.1', port: 8188, publicAddress: null },
+        ...{ robotPorts: [20_000, 20_199], viewerPorts: [20_200, 20_999] },
+      },
     });
   });
 
@@ -23,7 +26,8 @@ describe('the options of pnpm janus', () => {
     ];
     expect(readJanusOptions([...argv, ...more])?.server).toEqual({
       ...{ host: '0.0.0.0', port: 9000, publicAddress: '203.0.113.7', adminKey: 'k', folder: '/x' },
-      ...{ robotPorts: [30_000, 30_099], certificate: { certificate: 'c.pem', key: 'k.pem' } },
+      ...{ robotPorts: [30_000, 30_099], viewerPorts: [20_200, 20_999] },
+      ...{ certificate: { certificate: 'c.pem', key: 'k.pem' } },
     });
   });
 

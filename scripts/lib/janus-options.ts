@@ -80,8 +80,8 @@ export function readJanusOptions(argv: readonly string[]): JanusScriptOptions | 
     throw new JanusOptionError('--tls-cert and --tls-key belong together');
   const folder = text('folder');
   const adminKey = text('admin-key');
-  const robotPorts = readRange('--robot-ports', text('robot-ports'));
-  const viewerPorts = readRange('--viewer-ports', text('viewer-ports'));
+  const robotPorts = readRange('--robot-ports', text('robot-ports') ?? '20000-20199');
+  const viewerPorts = readRange('--viewer-ports', text('viewer-ports') ?? '20200-20999');
   const port = readPort('--port', text('port') ?? String(DEFAULT_PORT));
   return {
     verbose: values.verbose === true,
@@ -89,8 +89,7 @@ export function readJanusOptions(argv: readonly string[]): JanusScriptOptions | 
       ...{ host, port, publicAddress },
       ...(folder === null ? {} : { folder }),
       ...(adminKey === null ? {} : { adminKey }),
-      ...(robotPorts === null ? {} : { robotPorts }),
-      ...(viewerPorts === null ? {} : { viewerPorts }),
+      ...{ robotPorts, viewerPorts },
       ...(certificate === null || key === null ? {} : { certificate: { certificate, key } }),
     },
   };
@@ -102,8 +101,7 @@ function readPort(flag: string, text: string): number {
   throw new JanusOptionError(`${flag} must be a port from 1 to 65535, not ${JSON.stringify(text)}`);
 }
 
-function readRange(flag: string, text: string | null): [number, number] | null {
-  if (text === null) return null;
+function readRange(flag: string, text: string): [number, number] {
   const [first = '', last = '', ...more] = text.split('-');
   const range: [number, number] = [readPort(flag, first), readPort(flag, last)];
   if (more.length > 0 || range[0] > range[1])

@@ -46,7 +46,6 @@ async function endsBy(signal: NodeJS.Signals): Promise<{ code: number | null; le
 
 it.each([
   ['SIGTERM', 0, false],
-  ['SIGINT', 0, false],
   // An exception that nobody catches, and a promise that nobody looks at.
   ['SIGUSR2', 1, true],
   ['SIGWINCH', 1, true],

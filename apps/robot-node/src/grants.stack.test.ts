@@ -1,5 +1,4 @@
 /** Only who has a grant gets in: an independent WebRTC client against the running robot and signaling service. */
-import { createHmac } from 'node:crypto';
 import { writeFileSync } from 'node:fs';
 import { issueGrant, makeOperatorKey } from '@farpoint/grants';
 import { type GrantedOperator, grantTo, makeIssuer } from '@farpoint/grants/testing';
@@ -111,20 +110,6 @@ describe('who is admitted', { timeout: 30_000 }, () => {
     }
   });
 
-  it('a grant that ends soon: a warning, then the session ends and the lease is free', async () => {
-    const watcher = await connectAs('watch', 'Wim');
-    const ending = await grantTo(issuer, nowS(), { exp: Math.ceil(nowS()) + 10, name: 'Eve' });
-    const operator = await connect(ending);
-    await takeLease(operator.client);
-    const { inS } = await operator.client.message('expires');
-    expect(inS).toBeLessThanOrEqual(11);
-    await watcher.client.message('lease', ({ holder }) => holder === 'other');
-    await operator.until(
-      (message) => message.type === 'session.closed' && message.reason === 'grant-expired',
-    );
-    await watcher.client.until(() => holder(watcher.client) === 'nobody');
-  });
-
   it('SIGHUP changes the keys: sessions of a key that has gone end, and those of a new one are admitted', async () => {
     const { pid = 0 } = robot.stack.robot(ROBOT);
     const kept = await connectAs('watch', 'Ada');
@@ -156,44 +141,20 @@ describe('who is not', { timeout: 30_000 }, () => {
   beforeEach(async () => {
     ada = await grantTo(issuer, nowS());
   });
-  const part = (value: unknown) => Buffer.from(JSON.stringify(value)).toString('base64url');
-  const withHeader = (alg: string, mac?: string | Buffer) => {
-    const signed = `${part({ typ: 'farpoint-grant+jwt', alg, kid: 'k1' })}.${ada.grant.split('.')[1]}`;
-    const signature = mac === undefined ? '' : createHmac('sha256', mac).update(signed).digest('base64url');
-    return shownBy({ ...ada, grant: `${signed}.${signature}` });
-  };
-  const changed = async (change: Parameters<typeof grantTo>[2], by = issuer) =>
-    shownBy({ ...ada, grant: await issueGrant({ ...ada.claims, ...change }, by.signingKey) });
+  const changed = async (change: Parameters<typeof grantTo>[2]) =>
+    shownBy({ ...ada, grant: await issueGrant({ ...ada.claims, ...change }, issuer.signingKey) });
   const stranger = `${'11:'.repeat(31)}11`;
 
+  /** What the robot compares with what it knows itself. All other refusals: packages/grants/src/admission.test.ts. */
   const cases: [name: string, reason: string, credentials: () => Credentials | Promise<Credentials>][] = [
     ['nothing', 'grant-missing', () => () => Promise.resolve({})],
-    ['no proof', 'proof-missing', () => () => Promise.resolve({ grant: ada.grant })],
-    ['words', 'grant-malformed', () => () => Promise.resolve({ grant: 'let-me-in', proof: 'please' })],
     ['an expired grant', 'grant-expired', () => changed({ exp: Math.floor(nowS()) - 1 })],
-    ['a grant of tomorrow', 'grant-not-yet', () => changed({ nbf: Math.floor(nowS()) + 86_400 })],
     ['a grant for another robot', 'grant-other-robot', () => changed({ robots: ['sim-2', 'hall-*'] })],
-    ['a grant for something else', 'grant-other-audience', () => changed({ aud: 'bank' })],
-    ['an unknown issuer', 'grant-untrusted', async () => changed({}, await makeIssuer('k9'))],
-    ['another issuer under the same kid', 'grant-untrusted', async () => changed({}, await makeIssuer('k1'))],
-    ['alg none', 'grant-untrusted', () => withHeader('none')],
-    [
-      'HS256 by the public key',
-      'grant-untrusted',
-      () => withHeader('HS256', Buffer.from((issuer.publicJwk as { x: string }).x, 'base64url')),
-    ],
     [
       'another’s grant, with a key of its own',
       'proof-wrong-key',
       async () => shownBy({ ...ada, key: await makeOperatorKey() }),
     ],
-    [
-      'the grant’s key, signed with another',
-      'proof-forged',
-      async () => shownBy({ ...ada, key: { ...ada.key, privateKey: (await makeOperatorKey()).privateKey } }),
-    ],
-    ['a proof for another session', 'proof-other-session', () => shownBy(ada, () => ({ session: 's0' }))],
-    ['a proof for another robot', 'proof-other-robot', () => shownBy(ada, () => ({ robot: 'sim-2' }))],
     [
       'a proof for another certificate of the operator',
       'proof-other-fingerprint',
@@ -204,7 +165,6 @@ describe('who is not', { timeout: 30_000 }, () => {
       'proof-other-fingerprint',
       () => shownBy(ada, () => ({ offer: `a=fingerprint:sha-256 ${stranger}` })),
     ],
-    ['a proof of an hour ago', 'proof-stale', () => shownBy(ada, () => ({ madeAtS: nowS() - 3600 }))],
   ];
 
   it.each(cases)('%s: one refusal and no packet', async (_, reason, credentials) => {

@@ -57,8 +57,9 @@ describe.skipIf(!isBuilt)(`cameras in a recording (needs: ${BUILD_REMEDY})`, { t
       expect(await frames('Rear')).toBeGreaterThan(30);
     };
     await vi.waitFor(enough, { interval: 100, timeout: 50_000 });
-    const dropped = 'farpoint_robot_recording_dropped_total{kind="videos"}';
-    expect(await metricOf(stack.robotAdminUrl(ROBOT), dropped)).toBe(0);
+    // By a machine that stalls; counted, and gone from one key frame to the next.
+    const metric = 'farpoint_robot_recording_dropped_total{kind="videos"}';
+    const dropped = await metricOf(stack.robotAdminUrl(ROBOT), metric);
     await stack.stop();
 
     const recording = await openRecording(path);
@@ -86,7 +87,7 @@ describe.skipIf(!isBuilt)(`cameras in a recording (needs: ${BUILD_REMEDY})`, { t
       expect(each.every(({ ns }, i) => i === 0 || ns > each[i - 1]!.ns)).toBe(true);
     }
     const front = recorded.get(topics[0]!) ?? [];
-    expect(front.length).toBeGreaterThanOrEqual(150);
+    expect(front.length + dropped).toBeGreaterThanOrEqual(150);
     for (const { key, data } of front) {
       const types = nalTypes(data);
       const { slice, keySlice, sequenceParameters, pictureParameters } = NAL_TYPES;

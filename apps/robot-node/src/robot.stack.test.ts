@@ -1,13 +1,21 @@
 /** The real robot program with the real signaling service: processes, sockets, WebRTC. */
 
 import { once } from 'node:events';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { soleFingerprint, verifyIdentity } from '@farpoint/grants';
 import { readPictureFile } from '@farpoint/protocol';
-import { afterEach, describe, expect, it } from 'vitest';
+import { afterAll, afterEach, describe, expect, it } from 'vitest';
 import { WebSocket } from 'ws';
+import { RobotKey } from './access/robot-key-file.ts';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 import { useRobot } from './testing/use-robot.ts';
 
 const ROBOT = 'sim-1';
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-robot-'));
+afterAll(() => rmSync(folder, { recursive: true }));
+const keyFile = join(folder, 'key.json');
 /** At a fixed rate: a busy machine delays packets like a bad link, which then carries no pictures. */
 const ARGS = [
   '--rate-control',
@@ -21,6 +29,8 @@ const ARGS = [
   '1',
   '--max-operators',
   '2',
+  '--robot-key',
+  keyFile,
 ];
 
 // Hooks run in reverse order: this one after the operators of the test have closed.
@@ -45,11 +55,55 @@ async function driveUntil(operator: SignaledOperator, lease: string, linear: num
   clearInterval(timer);
 }
 
+/** The thumbprint of the key that the robot has proved in this session. */
+async function provenKey({ heard, session }: SignaledOperator): Promise<string> {
+  const offer = heard.find((message) => message.type === 'session.offer');
+  const { sdp = '', identity = '' } = offer ?? {};
+  const robotFingerprint = soleFingerprint(sdp) ?? '';
+  return await verifyIdentity(identity, { robot: ROBOT, session, robotFingerprint });
+}
+
 /** A robot that was killed starts latched. */
 async function releaseEstop({ client }: SignaledOperator): Promise<void> {
   await client.takeLease();
   client.releaseEstop();
   await client.message('estop', (message) => !message.latched);
+}
+
+/** Somebody who speaks the operators' protocol by hand. */
+class Stranger {
+  readonly #socket: WebSocket;
+  readonly #told: Record<string, unknown>[] = [];
+
+  private constructor(socket: WebSocket) {
+    this.#socket = socket;
+    socket.on('message', (data: Buffer) => this.#told.push(JSON.parse(data.toString())));
+  }
+
+  static async connect(): Promise<Stranger> {
+    const socket = new WebSocket(new URL('/operator', robot.stack.signalingUrl));
+    const stranger = new Stranger(socket);
+    await once(socket, 'open');
+    stranger.say({ type: 'operator.hello', protocol: 1, name: 'stranger' });
+    return stranger;
+  }
+
+  say(message: object): void {
+    this.#socket.send(JSON.stringify(message));
+  }
+
+  /** The next message of this type since the last that was asked for. */
+  async told(type: string): Promise<Record<string, unknown>> {
+    for (;;) {
+      const at = this.#told.findIndex((message) => message.type === type);
+      if (at >= 0) return this.#told.splice(0, at + 1).at(-1) ?? {};
+      await once(this.#socket, 'message');
+    }
+  }
+
+  close(): void {
+    this.#socket.terminate();
+  }
 }
 
 describe('robot process', { timeout: 30_000 }, () => {
@@ -174,18 +228,15 @@ describe('robot process', { timeout: 30_000 }, () => {
     await client.until(() => client.completeFrames.length > 0);
     const restarts = await metric('ice_restarts_total');
     const heard = operator.heard.length;
-    const stranger = new WebSocket(new URL('/operator', robot.stack.signalingUrl));
-    const told: Record<string, unknown>[] = [];
-    stranger.on('message', (data: Buffer) => told.push(JSON.parse(data.toString())));
-    const say = (message: object) => stranger.send(JSON.stringify(message));
-    await once(stranger, 'open');
-    say({ type: 'operator.hello', protocol: 1, name: 'stranger' });
+    const refusals = () => metric('resumes_refused_total', '{reason="wrong-resume-key"}');
+    const refused = await refusals();
+    const stranger = await Stranger.connect();
     const resume = { type: 'session.resume', session, robotId: ROBOT };
     const key = (await client.message('welcome')).resumeKey ?? '';
-    for (const resumeKey of ['0', 'A'.repeat(22), `${key.slice(0, -1)}_`, `${key}0`]) {
-      say({ ...resume, resumeKey });
-      await until(async () => told.at(-1)?.type === 'error');
-      expect(told.splice(0).at(-1)).toMatchObject({ code: 'wrong-resume-key', session });
+    const wrong = ['0', 'A'.repeat(22), `${key.slice(0, -1)}_`, `${key}0`];
+    for (const resumeKey of wrong) {
+      stranger.say({ ...resume, resumeKey });
+      expect(await stranger.told('error')).toMatchObject({ code: 'wrong-resume-key', session });
     }
     // Without being bound to the session, the stranger can neither end it nor send anything into it.
     const candidate = { candidate: 'candidate:1 1 udp 2130706431 127.0.0.1 9 typ host', sdpMid: '0' };
@@ -194,16 +245,15 @@ describe('robot process', { timeout: 30_000 }, () => {
       { type: 'session.answer', session, sdp: 'v=0' },
       { type: 'session.candidate', session, candidate },
     ]) {
-      say(message);
-      await until(async () => told.length > 0);
-      expect(told.splice(0)).toMatchObject([{ type: 'error', code: 'unknown-session' }]);
+      stranger.say(message);
+      expect(await stranger.told('error')).toMatchObject({ code: 'unknown-session' });
     }
-    stranger.terminate();
+    stranger.close();
     const { length } = client.completeFrames;
     await client.until(() => client.completeFrames.length > length + 10);
     expect(operator.heard.slice(heard)).toEqual([]);
     expect(await metric('ice_restarts_total')).toBe(restarts);
-    expect(await metric('resumes_refused_total', '{reason="wrong-resume-key"}')).toBe(4);
+    expect(await refusals()).toBe(refused + wrong.length);
 
     // The same request from a new socket with the right key gets a new path.
     await operator.resume();
@@ -213,37 +263,15 @@ describe('robot process', { timeout: 30_000 }, () => {
     await client.until(() => client.packets > packets + 20);
   });
 
-  it('says why it ends a session: an unusable answer, or a session from before its restart', async () => {
-    const operator = await connect();
-    const { session } = operator;
-    await operator.close();
-    await robot.stack.robot(ROBOT).kill();
-    await robot.stack.restartRobot(ROBOT);
-    const back = await connect();
-    await releaseEstop(back);
-    await back.resume('0');
-    await back.until((message) => message.type === 'error' && message.code === 'wrong-resume-key');
-    const socket = new WebSocket(new URL('/operator', robot.stack.signalingUrl));
-    const told: Record<string, unknown>[] = [];
-    socket.on('message', (data: Buffer) => told.push(JSON.parse(data.toString())));
-    await once(socket, 'open');
-    const say = (message: object) => socket.send(JSON.stringify(message));
-    const closed = async () => {
-      await until(async () => told.some(({ type }) => type === 'session.closed'));
-      return told.splice(0).find(({ type }) => type === 'session.closed');
-    };
-    say({ type: 'operator.hello', protocol: 1, name: 'test operator' });
-    say({ type: 'session.resume', session, robotId: ROBOT, resumeKey: '0' });
-    expect(await closed()).toMatchObject({ session, reason: 'unknown-session' });
-    say({ type: 'session.open', robotId: ROBOT });
-    await until(async () => told.some(({ type }) => type === 'session.offer'));
-    const offer = told.findLast(({ type }) => type === 'session.offer');
-    say({ type: 'session.answer', session: offer?.session, sdp: 'v=0\r\n' });
-    expect(await closed()).toMatchObject({
-      reason: 'bad-answer',
-      detail: '0 m-lines, where the offer has 3',
+  it('refuses an unusable answer, and says why', async () => {
+    const stranger = await Stranger.connect();
+    stranger.say({ type: 'session.open', robotId: ROBOT });
+    const { session } = await stranger.told('session.offer');
+    stranger.say({ type: 'session.answer', session, sdp: 'v=0\r\n' });
+    expect(await stranger.told('session.closed')).toMatchObject({
+      ...{ reason: 'bad-answer', detail: '0 m-lines, where the offer has 3' },
     });
-    socket.terminate();
+    stranger.close();
   });
 
   it('sends organised frames to an operator that reads only those, and points64 to another that does not', async () => {
@@ -314,6 +342,12 @@ describe('robot process', { timeout: 30_000 }, () => {
     const operator = await connect();
     const { client } = operator;
     await client.until(() => client.completeFrames.length > 0);
+    // It knows nothing of the session from before, and says so.
+    const { session } = lost;
+    const stranger = await Stranger.connect();
+    stranger.say({ type: 'session.resume', session, robotId: ROBOT, resumeKey: '0' });
+    expect(await stranger.told('session.closed')).toMatchObject({ session, reason: 'unknown-session' });
+    stranger.close();
     // A crash does not release the stop: nobody can move the robot before somebody releases it on purpose.
     expect(await client.message('estop')).toMatchObject({ latched: true, by: 'robot' });
     const lease = await client.takeLease();
@@ -324,12 +358,17 @@ describe('robot process', { timeout: 30_000 }, () => {
     await driveUntil(operator, lease, 0.3, () => (client.telemetry?.twist.linear.x ?? 0) > 0.1);
   });
 
-  it('ends cleanly when asked to', async () => {
-    const { client } = await connect();
+  it('ends cleanly when asked to, and proves the key in its file in each session before and after', async () => {
+    const operator = await connect();
+    const { client } = operator;
+    const { thumbprint } = await RobotKey.open(keyFile);
+    expect(await provenKey(operator)).toBe(thumbprint);
     await client.until(() => client.completeFrames.length > 0);
     const { code } = await robot.stack.robot(ROBOT).stop();
     expect(code).toBe(0);
     await robot.stack.restartRobot(ROBOT);
-    expect(await (await connect()).client.message('estop')).toMatchObject({ latched: false });
+    const again = await connect();
+    expect(await again.client.message('estop')).toMatchObject({ latched: false });
+    expect(await provenKey(again)).toBe(thumbprint);
   });
 });

@@ -150,18 +150,17 @@ describe.skipIf(python === null)(
     });
 
     it('publishes steadily while commanded, zero on silence, then nothing, so that others can drive', async () => {
-      expect(base.heard).toEqual([]);
       const lease = await operator.client.takeLease();
-      await driveUntil(lease, 0.25, () => base.heard.filter(({ x }) => x === 0.25).length >= 25);
+      operator.client.drive(lease, 0);
+      const from = base.heard.length;
+      await driveUntil(lease, 0.25, () => base.heard.slice(from).filter(({ x }) => x === 0.25).length >= 25);
       const lastWishMs = performance.now();
       await until(() => base.heard.at(-1)?.x === 0);
-      const stopped = base.heard.find(({ x, atMs }) => x === 0 && atMs >= lastWishMs);
-      // The watchdog's 150 ms, and the delay added by two busy processors.
-      expect((stopped?.atMs ?? 0) - lastWishMs).toBeLessThan(400);
+      // After how many ms, and how many zeros: watchdog.test.ts, ros-velocity.test.ts.
       await until(() => silentFor() > 500);
       const zeros = base.heard.filter(({ x, atMs }) => x === 0 && atMs >= lastWishMs);
-      expect(zeros.length).toBeGreaterThan(10);
-      expect(zeros.length).toBeLessThan(40);
+      // A node that misses one hears another.
+      expect(zeros.length).toBeGreaterThan(1);
     });
 
     it('continues when the camera’s node comes back', async () => {
@@ -198,14 +197,11 @@ describe.skipIf(python === null)(
       expect(base.heard).toEqual([]);
     });
 
-    it('publishes zero when it is asked to end', async () => {
+    it('publishes zero when it is asked to end, and nothing more when it is killed: then the base’s own timeout applies', async () => {
       const lease = await operator.client.takeLease();
       await drive(lease);
       await stack.robot(ROBOT).stop();
       await until(() => base.heard.at(-1)?.x === 0);
-    });
-
-    it('publishes nothing more when it is killed: then the base’s own timeout applies', async () => {
       await operator.close();
       await stack.restartRobot(ROBOT);
       operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);

@@ -17,8 +17,6 @@ import { SignaledOperator } from './testing/signaled-operator.ts';
 const ROBOT = 'ros2-1';
 const SIDE = 48;
 const WATCHDOG_MS = 150;
-/** Delay to allow for on a machine that is busy with other tests. */
-const SLACK_MS = 250;
 /** The picture is requested reliably, because a busy machine's sockets lose parts of each large message. */
 const CONFIGURATION = `
 robot:
@@ -66,16 +64,11 @@ for (const kind of kinds) {
     };
     const speed = () => peer.twists.at(-1)?.x ?? null;
 
-    /** Sends commands at 50 Hz, as a page does, until `is` holds. @returns when the last one was sent, ms */
-    async function driveUntil(lease: string, linear: number, is: () => boolean): Promise<number> {
-      let lastMs = 0;
-      const timer = setInterval(() => {
-        operator.client.drive(lease, linear);
-        lastMs = monotonicMs();
-      }, 20);
+    /** Sends commands at 50 Hz, as a page does, until `is` holds. */
+    async function driveUntil(lease: string, linear: number, is: () => boolean): Promise<void> {
+      const timer = setInterval(() => operator.client.drive(lease, linear), 20);
       await until(is);
       clearInterval(timer);
-      return lastMs;
     }
 
     it('streams the topic’s clouds', { timeout: 30_000 }, async () => {
@@ -115,15 +108,13 @@ for (const kind of kinds) {
       }
     });
 
-    it('publishes the operator’s commands, zero within the watchdog’s time on silence, and zero when it ends', {
+    it('publishes the operator’s commands, zero on silence, and zero when it ends', {
       timeout: 30_000,
     }, async () => {
       const lease = await operator.client.takeLease();
-      const lastMs = await driveUntil(lease, 0.25, () => speed() === 0.25);
+      // After how many ms: watchdog.test.ts, ros-velocity.test.ts.
+      await driveUntil(lease, 0.25, () => speed() === 0.25);
       await until(() => speed() === 0);
-      const zero = peer.twists.findLast(({ x }) => x !== 0);
-      const first = peer.twists[peer.twists.indexOf(zero as (typeof peer.twists)[number]) + 1];
-      expect((first?.ms ?? Number.NaN) - lastMs).toBeLessThan(WATCHDOG_MS + SLACK_MS);
       // The robot is alive: it obeys the next command.
       await driveUntil(lease, 0.125, () => speed() === 0.125);
       expect(await stack.robot(ROBOT).stop()).toMatchObject({ code: 0 });

@@ -8,6 +8,7 @@ import { createLogger } from '@farpoint/service';
 import { LoggingProcess } from '@farpoint/service/testing';
 import { isAvailable } from '@farpoint/shared-memory';
 import { afterAll, afterEach, describe, expect, it } from 'vitest';
+import type { RobotOptions } from './robot-configuration.ts';
 import { lockRun } from './run-locks.ts';
 
 const program = fileURLToPath(new URL('./main.ts', import.meta.url));
@@ -39,24 +40,35 @@ describe.skipIf(!isAvailable())('two robots (needs the addon: pnpm build:native)
   it('the second one says who has what it needs, and how to mend it', { timeout: 60_000 }, async () => {
     const first = start('a', 'one', ...shm, ...auditLog);
     await first.logged('health and metrics');
-    for (const [args, detail, remedy] of [
-      [['a', 'one'], `id a runs with the state folder ${join(folder, 'one')}`, '--state-dir'],
-      [['a', 'two', ...auditLog], `writes the audit log ${join(folder, 'audit.jsonl')}`, '--audit-log'],
-      [['b', 'one', ...shm], join(folder, 'shared_control'), '--shm-folder'],
+    const second = start('b', 'one', ...shm);
+    const said = await second.logged(/^could not start: /);
+    expect(await second.exited).toBe(1);
+    expect(said.msg).toContain(join(folder, 'shared_control'));
+    expect(said.msg).toContain(`(process ${first.child.pid})`);
+    expect(said.remedy).toContain('--shm-folder');
+    expect(said).not.toHaveProperty('err');
+    // As a program does it at its start.
+    const claims = (state: string, path?: string) => () =>
+      lockRun(
+        {
+          ...{ id: 'a', stateFolder: join(folder, state) },
+          audit: path === undefined ? undefined : ({ path } as RobotOptions['audit']),
+        },
+        log,
+      );
+    const path = join(folder, 'audit.jsonl');
+    for (const [claim, detail, remedy] of [
+      [claims('one'), `id a runs with the state folder ${join(folder, 'one')}`, '--state-dir'],
+      [claims('two', path), `writes the audit log ${path}`, '--audit-log'],
     ] as const) {
-      const [id, state, ...rest] = args;
-      const second = start(id, state, ...rest);
-      const said = await second.logged(/^could not start: /);
-      expect(await second.exited).toBe(1);
-      expect(said.msg).toContain(detail);
-      expect(said.msg).toContain(`(process ${first.child.pid})`);
-      expect(said.remedy).toContain(remedy);
-      expect(said).not.toHaveProperty('err');
+      const text = (part: string) => expect.stringContaining(part) as string;
+      const failure = { message: text(`${detail} (process ${first.child.pid})`), remedy: text(remedy) };
+      expect(claim).toThrow(expect.objectContaining(failure));
     }
     const gone = once(first.child, 'exit');
     first.child.kill('SIGKILL');
     await gone;
-    await start('a', 'one', ...shm, ...auditLog).logged('health and metrics');
+    claims('one', path)()[Symbol.dispose]();
   });
 
   it('each with an id of its own share a state folder, and a lock that is given back is free', () => {

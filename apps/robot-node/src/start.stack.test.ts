@@ -1,4 +1,7 @@
-/** The robot program when it cannot start: one line that says what is wrong and what to do, in JSON and in text. */
+/**
+ * The robot program when it cannot start: one line that says what is wrong and what to do, in JSON and in text. What each
+ * fault is called: doctor/start-failure.test.ts.
+ */
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -18,21 +21,12 @@ const missing = join(folder, 'missing');
 const COMMON = ['--admin-port', '0', '--state-dir', join(folder, 'state')];
 
 describe('a robot that cannot start', () => {
-  it.each([
-    [['--source', 'pcd', '--path', missing], `pcd: ${missing} does not exist`, 'a PCD file'],
-    [['--source', 'pcd', '--path', words], 'words.txt: PCD, line 1', 'a PCD file'],
-    [['--source', 'rgbd', '--path', missing], `rgbd: ${missing} does not exist`, 'a folder of colour'],
-    [['--source', 'rgbd', '--path', words], `rgbd: ${words} is not a folder`, 'a folder of colour'],
-    [['--source', 'recording', '--path', missing], `recording: ${missing} does not exist`, 'an MCAP file'],
-    [['--source', 'recording', '--path', words], 'neither MCAP nor a ROS 1 bag', 'an MCAP file'],
-    [['--record', words], `${words} already exists`, 'name another file'],
-    [['--record', join(missing, 'a.mcap')], `${missing} is not a folder`, 'create it'],
-  ])('%j: says so once, with what to do, and without a stack', async (args, detail, remedy) => {
-    const robot = new LoggingProcess(program, [...args, ...COMMON, '--sim-size', '16']);
+  it('says so once, with what to do, and without a stack', async () => {
+    const robot = new LoggingProcess(program, ['--record', words, ...COMMON, '--sim-size', '16']);
     const said = await robot.logged(/^could not start: /);
     expect(await robot.exited).toBe(1);
-    expect(said.msg).toContain(detail);
-    expect(said.remedy).toContain(remedy);
+    expect(said.msg).toContain(`${words} already exists`);
+    expect(said.remedy).toContain('name another file');
     expect(said).not.toHaveProperty('err');
   });
 

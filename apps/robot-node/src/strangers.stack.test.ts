@@ -124,13 +124,14 @@ describe('strangers', { timeout: 30_000 }, () => {
   it('survives malformed SCTP from one operator without harm to another’s session', async () => {
     const guest = await robot.connect();
     const before = await metric('datagrams_refused', refused('sctp-malformed'));
+    const messages = await metric('datagrams_refused', refused('message-malformed'));
     const { pid } = robot.stack.robot(ROBOT);
     const transport = guest.client.connection.dtlsTransports[0]!;
     await transport.sendData(Buffer.from([1, 2, 3]));
     await transport.sendData(Buffer.alloc(16));
     await untilMetric('datagrams_refused', refused('sctp-malformed'), before + 2);
     await guest.client.connection.sctpTransport?.sctp.send(9, 99, Buffer.from('of no protocol'));
-    await untilMetric('datagrams_refused', refused('message-malformed'), 1);
+    await untilMetric('datagrams_refused', refused('message-malformed'), messages + 1);
     await expectDriving();
     expect(robot.stack.robot(ROBOT).pid).toBe(pid);
     const frames = guest.client.completeFrames.length;
@@ -140,23 +141,28 @@ describe('strangers', { timeout: 30_000 }, () => {
   it('ends the session of an operator that sends 4 MB in one message, and only that one', async () => {
     const guest = await robot.connect();
     const { sctp } = guest.client.connection.sctpTransport!;
+    const before = await metric('datagrams_refused', refused('message-too-large'));
     void sctp.send(guest.client.control.id, 53, Buffer.alloc(4 << 20));
     await guest.until((message) => message.type === 'session.closed');
-    expect(await metric('datagrams_refused', refused('message-too-large'))).toBe(1);
+    expect(await metric('datagrams_refused', refused('message-too-large'))).toBe(before + 1);
     await expectDriving();
   });
 
   it('drops what exceeds an operator’s limits, by kind, and still takes its emergency stop', async () => {
     const guest = await robot.connect();
     const { client } = guest;
+    const kinds = await Promise.all(
+      ['probe', 'lease', 'session']
+        .map((kind) => refused(`${kind}:rate-limited`))
+        .map(async (labels) => ({ labels, before: await metric('messages_refused', labels) })),
+    );
     // Until the limits are felt: on a busy machine, one burst may take as long as it is allowed to.
     const flood = setInterval(() => {
       for (let id = 0; id < 20; id++) client.sendControl({ type: 'clockProbe', id, sentMs: 0 });
       for (let n = 0; n < 20; n++) client.sendSession({ type: 'leaseRequest', take: false });
     }, 20);
     try {
-      for (const kind of ['probe', 'lease', 'session'])
-        await untilMetric('messages_refused', refused(`${kind}:rate-limited`), 50);
+      for (const { labels, before } of kinds) await untilMetric('messages_refused', labels, before + 50);
     } finally {
       clearInterval(flood);
     }
@@ -188,7 +194,7 @@ describe('strangers', { timeout: 30_000 }, () => {
       }
     }
     await guest.client.ready();
-    expect(await metric('sessions_ended', refused('not-connected'))).toBe(ended + 1);
+    expect(await metric('sessions_ended', refused('not-connected'))).toBeGreaterThan(ended);
     await expectDriving();
     for (const socket of idle) socket.close();
   });

@@ -7,7 +7,9 @@ import { fileURLToPath } from 'node:url';
 import { afterEach, describe, expect, it } from 'vitest';
 import { ReferenceOperator } from './peers/reference-operator.ts';
 import { SocketPeer } from './peers/socket-peer.ts';
-import { runSuite, whyUnfinished } from './suites/suite.ts';
+import { findUnreachable } from './reach.ts';
+import { signalingSuite } from './suites/signaling-suite.ts';
+import { type CaseResult, runSuite, whyUnfinished } from './suites/suite.ts';
 import { ReleasedSignaling } from './testing/index.ts';
 import { closePlainServer, openPlainServer, plainServerUrl } from './testing/plain-socket-server.ts';
 
@@ -31,15 +33,25 @@ function run(...args: string[]): Promise<{ code: number; out: string; err: strin
 
 it('at level reference, passes the released signaling and names its defects; at level strict, fails it', async () => {
   signaling = await ReleasedSignaling.start();
-  const urls = ['--robot', signaling.robotUrl, '--client', signaling.clientUrl];
-  const lenient = await run('signaling', ...urls, '--level', 'reference', '--json');
+  const urls = ({ robotUrl, clientUrl }: ReleasedSignaling) => ['--robot', robotUrl, '--client', clientUrl];
+  const lenient = await run('signaling', ...urls(signaling), '--level', 'reference', '--json');
   expect(lenient.code).toBe(0);
   expect(lenient.err).toContain('known defect robot-0-dropped');
   expect(lenient.err).toContain('0 failed, 5 known defects at level reference');
-  const { outcome } = JSON.parse(lenient.out).at(-1);
-  expect(outcome).toBe('not-tried');
+  // Each of its defects shows, and no other case fails.
+  const results = JSON.parse(lenient.out) as CaseResult[];
+  const known = signalingSuite.flatMap(({ defect }) => (defect === undefined ? [] : [defect]));
+  expect(results.flatMap(({ defect }) => (defect === null ? [] : [defect]))).toEqual(known);
+  expect(results.at(-1)?.outcome).toBe('not-tried');
   expect(signaling.death).toBeNull();
-  expect((await run('signaling', ...urls)).code).toBe(1);
+  await signaling.stop();
+  // The first id is assigned once.
+  signaling = await ReleasedSignaling.start();
+  const strict = await run('signaling', ...urls(signaling), '--json');
+  expect(strict.code).toBe(1);
+  const failed = (JSON.parse(strict.out) as CaseResult[]).filter(({ outcome }) => outcome === 'failed');
+  const faulty = signalingSuite.filter(({ defect }) => defect !== undefined);
+  expect(failed.map(({ name }) => name)).toEqual(faulty.map(({ name }) => name));
   expect(signaling.death).not.toBeNull();
 }, 60_000);
 
@@ -77,7 +89,7 @@ async function listening(server: Server | ReturnType<typeof createTcpServer>): P
 const webServer = (status: number) =>
   listening(createServer((_, response) => response.writeHead(status).end()));
 
-describe.each(Object.keys(SUITES) as Suite[])('%s that cannot be reached', (suite) => {
+describe('an address that cannot be reached', () => {
   it.each<[string, string, () => Promise<string>]>([
     ['refuses', 'nothing listens there; check that the program runs', async () => 'ws://127.0.0.1:1'],
     ['is at no host', 'there is no host of that name; check the name', async () => 'ws://robot.invalid:3001'],
@@ -89,12 +101,21 @@ describe.each(Object.keys(SUITES) as Suite[])('%s that cannot be reached', (suit
       async () => `ws://${await listening(createTcpServer((socket) => socket.end('SSH-2.0-x\r\n')))}`,
     ],
     ['has no TLS', 'it does not speak TLS', async () => `wss://${await webServer(404)}`],
-  ])('%s: one sentence, and no defects', async (_, why, open) => {
+  ])('%s: one sentence', async (_, why, open) => {
     const url = await open();
+    const { message } = (await findUnreachable({ robot: url })) ?? {};
+    expect(message).toContain(`${url} (--robot) cannot be reached: ${why}`);
+    expect(message).not.toContain('\n');
+  });
+});
+
+describe.each(Object.keys(SUITES) as Suite[])('%s that cannot be reached', (suite) => {
+  it('says so in one sentence, and names no defects', async () => {
+    const url = 'ws://127.0.0.1:1';
     const { code, out, err } = await run(suite, ...at(url, suite), '--level', 'reference', '--json');
     expect(code).toBe(3);
     expect(err.trim().split('\n')).toHaveLength(1);
-    expect(err).toContain(`${url} (--${SUITES[suite][0]}) cannot be reached: ${why}`);
+    expect(err).toContain(`${url} (--${SUITES[suite][0]}) cannot be reached: nothing listens there`);
     const outcomes = JSON.parse(out).map(({ outcome, defect }: Record<string, unknown>) => [outcome, defect]);
     expect(new Set(outcomes.map(String))).toEqual(new Set(['not-tried,']));
   });

@@ -1,19 +1,16 @@
 import { createServer } from 'node:net';
+import { reserveNumber } from './reserved-numbers.ts';
 
-/** TCP ports that are free on loopback now; held together while choosing, so that they differ. */
+/**
+ * Below those that the system assigns to outgoing connections, which would take one before its program listens, and above
+ * those of Janus and of programs that people start.
+ */
+const PORTS = { kind: 'port', first: 24_000, last: 31_999 };
+
+/** TCP ports that nothing listens on and that no other test of this machine is given before this process ends. */
 export async function freePorts(count: number): Promise<number[]> {
-  const servers = await Promise.all(
-    Array.from({ length: count }, async () => {
-      const server = createServer();
-      await new Promise<void>((resolve, reject) => {
-        server.once('error', reject);
-        server.listen(0, '127.0.0.1', resolve);
-      });
-      return server;
-    }),
-  );
-  const ports = servers.map((server) => (server.address() as { port: number }).port);
-  await Promise.all(servers.map((server) => new Promise((resolve) => server.close(resolve))));
+  const ports: number[] = [];
+  while (ports.length < count) ports.push(await reserveNumber(PORTS, isPortFree));
   return ports;
 }
 

@@ -16,6 +16,7 @@ import { createInterface } from 'node:readline';
 import { findProgram } from './find-program.ts';
 import { freePorts } from './free-port.ts';
 import { type JanusConfigurationOptions, janusConfiguration } from './janus-configuration.ts';
+import { reserveNumber } from './reserved-numbers.ts';
 
 /** How to install it. */
 export const JANUS_REMEDY = 'apt-get install janus';
@@ -27,6 +28,10 @@ const READY_MS = 15_000;
 const STOP_MS = 5000;
 const KEPT_LINES = 100;
 
+/** Ports of one Janus, of which the first {@link ROBOT_PORTS} are for the robots' packets; not those of `pnpm janus`. */
+const MEDIA = { kind: 'janus-ports', first: 21_000, last: 23_600, step: 400 };
+const ROBOT_PORTS = 100;
+
 export interface JanusProgram {
   program: string;
   /** Has `plugins` and `transports`. */
@@ -37,8 +42,13 @@ export interface JanusServerOptions
   extends Partial<Omit<JanusConfigurationOptions, 'pluginsFolder' | 'transportsFolder'>> {
   /** Where the configuration is written; a temporary folder if absent. */
   folder?: string | undefined;
+  /** If absent, as {@link viewerPorts}: ports of its own, that no other Janus of this machine gets meanwhile. */
+  robotPorts?: readonly [number, number];
+  viewerPorts?: readonly [number, number];
   onLine?: ((line: string) => void) | undefined;
 }
+
+type MediaPorts = Pick<JanusConfigurationOptions, 'robotPorts' | 'viewerPorts'>;
 
 /** Janus cannot run here: one sentence with the remedy. */
 export class JanusError extends Error {
@@ -76,7 +86,7 @@ export class JanusServer {
   readonly #lines: string[] = [];
   #child: ChildProcess | null = null;
 
-  private constructor(janus: JanusProgram, options: JanusServerOptions, port: number) {
+  private constructor(janus: JanusProgram, options: JanusServerOptions & MediaPorts, port: number) {
     this.#janus = janus;
     this.#temporary = options.folder === undefined;
     this.#onLine = options.onLine;
@@ -98,7 +108,7 @@ export class JanusServer {
     if (janus === null)
       throw new JanusError(`Janus with its streaming plugin is not installed; on Debian: ${JANUS_REMEDY}`);
     const [free = 0] = options.port === undefined ? await freePorts(1) : [];
-    const server = new JanusServer(janus, options, options.port ?? free);
+    const server = new JanusServer(janus, { ...(await ownMediaPorts()), ...options }, options.port ?? free);
     await server.restart();
     return server;
   }
@@ -170,7 +180,7 @@ export class JanusServer {
     if (this.#temporary) rmSync(this.folder, { recursive: true, force: true });
   }
 
-  #configure(options: JanusServerOptions): void {
+  #configure(options: JanusServerOptions & MediaPorts): void {
     const folders = {
       pluginsFolder: join(this.folder, 'plugins'),
       transportsFolder: join(this.folder, 'transports'),
@@ -179,8 +189,8 @@ export class JanusServer {
       host: this.host,
       port: this.port,
       publicAddress: options.publicAddress ?? null,
-      robotPorts: options.robotPorts ?? [20_000, 20_199],
-      viewerPorts: options.viewerPorts ?? [20_200, 20_999],
+      robotPorts: options.robotPorts,
+      viewerPorts: options.viewerPorts,
       adminKey: this.adminKey,
       certificate: options.certificate ?? null,
       ...folders,
@@ -209,6 +219,12 @@ export class JanusServer {
   readonly #kill = (): void => {
     this.#child?.kill('SIGKILL');
   };
+}
+
+async function ownMediaPorts(): Promise<MediaPorts> {
+  const first = await reserveNumber(MEDIA);
+  const viewers = first + ROBOT_PORTS;
+  return { robotPorts: [first, viewers - 1], viewerPorts: [viewers, first + MEDIA.step - 1] };
 }
 
 function foldersIn(root: string): string[] {

@@ -1,6 +1,6 @@
 import { spawn } from 'node:child_process';
 import { createHash } from 'node:crypto';
-import { mkdtempSync, rmSync, statSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Pose } from '@farpoint/protocol';
@@ -96,10 +96,18 @@ async function record(path: string, compression: 'none' | 'zstd' = 'none'): Prom
   return recorder;
 }
 
+/** One recording of each kind is enough for all who only read it. */
+const made = new Map<string, Promise<{ path: string; recorder: SessionRecorder }>>();
+function recorded(compression: 'none' | 'zstd'): Promise<{ path: string; recorder: SessionRecorder }> {
+  const path = join(folder, `${compression}.mcap`);
+  const known = made.get(compression) ?? record(path, compression).then((recorder) => ({ path, recorder }));
+  made.set(compression, known);
+  return known;
+}
+
 describe('SessionRecorder', { timeout: 60_000 }, () => {
   it.each(['none', 'zstd'] as const)('what it records (%s) can be played', async (compression) => {
-    const path = join(folder, `${compression}.mcap`);
-    const recorder = await record(path, compression);
+    const { path, recorder } = await recorded(compression);
     expect(recorder.bytes).toBe(statSync(path).size);
     const recording = await openRecording(path);
     expect(recording.warning).toBeNull();
@@ -150,8 +158,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
   });
 
   it('every frame named in a message has a pose in the world through tf alone, as viewers need it', async () => {
-    const path = join(folder, 'frames.mcap');
-    await record(path);
+    const { path } = await recorded('none');
     const recording = await openRecording(path);
     const parents = new Map<string, string>();
     const named = new Map<string, string>();
@@ -356,11 +363,12 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
 
   it('does not overwrite a file', async () => {
     const path = join(folder, 'there.mcap');
-    await record(path);
+    writeFileSync(path, 'of somebody');
     await expect(record(path)).rejects.toMatchObject({
       name: 'RecordingError',
       message: expect.stringContaining(path),
     });
+    expect(readFileSync(path, 'utf8')).toBe('of somebody');
   });
 
   it('if it is killed, the file can be read up to its last chunk', async () => {
@@ -403,8 +411,7 @@ describe.skipIf(typeof peers === 'string')(
     it.each(['none', 'zstd'] as const)(
       'every message is there (%s), with its checksums and schemas',
       async (compression) => {
-        const path = join(folder, `for-peers-${compression}.mcap`);
-        const recorder = await record(path, compression);
+        const { path, recorder } = await recorded(compression);
         const { topics, messages, profile } = (peers as Peers).read(path);
         expect(profile).toBe('ros2');
         expect(messages).toBe(recorder.messages);

@@ -93,15 +93,15 @@ describe.skipIf(!hasJanus || !hasVideo)(
       const viewer = await watch();
       await viewer.until(() => (viewer.videos.get('v0')?.keyFrames ?? 0) > 0);
       const before = viewer.videos.get('v0')?.keyFrames ?? 0;
-      const until = frames(viewer, 'v0') + 90;
+      const [until, beginMs] = [frames(viewer, 'v0') + 90, performance.now()];
       while (frames(viewer, 'v0') < until) {
         await viewer.losePicture();
         await new Promise((resolve) => setTimeout(resolve, 20));
       }
       const more = (viewer.videos.get('v0')?.keyFrames ?? 0) - before;
-      // In 3 s, with one in 2 s.
       expect(more).toBeGreaterThan(0);
-      expect(more).toBeLessThanOrEqual(3);
+      // One in 2 s, however long it took; to the ms: key-frame-gate.test.ts.
+      expect(more).toBeLessThanOrEqual(2 + (performance.now() - beginMs) / 2000);
     });
 
     it('goes on for all others when a viewer stalls', async () => {
@@ -115,9 +115,12 @@ describe.skipIf(!hasJanus || !hasVideo)(
         await viewer.until(() => frames(viewer, 'v0') > 5);
         stalled.kill('SIGSTOP');
         const [video, keyFrames] = [frames(viewer, 'v0'), viewer.videos.get('v0')?.keyFrames ?? 0];
+        const beginMs = performance.now();
         await viewer.until(() => frames(viewer, 'v0') >= video + 90);
         // It asks for nothing, and nobody waits for it.
-        expect((viewer.videos.get('v0')?.keyFrames ?? 0) - keyFrames).toBeLessThanOrEqual(2);
+        expect((viewer.videos.get('v0')?.keyFrames ?? 0) - keyFrames).toBeLessThanOrEqual(
+          2 + (performance.now() - beginMs) / 2000,
+        );
         const newcomer = await watch();
         await newcomer.until(() => frames(newcomer, 'v0') > 30 && newcomer.clouds.size > 10);
       } finally {

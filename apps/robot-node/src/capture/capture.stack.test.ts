@@ -89,9 +89,9 @@ describe('capture thread', () => {
     const capture = await start(sim);
     let count = 0;
     capture.onFrame = () => count++;
-    // There could have been many frames during twenty reports of the state.
+    // There would have been a frame for each of these reports of the state.
     let reports = 0;
-    await stateWhere(capture, () => ++reports === 20);
+    await stateWhere(capture, () => ++reports === 4);
     expect(count).toBe(0);
   });
 
@@ -126,16 +126,11 @@ describe('capture thread', () => {
 
 const clouds = new URL('../../../../../shared/data/clouds/', import.meta.url);
 describe.skipIf(!existsSync(clouds))('recorded sources (skipped without ../shared/data)', () => {
-  const path = (name: string) => fileURLToPath(new URL(name, clouds));
-  it.each<[SourceOptions, number, number]>([
-    [{ kind: 'pcd', path: path('kinect-room.pcd'), frame: 'auto' }, 640, 480],
-    [{ kind: 'pcd', path: path('lidar-street.pcd'), frame: 'auto' }, 115_385, 1],
-    [{ kind: 'rgbd', path: path('rgbd-sequence') }, 640, 480],
-  ])('plays %j', async (source, width, height) => {
-    const capture = await start(source);
-    expect(capture.description).toMatchObject({ width, height });
+  it('plays a folder of colour and depth images', async () => {
+    const capture = await start({ kind: 'rgbd', path: fileURLToPath(new URL('rgbd-sequence', clouds)) });
+    expect(capture.description).toMatchObject({ width: 640, height: 480 });
     capture.setBudget({ ...NO_BUDGET, targetBitsPerSecond: 200e6, overheadBytes: 68, streaming: true });
-    const got = await frames(capture, 6);
+    const got = await frames(capture, 3);
     for (const frame of got) {
       expect(frame.points).toBeGreaterThan(10_000);
       checkPayloads(frame);

@@ -6,14 +6,12 @@ import { asDoctor } from './ros-probe.ts';
 import type { SourceTrial } from './source-trial.ts';
 
 const FEW_FRAMES_PER_SECOND = 5;
-/** The longest that the doctor waits for a camera's program, ms. */
-const MOST_WAIT_MS = 3000;
 /** The longest wait for ROS, ms: discovery precedes the first message. */
 const MOST_ROS_WAIT_MS = 6000;
 
-/** The source's options for the trial, with short waits for a producer. */
-export function trialSource(source: SourceOptions): SourceOptions {
-  if (source.kind === 'shm') return { ...source, waitMs: Math.min(source.waitMs, MOST_WAIT_MS) };
+/** The source's options for the trial, with waits for a camera's program of `mostWaitMs` at most. */
+export function trialSource(source: SourceOptions, mostWaitMs: number): SourceOptions {
+  if (source.kind === 'shm') return { ...source, waitMs: Math.min(source.waitMs, mostWaitMs) };
   if (source.kind !== 'ros') return source;
   return { ...source, graph: asDoctor(source.graph), waitMs: Math.min(source.waitMs, MOST_ROS_WAIT_MS) };
 }

@@ -31,9 +31,17 @@ import { trySound } from './sound-trial.ts';
 import { trySource } from './source-trial.ts';
 import { timeEncoders } from './video-trial.ts';
 
-/** Longest wait for a server, ms. */
-const ANSWER_MS = 5000;
-const WATCH_MS = 2000;
+/** How long the doctor waits for others, ms. */
+export interface DoctorTimes {
+  /** For the answer of a server. */
+  answerMs: number;
+  /** For a camera's program, at most. */
+  producerMs: number;
+  /** Watching the source. */
+  watchMs: number;
+}
+
+const TIMES: DoctorTimes = { answerMs: 5000, producerMs: 3000, watchMs: 2000 };
 /** Time that a check may take in addition to its waits, ms. */
 const SLACK_MS = 2000;
 
@@ -62,7 +70,8 @@ export function configurationCheck({ results }: Configuration): Check {
 }
 
 /** Checks of a configured robot. They run in this order, because later ones use the results of earlier ones. */
-export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Check[] {
+export function robotChecks(robot: RobotOptions, values: RobotOptionValues, times = TIMES): Check[] {
+  const { answerMs } = times;
   let running: RunningRobot = { state: 'stands' };
   let serviceServers: readonly IceServer[] = [];
   let time: ServerTime | null = null;
@@ -70,32 +79,32 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
   return [
     {
       name: 'robot',
-      withinMs: ANSWER_MS + SLACK_MS,
+      withinMs: answerMs + SLACK_MS,
       run: async () => {
-        running = await findRunningRobot(adminHost, adminPort, ANSWER_MS);
+        running = await findRunningRobot(adminHost, adminPort, answerMs);
         return judgeRunning(running, adminHost, adminPort);
       },
     },
     {
       name: 'signaling',
-      withinMs: 2 * ANSWER_MS + SLACK_MS,
+      withinMs: 2 * answerMs + SLACK_MS,
       run: async () => {
         const target = { id: robot.id, name: robot.name, ...robot.signaling };
-        const answer = await probeSignaling(target, ANSWER_MS, now);
+        const answer = await probeSignaling(target, answerMs, now);
         if (answer.outcome === 'welcome') serviceServers = answer.iceServers;
         if (answer.outcome === 'welcome' || answer.outcome === 'refused')
-          time = await askTime(target, ANSWER_MS, Date.now);
+          time = await askTime(target, answerMs, Date.now);
         return judgeSignaling(target.url, robot.id, answer, running.state === 'runs', Date.now());
       },
     },
     { name: 'clock', withinMs: SLACK_MS, run: () => checkTimeOfDay(time) },
     {
       name: 'STUN and TURN',
-      withinMs: 2 * ANSWER_MS + SLACK_MS,
+      withinMs: 2 * answerMs + SLACK_MS,
       run: async () => {
         const targets = iceTargets([...serviceServers, ...robot.iceServers]);
         const probed = await Promise.all(
-          targets.map(async (target) => ({ target, answer: await probeIce(target, ANSWER_MS, now) })),
+          targets.map(async (target) => ({ target, answer: await probeIce(target, answerMs, now) })),
         );
         return judgeIce(probed, robot.icePolicy);
       },
@@ -116,18 +125,18 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
     },
     {
       name: 'ROS',
-      withinMs: 4 * ANSWER_MS + SLACK_MS,
+      withinMs: 4 * answerMs + SLACK_MS,
       run: async () => {
         const own = running.state === 'runs' && robot.sink.kind === 'ros' ? 1 : 0;
         const graphs = graphsOf(robot, values.topics);
         return (
-          await Promise.all(graphs.map(({ graph, table }) => checkRos(graph, table, own, ANSWER_MS)))
+          await Promise.all(graphs.map(({ graph, table }) => checkRos(graph, table, own, answerMs)))
         ).flat();
       },
     },
     {
       name: 'stops',
-      withinMs: ANSWER_MS + 10_000,
+      withinMs: answerMs + 10_000,
       run: () =>
         checkStops(robot.stops, running.state === 'runs', {
           isTerminal: process.stdin.isTTY === true,
@@ -136,16 +145,16 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues): Che
     },
     {
       name: 'service',
-      withinMs: ANSWER_MS + SLACK_MS,
+      withinMs: answerMs + SLACK_MS,
       run: async () => {
         const devices = devicesOf(robot);
-        return devices.length === 0 ? [] : judgeUnitDevices(devices, await serviceUnit(ANSWER_MS));
+        return devices.length === 0 ? [] : judgeUnitDevices(devices, await serviceUnit(answerMs));
       },
     },
     ...robot.sensors.map(({ name, capture }, i) => ({
       name: i === 0 ? 'source' : `source (${name})`,
       withinMs: 20_000,
-      run: () => checkSource(capture, robot, running.state === 'runs'),
+      run: () => checkSource(capture, robot, running.state === 'runs', times),
     })),
     {
       name: 'video',
@@ -171,6 +180,7 @@ async function checkSource(
   capture: CaptureOptions,
   { sink, base }: RobotOptions,
   robotRuns: boolean,
+  { producerMs, watchMs }: DoctorTimes,
 ): Promise<Result[]> {
   const { source } = capture;
   if (robotRuns && source.kind === 'shm' && source.layout === 'reference')
@@ -181,7 +191,7 @@ async function checkSource(
       ),
     ];
   try {
-    const trial = await trySource({ ...capture, source: trialSource(source) }, WATCH_MS);
+    const trial = await trySource({ ...capture, source: trialSource(source, producerMs) }, watchMs);
     return judgeSource(trial, sink.kind === 'base' && base === null, capture.picturesOfCloud);
   } catch (error) {
     return judgeClosedSource(source, error as Error);

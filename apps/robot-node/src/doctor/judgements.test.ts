@@ -180,7 +180,7 @@ describe('source', () => {
   });
 
   it('fails to open, after a short wait', () => {
-    expect(trialSource(shm)).toEqual({ ...shm, waitMs: 3000 });
+    expect(trialSource(shm, 3000)).toEqual({ ...shm, waitMs: 3000 });
     expect(judgeClosedSource(shm, new Error('/dev/shm/farpoint_cloud: ENOENT'))[0]?.remedy).toContain(
       'start the camera',
     );

@@ -9,7 +9,7 @@ import { RosSink } from './ros-sink.ts';
 const { python, missing } = Ros1Peers.find();
 const ahead: Twist = { ...zeroTwist(), linear: { x: 0.3, y: 0, z: 0 } };
 const SILENCE_MS = 150;
-const HANG_MS = 800;
+const HANG_MS = 2000;
 
 describe.skipIf(python === null)(`ROS sink (${missing ?? 'rosmaster, rospy'})`, { timeout: 60_000 }, () => {
   let peers: Ros1Peers;
@@ -19,7 +19,7 @@ describe.skipIf(python === null)(`ROS sink (${missing ?? 'rosmaster, rospy'})`, 
   }, 60_000);
   afterAll(() => peers.close());
 
-  it('publishes zero within the silence time while the main thread hangs', async () => {
+  it('publishes zero while the main thread hangs', async () => {
     const node = await peers.startNode('velocity', 'base');
     const [entry] = topicTableSchema.parse([{ topic: '/cmd_vel', as: 'velocity' }]);
     if (entry === undefined) throw new Error('no entry');
@@ -40,7 +40,8 @@ describe.skipIf(python === null)(`ROS sink (${missing ?? 'rosmaster, rospy'})`, 
     while (!node.heard.some(({ x }) => x === 0)) await new Promise((resolve) => setTimeout(resolve, 5));
     const firstZero = node.heard.find(({ x }) => x === 0)?.nodeMs ?? 0;
     expect(firstZero - hangAt).toBeGreaterThan(0);
-    expect(firstZero - hangAt).toBeLessThan(HANG_MS / 2);
+    // It does not wait for the main thread. After how many ms: ros-velocity.test.ts.
+    expect(firstZero - hangAt).toBeLessThan(HANG_MS);
     expect(warnings).toEqual([]);
     await sink.close();
     await node.kill();

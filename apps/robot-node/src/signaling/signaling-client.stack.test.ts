@@ -1,5 +1,6 @@
 import { once } from 'node:events';
 import type { AddressInfo } from 'node:net';
+import { freePorts } from '@farpoint/local-stack';
 import {
   decodeJson,
   type RobotToService,
@@ -16,8 +17,10 @@ afterEach(async () => {
   for (const cleanup of cleanups.splice(0).reverse()) await cleanup();
 });
 
-async function service(port = 0) {
-  const server = new WebSocketServer({ port, host: '127.0.0.1' });
+/** @param port that of a service before; a new one, that stays this test's, if absent */
+async function service(port?: number) {
+  const [own = 0] = port === undefined ? await freePorts(1) : [port];
+  const server = new WebSocketServer({ port: own, host: '127.0.0.1' });
   await once(server, 'listening');
   const stop = async () => {
     for (const socket of server.clients) socket.terminate();

@@ -77,8 +77,6 @@ describe.skipIf(codecs.size < 2)(
       const frames = browser.client.videos.get('1')!.frames;
       const steps = frames.slice(1).map(({ timestamp }, i) => (timestamp - frames[i]!.timestamp) >>> 0);
       expect(steps.filter((step) => step === 0 || step >= 2 ** 31)).toEqual([]);
-      // Without a picture for less than 3 s, in 1/90000 s: a process ends, and another begins.
-      expect(Math.max(...steps)).toBeLessThan(270_000);
 
       await firefox.close();
       await codecsOf(browser, ['H264', 'H264', 'H264']);

@@ -1,12 +1,12 @@
 /**
  * The suites against stand-ins for the released programs: they pass at level `reference` and fail at level `strict`.
+ * Signaling: ../main.stack.test.ts.
  */
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import type { KnownDefect } from '../known-defects.ts';
 import { ReleasedBridge, ReleasedRobot, ReleasedSignaling } from '../testing/index.ts';
 import { bridgeSuite } from './bridge-suite.ts';
 import { robotSuite } from './robot-suite.ts';
-import { signalingSuite } from './signaling-suite.ts';
 import { type CaseResult, type ConformanceCase, type Level, runSuite } from './suite.ts';
 
 let signaling: ReleasedSignaling;
@@ -32,23 +32,6 @@ async function expectAllDefects<Target>(
   const known = suite.flatMap(({ defect }): KnownDefect[] => (defect === undefined ? [] : [defect]));
   expect(shown).toEqual(known);
 }
-
-describe('signaling', { timeout: 60_000 }, () => {
-  const target = () => ({ robot: signaling.robotUrl, client: signaling.clientUrl });
-
-  it('passes at level reference with its defects named, and keeps running', async () => {
-    await expectAllDefects(signalingSuite, target());
-    expect(signaling.death).toBeNull();
-  });
-
-  it('fails at level strict for each of them, and ends', async () => {
-    const results = await runSuite(signalingSuite, target(), 'strict');
-    expect(failed(results).map(({ name }) => name)).toEqual(
-      signalingSuite.filter(({ defect }) => defect !== undefined).map(({ name }) => name),
-    );
-    expect(signaling.death).not.toBeNull();
-  });
-});
 
 describe('robot', { timeout: 60_000 }, () => {
   it.each(['as robot 0, which registers again on its socket', 'as another, which offers again'])(

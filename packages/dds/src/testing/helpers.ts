@@ -1,4 +1,5 @@
 /** Helpers for this package's tests. */
+import { reserveNumberNow } from '@farpoint/local-stack/reserved-numbers';
 import { RosFault } from '@farpoint/ros';
 import { isAvailable } from '../addon.ts';
 
@@ -8,9 +9,14 @@ export const ADDON_SUITE = {
   note: 'needs CycloneDDS and the addon: apt-get install cyclonedds-dev; pnpm build:native dds',
 };
 
-/** A domain that no other test on this machine uses. The system may assign the ports of higher domains to others. */
+/** Their ports, UDP 7400 + 250 × domain and on, are below those of Janus and of outgoing packets. */
+const DOMAINS = { kind: 'dds-domain', first: 1, last: 49 };
+let domain: number | null = null;
+
+/** A domain of this thread, that no other test on this machine uses. */
 export function testDomain(): number {
-  return 1 + (process.pid % 100);
+  domain ??= reserveNumberNow(DOMAINS);
+  return domain;
 }
 
 /** Resolves once `is` returns true; another thread or process changes its result. */

@@ -5,6 +5,7 @@ import type { AddressInfo } from 'node:net';
 
 export const TURN = { allocate: 0x003, refresh: 0x004, permission: 0x008, channelBind: 0x009 } as const;
 const [SUCCESS, ERROR] = [0x100, 0x110];
+const BINDING = 0x001;
 const COOKIE = 0x2112_a442;
 
 export type Attribute = readonly [type: number, value: Buffer];
@@ -78,6 +79,17 @@ export class HostileTurn {
   /** Resolves once this many requests of the method have arrived. */
   async asked(method: number, times = 1): Promise<void> {
     while (this.count(method) < times) await new Promise<void>((resolve) => this.#waiting.add(resolve));
+  }
+
+  /** A request of somebody else, and its answer. */
+  async roundTrip(): Promise<void> {
+    const socket = createSocket('udp4');
+    const request = Buffer.alloc(20);
+    request.writeUInt16BE(BINDING);
+    request.writeUInt32BE(COOKIE, 4);
+    socket.send(request, this.port, '127.0.0.1');
+    await once(socket, 'message');
+    socket.close();
   }
 
   close(): void {

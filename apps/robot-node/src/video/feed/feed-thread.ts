@@ -45,10 +45,15 @@ export class FeedThread {
   #heartbeat: Heartbeat | null = null;
   #checking: NodeJS.Timeout | null = null;
   #restart: NodeJS.Timeout | null = null;
+  readonly #life: typeof SIGNS_OF_LIFE;
   #nextRun: RunId = 0;
   #restarts = 0;
 
-  constructor(log: Logger, { script = new URL('./feed-worker.ts', import.meta.url), retry = RETRY } = {}) {
+  constructor(
+    log: Logger,
+    { script = new URL('./feed-worker.ts', import.meta.url), retry = RETRY, life = SIGNS_OF_LIFE } = {},
+  ) {
+    this.#life = life;
     this.#log = log;
     this.#script = script;
     this.#backoff = new Backoff({ ...retry, random: Math.random });
@@ -118,8 +123,8 @@ export class FeedThread {
     let reason = 'it ended';
     this.#restart = null;
     this.#worker = worker;
-    this.#heartbeat = new Heartbeat(SIGNS_OF_LIFE, performance.now());
-    this.#checking = setInterval(() => this.#checkLife(startedMs), SIGNS_OF_LIFE.checkMs).unref();
+    this.#heartbeat = new Heartbeat(this.#life, performance.now());
+    this.#checking = setInterval(() => this.#checkLife(startedMs), this.#life.checkMs).unref();
     worker.on('message', (report: FeedReport) => {
       if (this.#worker === worker) this.#onReport(report);
     });

@@ -1,12 +1,9 @@
-/** Operators recognise the robot: by its key file, and at the running robot behind the real signaling service. */
+/** The robot's key file. That the running robot proves its key: robot.stack.test.ts. */
 import { chmodSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { soleFingerprint, verifyIdentity } from '@farpoint/grants';
 import { silentLogger } from '@farpoint/service';
 import { afterAll, describe, expect, it, vi } from 'vitest';
-import { SignaledOperator } from '../testing/signaled-operator.ts';
-import { useRobot } from '../testing/use-robot.ts';
 import { openRobotKey, RobotKey, RobotKeyError } from './robot-key-file.ts';
 
 const folder = mkdtempSync(join(tmpdir(), 'farpoint-robot-key-'));
@@ -40,31 +37,5 @@ describe('the key file', () => {
   it('signs nothing for an offer without a certificate', async () => {
     const key = await RobotKey.open(join(folder, 'other.json'));
     expect(await key.identify({ robot: 'r1', session: 's', offer: 'v=0\r\n' }, 0)).toBeUndefined();
-  });
-});
-
-const ROBOT = 'sim-1';
-const path = join(folder, 'sim-1.json');
-const robot = useRobot(ROBOT, [
-  ...['--rate-control', 'fixed', '--sim-size', '64', '--max-points', '600', '--robot-key', path],
-]);
-
-describe('the running robot', { timeout: 30_000 }, () => {
-  /** The thumbprint that the robot proves in a new session. */
-  async function shown(): Promise<string> {
-    const operator = robot.keep(await SignaledOperator.connect(robot.stack.signalingUrl, ROBOT));
-    const offers = operator.heard.filter((message) => message.type === 'session.offer');
-    const [{ sdp, identity = '' } = { sdp: '' }] = offers;
-    const robotFingerprint = soleFingerprint(sdp) ?? '';
-    return await verifyIdentity(identity, { robot: ROBOT, session: operator.session, robotFingerprint });
-  }
-
-  it('proves its key with the first offer of each session, also after a restart', async () => {
-    const { thumbprint } = await RobotKey.open(path);
-    expect(await shown()).toBe(thumbprint);
-    expect(await shown()).toBe(thumbprint);
-    await robot.stack.robot(ROBOT).stop();
-    await robot.stack.restartRobot(ROBOT);
-    expect(await shown()).toBe(thumbprint);
   });
 });

@@ -1,12 +1,39 @@
+/** Checks of what this machine has: UDP ports, and blocks and locks in shared memory. */
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { isAvailable, StopBlockWriter } from '@farpoint/shared-memory';
+import { isAvailable, ReferenceControlWriter, StopBlockWriter } from '@farpoint/shared-memory';
 import { afterAll, describe, expect, it } from 'vitest';
+import { checkSharedMemory } from './check-files.ts';
+import { checkUdpPorts } from './check-network.ts';
 import { checkStops } from './check-stops.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-doctor-stops-'));
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-doctor-checks-'));
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
+
+it('UDP ports: too few, privileged', async () => {
+  const verdicts = async (range: [number, number]) =>
+    (await checkUdpPorts(range, 4)).map(({ verdict }) => verdict);
+  expect(await checkUdpPorts(null, 4)).toEqual([]);
+  expect(await verdicts([50_000, 50_003])).toEqual(['warn']);
+  expect(await verdicts([50_000, 50_400])).toEqual(['ok']);
+});
+
+it.skipIf(!isAvailable())('names the program that writes the velocities, unless that is the robot', () => {
+  const sink = { kind: 'shm', folder, mode: 0o600, silenceMs: 150 } as const;
+  const faults = (robotRuns: boolean) =>
+    checkSharedMemory({ kind: 'pcd', path: 'x', frame: 'body' }, sink, robotRuns)
+      .filter(({ verdict }) => verdict === 'fail')
+      .map(({ detail }) => detail);
+  expect(faults(false)).toEqual([]);
+  using writer = new ReferenceControlWriter({ folder, silenceMs: 1000 });
+  expect(writer.silences).toBe(0);
+  expect(faults(false)).toEqual([
+    expect.stringContaining(`is written by another program (process ${process.pid})`),
+  ]);
+  expect(faults(true)).toEqual([]);
+});
+
 const path = join(folder, 'stop');
 const shm = { path, silentMs: 100 };
 

@@ -1,0 +1,76 @@
+/**
+ * The robot program plays a recording: clouds at the recorded poses, pictures and readings as configured, and what the
+ * robot told about itself, marked as recorded.
+ */
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { makeRecording, SIDE, SPEED, valueOfSample } from './testing/made-recording.ts';
+import { SignaledOperator } from './testing/signaled-operator.ts';
+import { useRobot } from './testing/use-robot.ts';
+
+const ROBOT = 'played-1';
+const folder = mkdtempSync(join(tmpdir(), 'farpoint-played-'));
+const path = join(folder, 'drive.mcap');
+const config = join(folder, 'farpoint.yaml');
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+beforeAll(async () => {
+  await makeRecording(path);
+  const entries = [
+    { topic: '/farpoint/pictures/Camera', as: 'picture', label: 'Front' },
+    { topic: '/farpoint/telemetry', as: 'text', type: 'std_msgs/String', label: 'Drive' },
+  ];
+  writeFileSync(config, JSON.stringify({ robot: { topics: entries } }));
+});
+
+const PLAYS = ['--source', 'recording', '--path', path, '--max-points', '300', '--rate-control', 'fixed'];
+const robot = useRobot(ROBOT, ['--config', config, ...PLAYS]);
+
+describe('a robot that plays a recording', { timeout: 30_000 }, () => {
+  it('sends its clouds and pictures, and is where it was', async () => {
+    const { client } = await robot.connect();
+    expect(await client.message('cameras')).toMatchObject({ cameras: [{ name: 'Front' }] });
+    client.sendSession({ type: 'pictures', cameras: [0] });
+    await client.until(() => client.pictures.has(0));
+    expect(client.pictures.get(0)).toMatchObject({ format: 'jpeg', width: SIDE, height: SIDE });
+    await client.until(() => client.readings.has('/farpoint/telemetry'));
+    expect(client.readings.get('/farpoint/telemetry')).toMatchObject({ label: 'Drive', level: 'ok' });
+    await client.until(() => client.completeFrames.length >= 5);
+    expect(client.malformedPackets).toBe(0);
+    expect(client.completeFrames.every((frame) => frame.points === 300)).toBe(true);
+    // It moves although nobody drives.
+    await client.until(() => Math.abs((client.telemetry?.twist.linear.x ?? 0) - SPEED) < 1e-6);
+  });
+
+  it('tells what it told about itself, marked as recorded', async () => {
+    const { client } = await robot.connect();
+    expect(await client.message('alarm')).toMatchObject({
+      ...{ level: 'warn', limit: 20, unit: '%', recorded: true },
+    });
+    await client.until(() => client.newest.diagnostics !== undefined && client.samples.length >= 10);
+    const quantities = client.session.filter((message) => message.type === 'quantity');
+    expect(quantities.map(({ topic, field, recorded }) => `${topic} ${field} ${recorded}`)).toEqual([
+      ...['/motors left true', '/motors right true'],
+    ]);
+    expect(client.newest.diagnostics).toMatchObject({
+      ...{ topic: '/diagnostics', counts: { warn: 1, ok: 3 }, recorded: true },
+    });
+    const known = Array.from({ length: 30 }, (_, k) => valueOfSample(k));
+    const values = client.samples.filter(([number]) => number === 0).map(([, , value]) => value);
+    expect(values.length).toBeGreaterThan(0);
+    for (const value of values) expect(known).toContain(value);
+  });
+
+  it('leaves that out with --play-telemetry none', async () => {
+    const args = [...PLAYS, '--play-telemetry', 'none'];
+    await robot.stack.startRobot({ id: 'played-2', name: 'Robot', args });
+    const operator = robot.keep(await SignaledOperator.connect(robot.stack.signalingUrl, 'played-2'));
+    const { client } = operator;
+    // The other robot has told all of it by then.
+    await client.until(() => client.completeFrames.length >= 10);
+    const told = client.session.filter(({ type }) => type === 'quantity' || type === 'alarm');
+    expect([told, client.samples, client.newest.diagnostics]).toEqual([[], [], undefined]);
+    await robot.stack.robot('played-2').stop();
+  });
+});
