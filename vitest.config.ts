@@ -28,7 +28,9 @@ export default defineConfig({
           setupFiles: ['scripts/lib/test-setup.ts', 'scripts/lib/pure-guard.ts'],
           // Nothing to isolate: modules are loaded once for all files, which is most of the time.
           isolate: false,
-          pool: 'threads',
+          // A process of its own, because a thread takes no options of the engine: fewer and larger collections of what is new.
+          pool: 'forks',
+          execArgv: ['--max-semi-space-size=32'],
           // Vitest's default leaves one core idle: of two, that is half.
           maxWorkers: '100%',
         },

@@ -39,6 +39,7 @@ const FOR_DEVELOPERS =
 const EXAMPLES = [
   'scripts/lib/package-imports.test.ts',
   'scripts/lib/file-imports.test.ts',
+  'scripts/lib/import-graph.test.ts',
   'scripts/published-packages.stack.test.ts',
   'e2e/tests/own-page.spec.ts',
 ];

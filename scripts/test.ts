@@ -3,34 +3,49 @@
  * how long it took, and the end says what became of everything. What is missing on this machine is installed first; what
  * cannot be had is named.
  */
-import { mkdirSync, writeFileSync } from 'node:fs';
+import { appendFileSync, mkdirSync, writeFileSync } from 'node:fs';
+import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { root } from './lib/run.ts';
-import { addTallies, emptyTally } from './lib/tally.ts';
 import { readWorkspaceFile } from './lib/workspace-files.ts';
+import { countFlakes, flakeLines } from './test/flakes.ts';
 import { groupStates } from './test/group-states.ts';
+import { pinTo, startLoad } from './test/load.ts';
 import { NEEDS } from './test/needs.ts';
 import { nameOf } from './test/outcome.ts';
 import { ProvenGroups } from './test/proven.ts';
 import { provision } from './test/provision.ts';
 import { readQuarantine } from './test/quarantine.ts';
+import { type RepeatOptions, readRepeatOptions } from './test/repeat-options.ts';
+import { runSteps } from './test/run-steps.ts';
+import { TestSelection } from './test/selection.ts';
 import { STEPS, type TestRun } from './test/steps.ts';
 import { type StepSummary, summaryOf } from './test/summary.ts';
 import { type Judged, MOST_FLAKY } from './test/verdict.ts';
 
-const HELP = `pnpm test [--only STEP[,STEP…]] [--all] [--pictures]
+const HELP = `pnpm test [--only STEP[,STEP…]] [--changed] [--all] [--pictures] [--repeat N] [--load N] [--cpus N]
 
 ${STEPS.map(({ name, what }) => `  ${name.padEnd(11)} ${what}`).join('\n')}
 
+  --changed   what a change needs most, in about a minute: lint, types, and the pure, scenario and page tests of which
+              something has changed, in their packages or in what these use, since they last passed on this machine
   --all       also the groups of tests (tests/groups.yaml) that have passed here with the same inputs, and the long forms
-  --pictures  browser tests save the pictures that only people look at (e2e/output)`;
+  --pictures  browser tests save the pictures that only people look at (e2e/output)
+  --repeat N  the steps N times; the end says which tests failed how often, and whether that is within the budget of
+              their layer (docs/tests.md). Also appended to .farpoint/flakes.jsonl
+  --load N    beside N busy programs of the same priority
+  --cpus N    tests and busy programs on N cores only (Linux)`;
 
 const { values } = parseArgs({
   options: {
     only: { type: 'string' },
+    changed: { type: 'boolean', default: false },
     all: { type: 'boolean', default: false },
     pictures: { type: 'boolean', default: false },
+    repeat: { type: 'string' },
+    load: { type: 'string' },
+    cpus: { type: 'string' },
     help: { type: 'boolean', short: 'h' },
   },
 });
@@ -48,11 +63,18 @@ if (unknown !== undefined) {
   process.exit(2);
 }
 
+const { repeat, load, cpus } = repeatOptions();
+if (cpus !== null) await pinTo(cpus);
+
 if (values.all) process.env.FARPOINT_LONG_TESTS = '1';
 if (values.pictures) process.env.FARPOINT_PICTURES = '1';
 const began = performance.now();
 const say = (line: string): void => console.log(`  ${line}`);
-const chosen = STEPS.filter(({ name }) => only === undefined || only.includes(name));
+const selection = new TestSelection();
+const changed = values.changed ? selection.changed(STEPS.map(({ name }) => name)) : null;
+const chosen = STEPS.filter(
+  ({ name }) => (only?.includes(name) ?? true) && (changed?.steps.includes(name) ?? true),
+);
 const quarantine = readQuarantine(readWorkspaceFile('tests/quarantine.yaml'));
 
 const needs = NEEDS.filter(({ steps }) => chosen.some(({ name }) => steps.includes(name)));
@@ -62,28 +84,13 @@ const proven = new ProvenGroups();
 const hasGroups = chosen.some(({ name }) => name === 'stack' || name === 'rust');
 const names = missing.map(({ name }) => name);
 const groups = hasGroups ? await groupStates(proven, names, values.all) : [];
-const context: TestRun = { say, missing, groups, proven, quarantine };
+const filesOf = (step: string) => changed?.files.get(step);
+const context: TestRun = { say, missing, groups, proven, quarantine, filesOf };
 
-const summaries: StepSummary[] = [];
-let counted = emptyTally;
-for (const [index, step] of chosen.entries()) {
-  console.log(`[${index + 1}/${chosen.length}] ${step.what}`);
-  const started = performance.now();
-  const result = await step.run(context);
-  const ms = performance.now() - started;
-  const { ok, judged = [], failure = null, notTested = [] } = result;
-  if (result.tally !== undefined) counted = addTallies(counted, result.tally);
-  if (failure !== null) console.log(failure);
-  for (const what of notTested) say(`– not tested here: ${what}`);
-  const seconds = (ms / 1000).toFixed(1);
-  console.log(ok ? `  ✓ ${seconds} s` : `  ✗ failed after ${seconds} s`);
-  const isOfTest = judged.some(({ verdict }) => verdict === 'failed');
-  summaries.push({
-    ...{ name: step.name, ms, ok, judged, notTested, proven: result.proven ?? [] },
-    // The end of a log is what its reader looks at first.
-    failure: ok || (isOfTest && failure === null) ? null : (failure ?? '').split('\n').slice(-12).join('\n'),
-  });
-}
+const busy = startLoad(load);
+if (repeat > 1 || load > 0) process.exit(await repeated());
+const { summaries, counted } = await runSteps(chosen, context);
+selection.keepPassed(summaries);
 
 const all = summaries.flatMap(({ judged }) => judged);
 const count = (...verdicts: Judged['verdict'][]) =>
@@ -94,6 +101,7 @@ const lines = summaryOf(summaries, performance.now() - began, againWords, quaran
 mkdirSync(join(root, '.farpoint'), { recursive: true });
 writeFileSync(join(root, '.farpoint', 'test-summary.txt'), `${lines.join('\n')}\n`);
 console.log(`\n${lines.join('\n')}`);
+if (changed !== null) console.log(changed.leftOut);
 if (only?.join() === 'pure' && isGreen)
   console.log(
     'next: pnpm test --only lint,types,stack, then pnpm test for everything; one package: see CONTRIBUTING.md',
@@ -108,6 +116,30 @@ const passed = count('passed', 'flaky') + counted.passed;
 const skipped = count('skipped', 'quarantined') + counted.skipped;
 console.log(`\n${passed} passed, ${failures} failed${skipped > 0 ? `, ${skipped} skipped` : ''}`);
 process.exit(isGreen ? 0 : 1);
+
+/** @returns the exit code: 1 if more fails than the layers' budgets allow */
+async function repeated(): Promise<number> {
+  const repetitions: StepSummary[][] = [];
+  for (let time = 1; time <= repeat; time++)
+    repetitions.push((await runSteps(chosen, context, `${time} of ${repeat} `)).summaries);
+  busy.end();
+  const flakes = countFlakes(repetitions);
+  const what = { at: new Date().toISOString(), repeat, load, cpus, ...flakes };
+  mkdirSync(join(root, '.farpoint'), { recursive: true });
+  appendFileSync(join(root, '.farpoint', 'flakes.jsonl'), `${JSON.stringify(what)}\n`);
+  const beside = `${repeat} times beside ${load} busy programs${cpus === null ? '' : `, on ${cpus} cores`}`;
+  console.log(`\n${[beside, ...flakeLines(flakes)].join('\n')}`);
+  return flakes.ok ? 0 : 1;
+}
+
+function repeatOptions(): RepeatOptions {
+  try {
+    return readRepeatOptions(values, availableParallelism());
+  } catch (error) {
+    console.error(error instanceof Error ? error.message : error);
+    process.exit(2);
+  }
+}
 
 /** The command that repeats one test. */
 function againWords(step: string, test: Judged): string {

@@ -1,29 +1,8 @@
 /** How each command in the documents is tested. A command missing here, or no longer in a document, fails the test. */
 
-/** Why a command cannot run where tests run. */
-export type Obstacle =
-  | 'needs root'
-  | 'needs systemd'
-  | 'needs a container engine'
-  | 'needs a ROS installation'
-  | 'needs a robot that is installed'
-  | 'builds for minutes'
-  | 'measures for minutes'
-  | 'runs until it is ended, and every test of it'
-  | 'writes into the working tree'
-  | 'needs Rust';
+import type { Treatment } from './document-treatment.ts';
 
-export type Treatment =
-  /** Runs as written until it logs this. `also` keeps it off other programs' ports and services. */
-  | { up: string | RegExp; also?: readonly string[]; fill?: Readonly<Record<string, string>> }
-  /** Runs as written and cannot start here, for this reason. */
-  | { refused: RegExp; also?: readonly string[] }
-  /** Its program's help must name each of its options. */
-  | { help: true; because?: Obstacle }
-  /** This file must name each of its options. */
-  | { options: string; because: Obstacle }
-  /** Only its files and its script must exist. */
-  | { because: Obstacle };
+export type { Treatment } from './document-treatment.ts';
 
 const ALONE = ['--admin-port', '0', '--signaling', 'ws://127.0.0.1:9'];
 const FREE_LINK = ['--port', '0', '--admin-port', '0'];
@@ -55,6 +34,22 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'pnpm test --help': { help: true },
   'pnpm test --all': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm test --pictures': { help: true, because: 'runs until it is ended, and every test of it' },
+  'pnpm test --changed': { help: true, because: 'runs until it is ended, and every test of it' },
+  'pnpm test --only pure --repeat 10 --load 2': {
+    help: true,
+    because: 'runs until it is ended, and every test of it',
+  },
+  'pnpm test --only stack --repeat 3 --load 4 --cpus 1': {
+    help: true,
+    because: 'runs until it is ended, and every test of it',
+  },
+  'pnpm soak': { help: true, because: 'runs until it is ended, and every test of it' },
+  'pnpm soak --list': { help: true },
+  'pnpm soak --mutants': { help: true, because: 'runs until it is ended, and every test of it' },
+  'pnpm soak load properties --seed 7': {
+    help: true,
+    because: 'runs until it is ended, and every test of it',
+  },
   'pnpm mutants': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm mutants grip-never-read-late': {
     help: true,
@@ -114,7 +109,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'node signaling.mjs audit verify audit.jsonl': { help: true },
   'pnpm robot audit verify FILE…': { help: true },
   'pnpm signaling audit verify FILE…': { help: true },
-  'pnpm test --only scenario': { help: true, because: 'runs every scenario' },
+  'pnpm test --only scenario': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm test --only supply': { help: true, because: 'runs until it is ended, and every test of it' },
   'docker buildx imagetools inspect node:24-alpine': { because: 'needs a container engine' },
   'pnpm signaling grant …': { help: true },

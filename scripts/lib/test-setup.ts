@@ -1,4 +1,5 @@
 import fc from 'fast-check';
+import { PROPERTY_SEED } from '../../packages/network-sim/src/cases.ts';
 
 // Property tests use the same cases on every run; FAST_CHECK_SEED gives others.
-fc.configureGlobal({ ...fc.readConfigureGlobal(), seed: Number(process.env.FAST_CHECK_SEED ?? 1) });
+fc.configureGlobal({ ...fc.readConfigureGlobal(), seed: PROPERTY_SEED });

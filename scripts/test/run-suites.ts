@@ -45,6 +45,8 @@ export interface VitestOptions {
   project: string;
   /** Files that do not run. */
   without?: readonly string[];
+  /** The only files that run; default: all. */
+  files?: readonly string[] | undefined;
   /** Whether a test that failed is run again, because it depends on processes and real time. */
   again: boolean;
   quarantine?: readonly Quarantined[];
@@ -53,6 +55,7 @@ export interface VitestOptions {
 export async function runVitest({
   project,
   without = [],
+  files = [],
   again,
   quarantine = [],
 }: VitestOptions): Promise<SuiteResult> {
@@ -67,7 +70,7 @@ export async function runVitest({
     return { code, output, report: text === null ? null : readVitestReport(text, root) };
   };
   const name = project.replace('*', '');
-  const first = await vitest(name, []);
+  const first = await vitest(name, files);
   if (first.report === null) return { judged: [], failure: lastLines(first.output) };
   const { outcomes, fileMs } = first.report;
   const alone = await runFilesAgain(
@@ -103,13 +106,19 @@ function escaped(text: string): string {
 
 export interface PlaywrightOptions {
   project: 'chromium' | 'firefox';
+  /** The only files that run; default: all. */
+  files?: readonly string[] | undefined;
   quarantine: readonly Quarantined[];
 }
 
 /** Playwright names files relative to its configuration. */
 const FOLDER = 'e2e';
 
-export async function runPlaywright({ project, quarantine }: PlaywrightOptions): Promise<SuiteResult> {
+export async function runPlaywright({
+  project,
+  files = [],
+  quarantine,
+}: PlaywrightOptions): Promise<SuiteResult> {
   const playwright = async (name: string, args: readonly string[], env: Record<string, string> = {}) => {
     const file = reportFile(name);
     const { code, output } = await run(
@@ -123,7 +132,10 @@ export async function runPlaywright({ project, quarantine }: PlaywrightOptions):
     const text = reportIn(file);
     return { code, output, report: text === null ? null : readPlaywrightReport(text, FOLDER) };
   };
-  const first = await playwright(project, []);
+  const first = await playwright(
+    project,
+    files.map((file) => file.slice(`${FOLDER}/`.length)),
+  );
   if (first.report === null) return { judged: [], failure: lastLines(first.output) };
   const { outcomes, errors } = first.report;
   const alone: Outcome[] = [];

@@ -41,6 +41,8 @@ export interface TestRun {
   groups: readonly GroupState[];
   proven: ProvenGroups;
   quarantine: readonly Quarantined[];
+  /** The only files of tests that a step has to run; `undefined`: all. */
+  filesOf(step: string): readonly string[] | undefined;
 }
 
 export interface Step {
@@ -189,12 +191,14 @@ export const STEPS: readonly Step[] = [
   {
     name: 'pure',
     what: 'unit tests without processes, threads or sockets (vitest)',
-    run: async () => ofSuite(await runVitest({ project: 'pure', again: false })),
+    run: async ({ filesOf }) =>
+      ofSuite(await runVitest({ project: 'pure', files: filesOf('pure'), again: false })),
   },
   {
     name: 'scenario',
     what: 'operators, a link and a robot in virtual time (vitest)',
-    run: async () => ofSuite(await runVitest({ project: 'scenario', again: false })),
+    run: async ({ filesOf }) =>
+      ofSuite(await runVitest({ project: 'scenario', files: filesOf('scenario'), again: false })),
   },
   {
     name: 'rust',

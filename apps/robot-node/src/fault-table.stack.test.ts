@@ -145,6 +145,7 @@ describe.skipIf(!isAvailable())(
       const { hand } = await drive();
       await rig.stack.signaling.kill();
       await rig.untilDriving(hand);
+      expect(rig.wheels.speed).toBe(SPEED);
       await rig.stack.startSignaling();
     });
 

@@ -1,3 +1,4 @@
+import { someOf } from '@farpoint/network-sim/cases';
 import { describe, expect, test } from 'vitest';
 import { AdaptiveRateController } from './adaptive-rate-controller.ts';
 import { FramePace } from './frame-pace.ts';
@@ -88,7 +89,7 @@ describe('on a path', () => {
     expect(losses(media, 0, 20_000).overflow).toBe(0);
   });
 
-  test.each([0, 7, 19, 31])(
+  test.each(someOf([0, 7, 19, 31]))(
     'that becomes slower, frames go as slowly within 0.4 s (step %i ms later)',
     (late) => {
       const down = 10_000 + late;

@@ -1,3 +1,4 @@
+import { casesOf } from '@farpoint/network-sim/cases';
 import { expect, it } from 'vitest';
 import { allTargets } from './all-targets.ts';
 import { fuzz } from './fuzz.ts';
@@ -9,9 +10,9 @@ it('has every parser once', () => {
 });
 
 it.each(allTargets)(
-  '$name: seeds, corpus and two thousand mutations end in a value or a typed refusal',
+  '$name: seeds, corpus and mutations end in a value or a typed refusal',
   async (target) => {
-    const inputs = Math.max(40, 2000 * (target.share ?? 1));
+    const inputs = Math.max(40, casesOf(2000) * (target.share ?? 1));
     const { crashes } = await fuzz(target, { inputs, seed: 1, corpus: corpusOf(target.name) });
     expect(crashes.map(({ error, input }) => `${error} at ${Buffer.from(input).toString('base64')}`)).toEqual(
       [],

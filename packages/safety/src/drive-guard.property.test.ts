@@ -1,3 +1,4 @@
+import { longProperty } from '@farpoint/network-sim/cases';
 import { type Command, isZeroTwist, type Twist } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
@@ -191,7 +192,7 @@ function checkAnything(letGoAfterMs: number | undefined): void {
       check(nowMs + 149.9);
       check(nowMs + 150);
     }),
-    { seed: 20_240, numRuns: 400 },
+    longProperty(20_240, 400),
   );
   // Without this check, the property would hold for a robot that never moves.
   expect(moved / checked).toBeGreaterThan(0.015);

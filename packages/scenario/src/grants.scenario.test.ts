@@ -1,5 +1,4 @@
 /** What a grant lets an operator do, and when it ends. Its signature is verified elsewhere, before a session begins. */
-import type { Access } from '@farpoint/robot-node/testing/drive-core';
 import { expect, test } from 'vitest';
 import { Scenario } from './scenario.ts';
 import { virtualTime } from './virtual-time.ts';
@@ -8,18 +7,12 @@ const WARNING_MS = 60_000;
 /** A tick of the robot, and the way to the operator. */
 const SOON_MS = 31;
 
-function granted(role: NonNullable<Access['role']>, subject: string, lastsMs = 3_600_000): Access {
-  const grant = { id: `grant of ${subject}`, subject, keyId: 'k1', issuedAtS: Date.now() / 1000 };
-  const expiresAtS = (Date.now() + lastsMs) / 1000;
-  return { role, subject, name: subject, expiresAtS, keyId: 'k1', grant };
-}
-
 test('one that lets its holder watch moves nothing, takes no lease, and still stops the robot', () => {
   using time = virtualTime();
   using scenario = new Scenario(time.advance, { args: ['--take-policy', 'always'] });
-  const driver = scenario.driving(0.5, granted('drive', 'Ada'));
-  const watcher = scenario.connected('watcher', granted('watch', 'Bob'));
-  const fromMs = performance.now();
+  const driver = scenario.driving(0.5, scenario.access('drive', 'Ada'));
+  const watcher = scenario.connected('watcher', scenario.access('watch', 'Bob'));
+  const fromMs = scenario.nowMs;
   watcher.client.takeOver();
   watcher.hand.push(-1);
   scenario.run(2000);
@@ -35,14 +28,14 @@ test('a driver is warned a minute before the end, and stands when it comes', () 
   using time = virtualTime();
   using scenario = new Scenario(time.advance);
   const lastsMs = 75_000;
-  const endsAtMs = performance.now() + lastsMs;
-  const driver = scenario.driving(0.5, granted('drive', 'Ada', lastsMs));
+  const endsAtMs = scenario.nowMs + lastsMs;
+  const driver = scenario.driving(0.5, scenario.access('drive', 'Ada', lastsMs));
   const warnedMs: number[] = [];
-  driver.client.on('grantExpires', () => warnedMs.push(performance.now()));
+  driver.client.on('grantExpires', () => warnedMs.push(scenario.nowMs));
   scenario.until(() => warnedMs.length > 0, lastsMs);
   expect((warnedMs[0] ?? 0) - (endsAtMs - WARNING_MS)).toBeGreaterThanOrEqual(0);
   expect((warnedMs[0] ?? 0) - (endsAtMs - WARNING_MS)).toBeLessThanOrEqual(SOON_MS);
-  const fromMs = performance.now();
+  const fromMs = scenario.nowMs;
   scenario.run(endsAtMs - fromMs - 1);
   expect(scenario.robot.wheels.braked(fromMs)).toBe(null);
   scenario.run(1 + SOON_MS);
@@ -56,13 +49,13 @@ test('a driver is warned a minute before the end, and stands when it comes', () 
 test('a supervisor takes the lease of a driver whose robot allows no taking', () => {
   using time = virtualTime();
   using scenario = new Scenario(time.advance, { args: ['--take-policy', 'never'] });
-  const driver = scenario.driving(0.5, granted('drive', 'Ada'));
-  const other = scenario.connected('other', granted('drive', 'Cyd'));
-  const fromMs = performance.now();
+  const driver = scenario.driving(0.5, scenario.access('drive', 'Ada'));
+  const other = scenario.connected('other', scenario.access('drive', 'Cyd'));
+  const fromMs = scenario.nowMs;
   other.client.takeOver();
   scenario.run(500);
   expect(scenario.robot.wheels.braked(fromMs)).toBe(null);
-  const supervisor = scenario.connected('supervisor', granted('supervise', 'Bob'));
+  const supervisor = scenario.connected('supervisor', scenario.access('supervise', 'Bob'));
   supervisor.client.takeOver();
   scenario.run(500);
   expect([scenario.robot.wheels.speed, driver.client.driver.holder]).toEqual([0, 'other']);
@@ -72,8 +65,8 @@ test('a supervisor takes the lease of a driver whose robot allows no taking', ()
 test('a supervisor ends a driver’s session: the robot stands, and the page does not come back by itself', () => {
   using time = virtualTime();
   using scenario = new Scenario(time.advance);
-  const driver = scenario.driving(0.5, granted('drive', 'Ada'));
-  const supervisor = scenario.connected('supervisor', granted('supervise', 'Bob'));
+  const driver = scenario.driving(0.5, scenario.access('drive', 'Ada'));
+  const supervisor = scenario.connected('supervisor', scenario.access('supervise', 'Bob'));
   scenario.run(500);
   const number = supervisor.client.link.session.operators?.operators.find(
     ({ name }) => name === 'Ada',

@@ -61,6 +61,18 @@ export class Scenario implements Disposable {
     };
   }
 
+  /** The operators' clock, `performance.now()`, ms. */
+  get nowMs(): number {
+    return performance.now();
+  }
+
+  /** What a grant lets its holder do, for so long, ms. */
+  access(role: NonNullable<Access['role']>, subject: string, lastsMs = 3_600_000): Access {
+    const grant = { id: `grant of ${subject}`, subject, keyId: 'k1', issuedAtS: Date.now() / 1000 };
+    const expiresAtS = (Date.now() + lastsMs) / 1000;
+    return { role, subject, name: subject, expiresAtS, keyId: 'k1', grant };
+  }
+
   /** Lets time pass, ms. */
   run(ms: number): void {
     this.#advance(ms);

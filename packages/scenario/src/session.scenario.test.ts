@@ -23,7 +23,7 @@ describe('an outage', () => {
       cut(driver, true);
       scenario.run(lastsMs);
       expect([driver.client.phase, driver.link.interrupted, robot.wheels.speed]).toEqual(['live', true, 0]);
-      const backMs = performance.now();
+      const backMs = scenario.nowMs;
       cut(driver, false);
       scenario.until(() => !driver.link.interrupted, 4000);
       scenario.run(3000);
@@ -57,7 +57,7 @@ describe('an outage', () => {
     using time = virtualTime();
     using scenario = new Scenario(time.advance);
     const driver = scenario.driving();
-    const fromMs = performance.now();
+    const fromMs = scenario.nowMs;
     scenario.signaling.ready = false;
     scenario.run(30_000);
     expect(scenario.robot.wheels.braked(fromMs)).toBe(null);
@@ -92,7 +92,7 @@ describe('the lease', () => {
     second.hand.push(0.5);
     scenario.until(() => scenario.robot.wheels.speed === 0.5);
     // The first comes back with its grip held: it neither drives nor disturbs.
-    const fromMs = performance.now();
+    const fromMs = scenario.nowMs;
     cut(first, false);
     scenario.run(5000);
     expect(scenario.robot.wheels.braked(fromMs)).toBe(null);
@@ -104,7 +104,7 @@ describe('the lease', () => {
     using scenario = new Scenario(time.advance, { args: ['--take-policy', 'always'] });
     scenario.driving();
     const second = scenario.connected();
-    const fromMs = performance.now();
+    const fromMs = scenario.nowMs;
     second.hand.push(-1);
     scenario.run(3000);
     expect(scenario.robot.wheels.braked(fromMs)).toBe(null);
@@ -157,7 +157,7 @@ describe('STOP', () => {
     expect(driver.client.link.session.estop.latched).toBe(true);
     driver.client.releaseEstop();
     scenario.until(() => !driver.client.link.session.estop.latched);
-    const fromMs = performance.now();
+    const fromMs = scenario.nowMs;
     scenario.run(3000);
     expect(scenario.robot.wheels.fastestSince(fromMs)).toBe(0);
     driver.hand.letGo();
@@ -176,7 +176,7 @@ describe('a gap in the commands', () => {
     using time = virtualTime();
     using scenario = new Scenario(time.advance);
     const driver = scenario.driving();
-    const fromMs = performance.now();
+    const fromMs = scenario.nowMs;
     let left = missing;
     driver.hand.sends((command) => (left-- > 0 ? null : command));
     scenario.run(4000);

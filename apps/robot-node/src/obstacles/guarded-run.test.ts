@@ -1,4 +1,5 @@
 /** Full speed ahead among walls, furniture, people and holes: a few runs. `pnpm bench guard-runs` makes a thousand. */
+import { casesOf } from '@farpoint/network-sim/cases';
 import { defaultObstacleGuardOptions } from '@farpoint/safety';
 import { dockWorld } from '@farpoint/sim';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
@@ -10,7 +11,8 @@ it.each(RUN_WORLDS.map((world) => [world().name, world] as const))(
   async (_, world) => {
     const codec = await loadCodecFromDisk();
     const runs: GuardedRun[] = [];
-    for (let seed = 1; seed <= 5; seed++) runs.push(await guardedRun(codec, world, seed, { seconds: 8 }));
+    for (let seed = 1; seed <= casesOf(5); seed++)
+      runs.push(await guardedRun(codec, world, seed, { seconds: 8 }));
     expect(runs.flatMap(contactsOf)).toEqual([]);
     expect(runs.flatMap(({ unseenContacts }) => unseenContacts)).toEqual([]);
     // Nor over an edge, nor near one.
@@ -20,7 +22,7 @@ it.each(RUN_WORLDS.map((world) => [world().name, world] as const))(
       0.02 * sum(({ freeCommands }) => freeCommands),
     );
     // They did drive.
-    expect(sum(({ metres }) => metres)).toBeGreaterThan(5);
+    expect(sum(({ metres }) => metres) / runs.length).toBeGreaterThan(0.8);
   },
   30_000,
 );
@@ -28,7 +30,7 @@ it.each(RUN_WORLDS.map((world) => [world().name, world] as const))(
 it('drives into nothing that sensors anywhere on it have seen, and into nothing faster than unseen space allows', async () => {
   const codec = await loadCodecFromDisk();
   const runs: GuardedRun[] = [];
-  for (let seed = 1; seed <= 12; seed++) {
+  for (let seed = 1; seed <= casesOf(12); seed++) {
     const world = RUN_WORLDS[seed % RUN_WORLDS.length] as (typeof RUN_WORLDS)[number];
     runs.push(await guardedRun(codec, world, seed, { seconds: 8, sensors: 'drawn' }));
   }
@@ -38,7 +40,7 @@ it('drives into nothing that sensors anywhere on it have seen, and into nothing 
     for (const { speed } of unseenContacts)
       expect(Math.abs(speed)).toBeLessThanOrEqual(defaultObstacleGuardOptions.unseenMps + 1e-9);
   }
-  expect(runs.reduce((sum, { metres }) => sum + metres, 0)).toBeGreaterThan(10);
+  expect(runs.reduce((sum, { metres }) => sum + metres, 0) / runs.length).toBeGreaterThan(0.8);
 }, 60_000);
 
 it('keeps away from holes of whose insides the camera gives nothing', async () => {

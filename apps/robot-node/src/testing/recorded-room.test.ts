@@ -1,6 +1,8 @@
 /** Recorded clouds as the sensor: a few runs towards real furniture. `pnpm bench guard-runs --rooms` makes a thousand. */
+
 import { existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
+import { casesOf } from '@farpoint/network-sim/cases';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { describe, expect, it } from 'vitest';
 import { roomRun } from './recorded-room.ts';
@@ -15,14 +17,14 @@ describe.skipIf(!existsSync(clouds))('recorded rooms (skipped without ../shared/
     expect(rooms.map(({ name }) => name)).toEqual(['rgbd-sequence', 'kinect-room']);
     expect(skipped).toEqual(['stereo-table: it shows no floor to stand on']);
     for (const room of rooms) {
-      const runs = [1, 2, 3].map((seed) => roomRun(codec, room, seed, 6));
+      const runs = [1, 2, 3].slice(0, casesOf(3)).map((seed) => roomRun(codec, room, seed, 6));
       expect(runs.flatMap(({ contacts }) => contacts)).toEqual([]);
       const sum = (of: (run: (typeof runs)[number]) => number) =>
         runs.reduce((total, run) => total + of(run), 0);
       expect(sum(({ falseStops }) => falseStops)).toBeLessThanOrEqual(
         0.02 * sum(({ freeCommands }) => freeCommands),
       );
-      expect(sum(({ metres }) => metres)).toBeGreaterThan(1.5);
+      expect(sum(({ metres }) => metres) / runs.length).toBeGreaterThan(0.5);
       expect(sum(({ stops }) => stops)).toBeGreaterThan(0);
     }
   }, 60_000);

@@ -41,20 +41,28 @@ export class SeenThings {
   ): void {
     const [r0, r1, r2, r3, r4, r5, r6, r7, r8] = rotationMatrix(cameraPose.orientation);
     const { x, y, z } = cameraPose.position;
-    for (let i = 0; i < depth.length; i++) {
-      const [right, down] = [((i % width) - cx) / fx, (Math.floor(i / width) - cy) / fy];
-      const [toX, toY] = [r0 * right + r1 * down + r2, r3 * right + r4 * down + r5];
-      const toZ = r6 * right + r7 * down + r8;
-      const far = depth[i] as number;
-      const height = z + toZ * far;
-      if (far > 0 && height >= LOWEST_M && height <= HIGHEST_M) {
-        const cell = this.#mark(this.#thingMs, x + toX * far, y + toY * far, capturedAtMs);
-        if (cell !== null) this.#lastThingMs[cell] = capturedAtMs;
+    for (let row = 0, i = 0; i < depth.length; row++) {
+      const down = (row - cy) / fy;
+      // Without arrays: this runs for each pixel of each image, and is most of the time of a simulated drive.
+      const [rowX, rowY, rowZ] = [r1 * down + r2, r4 * down + r5, r7 * down + r8];
+      for (let column = 0; column < width; column++, i++) {
+        const right = (column - cx) / fx;
+        const toZ = r6 * right + rowZ;
+        const far = depth[i] as number;
+        const height = z + toZ * far;
+        const isThing = far > 0 && height >= LOWEST_M && height <= HIGHEST_M;
+        const floor = toZ < 0 ? -z / toZ : Number.POSITIVE_INFINITY;
+        const isThrough = floor <= HOLES_WITHIN_M && !(far > 0 && far < floor * THROUGH);
+        if (!isThing && !isThrough) continue;
+        const toX = r0 * right + rowX;
+        const toY = r3 * right + rowY;
+        if (isThing) {
+          const cell = this.#mark(this.#thingMs, x + toX * far, y + toY * far, capturedAtMs);
+          if (cell !== null) this.#lastThingMs[cell] = capturedAtMs;
+        }
+        if (isThrough && this.#isHole(x + toX * floor, y + toY * floor))
+          this.#mark(this.#holeMs, x + toX * floor, y + toY * floor, capturedAtMs);
       }
-      const floor = toZ < 0 ? -z / toZ : Number.POSITIVE_INFINITY;
-      if (floor > HOLES_WITHIN_M || (far > 0 && far < floor * THROUGH)) continue;
-      const [floorX, floorY] = [x + toX * floor, y + toY * floor];
-      if (this.#isHole(floorX, floorY)) this.#mark(this.#holeMs, floorX, floorY, capturedAtMs);
     }
   }
 

@@ -1,3 +1,4 @@
+import { casesOf, longProperty } from '@farpoint/network-sim/cases';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { ticksOf } from './memory-layout.ts';
@@ -118,9 +119,9 @@ describe('readPcd', () => {
           expect(error).toBeInstanceOf(PointFileError);
         }
       }),
-      { numRuns: 2000, seed: 4 },
+      longProperty(4, 2000),
     );
-    expect(read).toBeGreaterThan(50);
+    expect(read).toBeGreaterThan(casesOf(50));
   });
 });
 
@@ -151,7 +152,7 @@ describe.each(['ascii', 'binary'] as const)('as %s', (data) => {
         };
         expect(sorted(loaded.store)).toEqual(sorted(map.store));
       }),
-      { numRuns: 200, seed: 5 },
+      longProperty(5, 200),
     );
   });
 });

@@ -1,3 +1,4 @@
+import { longProperty } from '@farpoint/network-sim/cases';
 import type { Twist } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
@@ -139,7 +140,7 @@ test.each([true, false])(
           expect(least).toBeGreaterThanOrEqual(OPTIONS.radiusM);
         },
       ),
-      { seed: 19, numRuns: 2000 },
+      longProperty(19, 2000),
     );
     // Without this check, the property would hold for a robot that never moves.
     expect(way / runs).toBeGreaterThan(knowsYaw ? 1 : 0.3);
@@ -185,6 +186,6 @@ test('a robot that was put outside comes back in, and no farther out', () => {
         }
       },
     ),
-    { seed: 4, numRuns: 200 },
+    longProperty(4, 200),
   );
 });

@@ -1,3 +1,4 @@
+import { longProperty } from '@farpoint/network-sim/cases';
 import type { Twist } from '@farpoint/protocol';
 import { zeroTwist } from '@farpoint/protocol';
 import fc from 'fast-check';
@@ -339,7 +340,7 @@ describe('whatever it has seen', () => {
           expect(urgent).toBe(factor === 0);
         }
       }),
-      { seed: 11, numRuns: 400 },
+      longProperty(11, 400),
     );
   });
 
@@ -374,7 +375,7 @@ describe('whatever it has seen', () => {
         // To the middle of a cell, which is up to 3.5 cm from its edge.
         expect(nearest).toBeGreaterThan(0.12);
       }),
-      { seed: 13, numRuns: 60 },
+      longProperty(13, 60),
     );
   });
 
@@ -401,7 +402,7 @@ describe('whatever it has seen', () => {
         });
         expect(hit).toBe(-1);
       }),
-      { seed: 12, numRuns: 300 },
+      longProperty(12, 300),
     );
   });
 });

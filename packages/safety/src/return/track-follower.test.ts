@@ -1,3 +1,4 @@
+import { longProperty } from '@farpoint/network-sim/cases';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { Unicycle } from './testing/unicycle.ts';
@@ -150,7 +151,7 @@ describe('following a track back', () => {
             expect(Math.hypot(robot.pose.x, robot.pose.y)).toBeLessThan(0.2);
           }
         }),
-        { seed: 19, numRuns: 300 },
+        longProperty(19, 300),
       );
     });
 

@@ -1,6 +1,6 @@
 /** Which RTP and RTCP reach werift or the tap, at stand-ins for its sessions. */
 
-import { beforeEach, describe, expect, it } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { RTCDtlsTransport } from 'werift';
 import { PeerBudget, WATCHER_LIMITS } from '../peer-budget.ts';
 import { Refusals } from '../refusal.ts';
@@ -33,12 +33,16 @@ let srtcp: ReturnType<typeof session>;
 let refusals: Refusals;
 
 beforeEach(() => {
+  // A budget fills as time goes on, which it does not within a test.
+  vi.useFakeTimers({ toFake: ['performance'] });
   [srtp, srtcp, refusals] = [session(), session(), new Refusals()];
   for (const one of [srtp, srtcp]) one.decrypt = one.decrypt.bind(one);
   transport = { srtp, srtcp, startSrtp: () => undefined } as unknown as RTCDtlsTransport;
   guardMedia(transport, refusals, new PeerBudget());
   transport.startSrtp();
 });
+
+afterEach(() => void vi.useRealTimers());
 
 describe('RTCP', () => {
   it('werift gets reports only', () => {

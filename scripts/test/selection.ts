@@ -1,0 +1,59 @@
+/** What has to run after a change on this machine, and what is known of it afterwards. */
+import { createHash } from 'node:crypto';
+import { readFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import * as z from 'zod';
+import type { ExportingPackage } from '../lib/import-graph.ts';
+import { root } from '../lib/run.ts';
+import { readWorkspaceFile, workspaceFiles } from '../lib/workspace-files.ts';
+import { type Selection, selectChanged, type TestFile, testFiles } from './changed.ts';
+import { ProvenFiles } from './proven-files.ts';
+import type { StepSummary } from './summary.ts';
+
+const manifestSchema = z.object({ name: z.string(), exports: z.record(z.string(), z.unknown()).default({}) });
+
+function exportingPackages(): ExportingPackage[] {
+  return workspaceFiles
+    .filter((file) => /\/package\.json$/.test(file) && !/^examples\/|\/fixtures\//.test(file))
+    .map((file) => ({ folder: dirname(file), ...manifestSchema.parse(JSON.parse(readWorkspaceFile(file))) }));
+}
+
+export class TestSelection {
+  readonly #tests: readonly TestFile[];
+  readonly #proven: ProvenFiles;
+
+  /** Reads all files of the workspace, as they are before the tests. */
+  constructor(proven = new ProvenFiles()) {
+    const contents = new Map<string, Uint8Array>();
+    const read = (file: string): Uint8Array => {
+      const known = contents.get(file) ?? readFileSync(join(root, file));
+      contents.set(file, known);
+      return known;
+    };
+    const tools = createHash('sha256').update([process.version, process.platform, process.arch].join());
+    this.#tests = testFiles(
+      { files: workspaceFiles, packages: exportingPackages(), read },
+      tools.digest('hex'),
+    );
+    this.#proven = proven;
+  }
+
+  /** @param steps all that there are, in their order */
+  changed(steps: readonly string[]): Selection {
+    return selectChanged(this.#tests, (hash) => this.#proven.has(hash), steps);
+  }
+
+  /** Remembers the files of which every test has passed. */
+  keepPassed(summaries: readonly StepSummary[]): void {
+    const passed = this.#tests.filter(({ step, file }) => {
+      const own = summaries
+        .filter(({ name }) => name === step)
+        .flatMap(({ judged }) => judged.filter((test) => test.file === file));
+      return (
+        own.some(({ verdict }) => verdict === 'passed') &&
+        own.every(({ verdict }) => verdict === 'passed' || verdict === 'skipped')
+      );
+    });
+    this.#proven.keep(passed.flatMap(({ hash }) => (hash === null ? [] : [hash])));
+  }
+}
