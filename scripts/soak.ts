@@ -2,7 +2,7 @@
  * `pnpm soak`: what takes too long for every change: every test in its long form, tests beside busy programs, other seeds,
  * faults that tests must find, benchmarks. For the night, and before a release.
  */
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { parseArgs, stripVTControlCharacters } from 'node:util';
 import * as z from 'zod';
@@ -93,6 +93,11 @@ async function runPart(part: SoakPart): Promise<Outcome> {
   );
   if (steps === null) return { outcome: 'left out', words: `there is no step ${part.steps?.join(', ')}` };
   let output = '';
+  // What an earlier soak has left would be appended to.
+  for (const folder of part.equalLogs ?? []) {
+    rmSync(join(root, folder), { recursive: true, force: true });
+    mkdirSync(join(root, folder), { recursive: true });
+  }
   for (const { args, env = {} } of part.commands(steps, seed)) {
     const result = await run(process.execPath, [...args], { echo: true, env: { ...env } });
     output = stripVTControlCharacters(result.output);
@@ -104,17 +109,16 @@ async function runPart(part: SoakPart): Promise<Outcome> {
   return { outcome: 'passed', words: output.trimEnd().split('\n').at(-1) ?? '' };
 }
 
-function compareLogs(files: readonly string[]): Outcome {
-  const logs = files.map((file) => {
-    try {
-      return readFileSync(join(root, file), 'utf8');
-    } catch {
-      return null;
-    }
+function compareLogs(folders: readonly string[]): Outcome {
+  const logs = folders.map((folder) => {
+    const names = readdirSync(join(root, folder)).sort();
+    return names.map((name) => readFileSync(join(root, folder, name), 'utf8')).join('');
   });
-  if (logs.every((log) => log === null)) return { outcome: 'passed', words: 'they write no logs' };
-  if (logs.every((log) => log === logs[0])) return { outcome: 'passed', words: 'equal logs' };
-  return { outcome: 'failed', lastLines: [`${files.join(' and ')} differ: the runs are not deterministic`] };
+  if (logs.every((log) => log !== '' && log === logs[0])) return { outcome: 'passed', words: 'equal logs' };
+  return {
+    outcome: 'failed',
+    lastLines: [`${folders.join(' and ')} differ: the runs are not deterministic`],
+  };
 }
 
 /** Keeps the figures for later soaks. @returns what to say of them */

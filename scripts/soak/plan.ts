@@ -15,7 +15,7 @@ export interface SoakPart {
   steps?: readonly string[];
   /** @param steps those that it names and that exist @param seed of this soak */
   commands(steps: readonly string[], seed: number): readonly SoakCommand[];
-  /** Files of logs, one of each command, that must be equal. */
+  /** Folders of logs, one of each command, that must be equal. */
   equalLogs?: readonly string[];
   /** Whether the last line of output has figures, which are compared with those of earlier soaks. */
   hasFigures?: boolean;
@@ -23,7 +23,7 @@ export interface SoakPart {
 
 const TEST = 'scripts/test.ts';
 const LAYERS = ['pure', 'scenario', 'page', 'stack', 'smoke'] as const;
-const SCENARIO_LOGS = ['.farpoint/scenario-log-1.txt', '.farpoint/scenario-log-2.txt'];
+const SCENARIO_LOGS = ['.farpoint/event-logs-1', '.farpoint/event-logs-2'];
 
 const bench = (name: string, what: string, minutes: number): SoakPart => ({
   ...{ name, what, minutes, hasFigures: true },
@@ -58,9 +58,9 @@ export const PARTS: readonly SoakPart[] = [
     ...{ name: 'scenarios', what: 'scenarios twice, with equal logs', minutes: 1, steps: ['scenario'] },
     equalLogs: SCENARIO_LOGS,
     commands: () =>
-      SCENARIO_LOGS.map((file) => ({
+      SCENARIO_LOGS.map((folder) => ({
         args: [TEST, '--only', 'scenario'],
-        env: { FARPOINT_SCENARIO_LOG: file },
+        env: { FARPOINT_EVENT_LOGS: folder },
       })),
   },
   {

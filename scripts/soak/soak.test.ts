@@ -36,7 +36,7 @@ describe('the plan', () => {
     });
     const logs = part('scenarios')
       .commands(['scenario'], 7)
-      .map(({ env }) => env?.FARPOINT_SCENARIO_LOG);
+      .map(({ env }) => env?.FARPOINT_EVENT_LOGS);
     expect(logs).toEqual(part('scenarios').equalLogs);
     expect(new Set(logs).size).toBe(2);
   });
