@@ -12,13 +12,20 @@ const outputOf = (project: string): string => join('output', isSecondRun ? secon
 
 export default defineConfig({
   projects: [
-    { name: 'chromium', testDir: 'tests', outputDir: outputOf('chromium') },
+    // The page without a robot, on a clock of its own: nothing to wait for, so a test that takes long hangs.
+    {
+      ...{ name: 'page', testDir: 'pages', testMatch: '*.page.ts', outputDir: outputOf('page') },
+      // Each test has a page of its own, and nothing else.
+      fullyParallel: true,
+      ...{ timeout: 60_000, expect: { timeout: 10_000 } },
+    },
+    // One stack and one software-rendered browser at a time, because two would slow each other down.
+    { name: 'chromium', testDir: 'tests', outputDir: outputOf('chromium'), workers: 1 },
     // Uses only Playwright's runner. Firefox itself is driven through WebDriver BiDi (FirefoxBrowser of
     // @farpoint/local-stack).
-    { name: 'firefox', testDir: 'firefox', outputDir: outputOf('firefox') },
+    { name: 'firefox', testDir: 'firefox', outputDir: outputOf('firefox'), workers: 1 },
   ],
-  // One stack and one software-rendered browser at a time, because two would slow each other down.
-  workers: 1,
+  workers: 2,
   retries: 0,
   timeout: 120_000,
   expect: { timeout: 30_000 },

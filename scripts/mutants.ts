@@ -99,7 +99,7 @@ async function failuresOf(tests: string): Promise<string[]> {
       'playwright',
       'test',
       '--project',
-      'chromium',
+      tests.endsWith('.page.ts') ? 'page' : 'chromium',
       '--reporter',
       'json',
     ];

@@ -11,14 +11,17 @@ export type Hand = 'left' | 'right';
 /** A Meta Quest 3 emulated in the page. Put it on before the page loads. */
 export class Headset {
   readonly #page: Page;
+  readonly #step: ((frames: number) => Promise<void>) | null;
 
-  private constructor(page: Page) {
+  private constructor(page: Page, step: ((frames: number) => Promise<void>) | null) {
     this.#page = page;
+    this.#step = step;
   }
 
-  static async wear(page: Page): Promise<Headset> {
+  /** @param step draws display frames, where the test does so itself */
+  static async wear(page: Page, step: ((frames: number) => Promise<void>) | null = null): Promise<Headset> {
     await wearEmulatedHeadset(page);
-    return new Headset(page);
+    return new Headset(page, step);
   }
 
   /** @param x right @param y back (as in WebXR: pushing forward is −1) */
@@ -96,6 +99,7 @@ export class Headset {
 
   /** Waits for display frames. */
   async frames(count: number): Promise<void> {
+    if (this.#step !== null) return this.#step(count);
     await this.#page.evaluate(
       (count) =>
         new Promise<void>((resolve) => {

@@ -1,7 +1,6 @@
-/** A revolution of a LiDAR that stands higher than its robot's poses say, in a walled yard, as a PCD file. */
-import { type Place, writeGreyPcd } from './grey-pcd.ts';
+/** A revolution of a LiDAR that stands higher than its robot's poses say, in a walled yard. */
+import type { Place } from './place.ts';
 
-const GREY = 0xa0;
 const RINGS = { count: 16, lowestDeg: -25, stepDeg: 1.87 };
 const COLUMNS = 900;
 
@@ -13,8 +12,8 @@ export const lidarYard = {
   wallM: 22,
 } as const;
 
-/** Writes the cloud: x ahead, y to the left, z up, from the sensor. A few of its points are wrong. */
-export function writeLidarYard(path: string): void {
+/** The cloud: x ahead, y to the left, z up, from the sensor. A few of its points are wrong. */
+export function lidarYardPlaces(): Place[] {
   const { sensorM, wallM } = lidarYard;
   const places: Place[] = [];
   for (let column = 0; column < COLUMNS; column++) {
@@ -28,5 +27,5 @@ export function writeLidarYard(path: string): void {
     }
     if (column % 10 === 0) places.push([120 * x, 120 * y, -6]);
   }
-  writeGreyPcd(path, places, GREY);
+  return places;
 }

@@ -1,4 +1,4 @@
-import { mkdirSync, unlinkSync } from 'node:fs';
+import { mkdirSync } from 'node:fs';
 import type { LocalStack } from '@farpoint/local-stack';
 import type { Page, TestInfo } from '@playwright/test';
 import { GrantOffice } from '../src/grant-office.ts';
@@ -114,62 +114,6 @@ test('a ticket in a link is taken out of the address, and used only once it was 
   // Everybody may stop the robot.
   await page.getByRole('button', { name: 'STOP' }).click();
   await page.waitForFunction(() => window.farpoint.state().estop);
-});
-
-test('who drives is said by name, and a watcher is offered nothing that it may not do', async ({
-  page,
-  context,
-  startStack,
-}, testInfo) => {
-  const { office, stack } = await guarded(startStack, testInfo);
-  const operator = await OperatorPage.open(page, stack, { robot: lightRobot.id });
-  await obstacle(page).getByRole('button', { name: 'Grants…' }).click();
-  await addGrant(page, await office.issue({ name: 'Grace Hopper', role: 'drive' }));
-  await close(page);
-  await operator.expectState('session', 'live');
-  await operator.holdForward();
-  await operator.expectState('holder', 'you');
-
-  const other = await (await context.browser()?.newContext())?.newPage();
-  if (other === undefined) throw new Error('no browser');
-  await OperatorPage.open(other, stack, { robot: lightRobot.id });
-  await obstacle(other).getByRole('button', { name: 'Grants…' }).click();
-  await addGrant(other, await office.issue({ name: 'Wim', role: 'watch' }));
-  await close(other);
-  await expect(other.getByText('Grace Hopper is driving')).toBeVisible();
-  await expect(other.getByRole('button', { name: 'Take over' })).toBeHidden();
-  await other.context().close();
-});
-
-test('a robot with another key is not taken for the one that this browser knows', async ({
-  page,
-  startStack,
-}, testInfo) => {
-  const key = testInfo.outputPath('robot-key.json');
-  const args = [...lightRobot.args, '--robot-key', key];
-  const stack = await startStack({ robots: [{ ...lightRobot, args }] });
-  const operator = await OperatorPage.open(page, stack, { robot: lightRobot.id });
-  await operator.expectPoints(100);
-
-  // Somebody else's computer under the same id.
-
-  await stack.robot(lightRobot.id).stop();
-  unlinkSync(key);
-  await stack.restartRobot(lightRobot.id);
-  await expect(obstacle(page)).toContainText('This may be another robot');
-  await operator.screenshots(page, testInfo, 'other-key');
-  expect((await operator.state()).session).toBe('waiting');
-  const shown = await page.locator('#obstacle-shown').textContent();
-  expect(shown).toMatch(/^[\w-]{43}$/);
-
-  await obstacle(page).getByRole('button', { name: 'Trust the new key' }).click();
-  await operator.expectState('session', 'live');
-  await expect(obstacle(page)).toBeHidden();
-  await page.getByRole('button', { name: 'Settings' }).click();
-  await page.getByRole('button', { name: 'Grants and robots’ keys…' }).click();
-  await expect(dialog(page).getByText(`${lightRobot.id}: ${shown}`)).toBeVisible();
-  await dialog(page).getByRole('button', { name: 'Forget' }).click();
-  await expect(dialog(page).getByText('None yet')).toBeVisible();
 });
 
 test('a supervisor sees who is here, and ends the session of a driver who drives', async ({

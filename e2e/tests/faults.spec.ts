@@ -1,7 +1,7 @@
 import { chromiumLaunchOptions } from '@farpoint/local-stack';
 import { chromium } from '@playwright/test';
 import { OperatorPage } from '../src/operator-page.ts';
-import { expect, test, twoRobots } from '../src/stack-test.ts';
+import { expect, test } from '../src/stack-test.ts';
 
 /** m/s and m/s²: the simulated robot's limits. */
 const MAX_SPEED = 1;
@@ -33,75 +33,6 @@ test('the robot stops by itself when the browser that drives it is killed', asyn
   } finally {
     await server.kill();
   }
-});
-
-test('two robots: the operator switches in one action; the first robot stops, the other waits until the grip is released', async ({
-  page,
-  startStack,
-}) => {
-  const stack = await startStack({ robots: twoRobots });
-  const operator = await OperatorPage.open(page, stack);
-  await page.getByRole('button', { name: /Simulated robot 1/ }).click();
-  await operator.expectPoints();
-  const start = await operator.body();
-  await operator.holdForward();
-  await operator.expectMovedFrom(start, 0.3);
-
-  // While it drives, with the keys still held.
-  const began = performance.now();
-  const left = await operator.body();
-  await page.getByRole('combobox', { name: 'Robot' }).selectOption('sim-2');
-  const choosingS = (performance.now() - began) / 1000;
-  await operator.expectState('robotId', 'sim-2');
-  await operator.expectPoints();
-  await operator.expectFrames(15);
-  expect(await operator.state()).toMatchObject({ holder: 'nobody', driving: false });
-  const other = await operator.body();
-  expect(other.x).toBeCloseTo(start.x, 5);
-  expect(other.y).toBeCloseTo(start.y, 5);
-
-  // The grip is released and pressed again: now the other robot drives.
-  await operator.release();
-  await operator.holdForward();
-  await operator.expectMovedFrom(other, 0.3);
-  await operator.release();
-  await operator.expectStanding();
-
-  // Back with a key. The first robot is where it braked.
-  await page.keyboard.press('KeyN');
-  await operator.expectState('robotId', 'sim-1');
-  await operator.expectPoints();
-  await operator.expectStanding();
-  const back = await operator.body();
-  const braking = MAX_SPEED ** 2 / (2 * DECELERATION);
-  const distance = Math.hypot(back.x - left.x, back.y - left.y);
-  expect(distance).toBeLessThan(MAX_SPEED * (choosingS + OBSERVATION_S) + braking);
-  expect((await operator.state()).holder).toBe('nobody');
-
-  await page.getByRole('button', { name: 'Disconnect' }).click();
-  await expect(page.getByRole('button', { name: /Simulated robot 2/ })).toBeVisible();
-});
-
-test('signaling is killed and restarted while driving: driving continues, and the service comes back', async ({
-  openRobot,
-}) => {
-  const { stack, operator } = await openRobot();
-  const start = await operator.body();
-  await operator.holdForward();
-  await operator.expectMovedFrom(start, 0.2);
-
-  await stack.signaling.kill();
-  await operator.expectState('signaling', 'waiting');
-  const afterKill = await operator.body();
-  await operator.expectMovedFrom(afterKill, 0.2);
-  expect((await operator.state()).session).toBe('live');
-  await operator.release();
-
-  await stack.startSignaling();
-  await operator.expectState('signaling', 'ready');
-  await operator.expectState('robotListed', true);
-  await operator.expectPoints();
-  expect((await operator.state()).sessionsOpened).toBe(1);
 });
 
 test('the robot process is killed and restarted: the page says so and reconnects, and the robot stays stopped until released', async ({

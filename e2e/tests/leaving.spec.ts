@@ -37,23 +37,6 @@ test('an operator whose page closes makes room immediately', async ({ context, s
   }
 });
 
-test('the page says that a robot is full and how many operators it accepts, and connects once there is room', async ({
-  context,
-  startStack,
-}, testInfo) => {
-  const stack = await startStack({ robots: [robotForOne] });
-  const [firstPage, secondPage] = [await context.newPage(), await context.newPage()];
-  const first = await OperatorPage.open(firstPage, stack, options);
-  await first.expectState('session', 'live');
-  const second = await OperatorPage.open(secondPage, stack, { robot: simulatedRobot.id });
-  await expect(secondPage.locator('#notice')).toContainText('full: it accepts one operator at most');
-  await expect(secondPage.locator('#link')).toContainText('full: it accepts one operator at most');
-  await second.screenshot(testInfo, 'full');
-  expect((await second.state()).lastLoss).toBe('robot-full');
-  await firstPage.close({ runBeforeUnload: true });
-  await second.expectState('session', 'live');
-});
-
 test('a page that the browser caches leaves the robot, and reconnects when it is restored', async ({
   page,
   startStack,

@@ -22,9 +22,16 @@ function modules(build: string): string[] {
   });
 }
 
-test('the deployed page does not contain the test interface', () => {
-  expect(scripts('dist-testing')).toContain('latencyResults');
-  expect(scripts('dist')).not.toContain('latencyResults');
+/** Words of the test interface, and of the scripted robot and its states. */
+const OF_TESTS = ['latencyResults', 'farpointStage', 'Robot on a stage', 'stop-unconfirmed'];
+
+test('the deployed page contains neither the test interface nor a scripted robot', () => {
+  for (const word of OF_TESTS) {
+    expect(scripts('dist-testing')).toContain(word);
+    expect(scripts('dist')).not.toContain(word);
+  }
+  expect(modules('dist-testing').filter((source) => /\/testing\//.test(source)).length).toBeGreaterThan(5);
+  expect(modules('dist').filter((source) => /\/testing\//.test(source))).toEqual([]);
 });
 
 test('the page has the small build of the schema library, with a single language', () => {

@@ -50,6 +50,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
     help: true,
     because: 'runs until it is ended, and every test of it',
   },
+  'pnpm page': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm mutants': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm mutants grip-never-read-late': {
     help: true,

@@ -125,7 +125,7 @@ export const NEEDS: readonly Need[] = [
       return path !== null && (await run(path, ['--version'], { timeoutMs: 30_000 })).code === 0;
     },
     without: `the page: no Chromium (${CHROMIUM_REMEDY})`,
-    steps: ['e2e'],
+    steps: ['page', 'e2e'],
   },
   {
     name: 'turnserver',

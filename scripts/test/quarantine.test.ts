@@ -26,7 +26,7 @@ describe('the quarantine', () => {
   });
 
   it.each([
-    ['of the emergency stop', { test: 'e2e/tests/estop.spec.ts > x' }],
+    ['of the emergency stop', { test: 'e2e/pages/estop.page.ts > x' }],
     ['of grants', { test: 'apps/robot-node/src/grants.stack.test.ts > x' }],
     ['of strangers', { test: 'apps/robot-node/src/strangers.stack.test.ts > x' }],
     ['of packages/safety', { test: 'packages/safety/src/watchdog.test.ts > x' }],

@@ -105,9 +105,11 @@ function escaped(text: string): string {
 }
 
 export interface PlaywrightOptions {
-  project: 'chromium' | 'firefox';
   /** The only files that run; default: all. */
   files?: readonly string[] | undefined;
+  project: 'page' | 'chromium' | 'firefox';
+  /** As of {@link VitestOptions}. */
+  again: boolean;
   quarantine: readonly Quarantined[];
 }
 
@@ -117,6 +119,7 @@ const FOLDER = 'e2e';
 export async function runPlaywright({
   project,
   files = [],
+  again: mayRunAgain,
   quarantine,
 }: PlaywrightOptions): Promise<SuiteResult> {
   const playwright = async (name: string, args: readonly string[], env: Record<string, string> = {}) => {
@@ -140,7 +143,8 @@ export async function runPlaywright({
   const { outcomes, errors } = first.report;
   const alone: Outcome[] = [];
   let again = 0;
-  for (const { file, line } of toRunAgain(outcomes, quarantine).slice(0, MOST_AGAIN)) {
+  const failed = mayRunAgain ? toRunAgain(outcomes, quarantine) : [];
+  for (const { file, line } of failed.slice(0, MOST_AGAIN)) {
     const place = `${file.slice(`${FOLDER}/`.length)}:${line ?? ''}`;
     console.log(`  again, alone, ${SECOND_RUNS} times: ${place}`);
     const { report } = await playwright(`${project}-again`, [place, `--repeat-each=${SECOND_RUNS}`], {

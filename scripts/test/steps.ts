@@ -156,17 +156,27 @@ function provenWords({ group, provenAt }: GroupState): string {
   return `${group.name} (${provenAt?.slice(0, 10)})`;
 }
 
-async function runBrowser(project: 'chromium' | 'firefox', context: TestRun): Promise<StepResult> {
-  const step = project === 'chromium' ? 'e2e' : project;
+/** A project of e2e/playwright.config.ts, and the browser that it needs. */
+const BROWSERS = { page: 'chromium', chromium: 'chromium', firefox: 'firefox' } as const;
+
+async function runBrowser(
+  step: 'page' | 'e2e' | 'firefox',
+  project: keyof typeof BROWSERS,
+  context: TestRun,
+): Promise<StepResult> {
   const notTested = untested(step, context);
-  const none = NEEDS.find(({ name }) => name === project);
-  if (context.missing.some(({ name }) => name === project)) {
+  const browser = BROWSERS[project];
+  if (context.missing.some(({ name }) => name === browser)) {
     // Without Chromium nothing says that the page works.
-    if (project === 'firefox') return { ok: true, notTested };
-    return { ok: false, failure: `not tested: ${none?.without}` };
+    if (browser === 'firefox') return { ok: true, notTested };
+    return { ok: false, failure: `not tested: ${NEEDS.find(({ name }) => name === browser)?.without}` };
   }
-  await warmPrograms(context.say);
-  return { ...ofSuite(await runPlaywright({ project, quarantine: context.quarantine })), notTested };
+  // Its tests have neither a program nor real time that could excuse a failure.
+  const again = project !== 'page';
+  if (again) await warmPrograms(context.say);
+  const { quarantine } = context;
+  const files = context.filesOf(step);
+  return { ...ofSuite(await runPlaywright({ project, files, again, quarantine })), notTested };
 }
 
 export const STEPS: readonly Step[] = [
@@ -205,16 +215,21 @@ export const STEPS: readonly Step[] = [
     what: 'Rust: committed WASM is fresh, rebuilds from source, format, clippy, tests',
     run: runRust,
   },
-  { name: 'stack', what: 'unit tests with processes, threads and sockets (vitest)', run: runStack },
   { name: 'build', what: 'build what is deployed', run: () => runQuietly('node', ['scripts/build.ts']) },
+  {
+    name: 'page',
+    what: 'the page in Chromium on a scripted link, with a clock of its own (playwright)',
+    run: (context) => runBrowser('page', 'page', context),
+  },
+  { name: 'stack', what: 'unit tests with processes, threads and sockets (vitest)', run: runStack },
   {
     name: 'e2e',
     what: 'end to end in Chromium (playwright)',
-    run: (context) => runBrowser('chromium', context),
+    run: (context) => runBrowser('e2e', 'chromium', context),
   },
   {
     name: 'firefox',
     what: 'end to end in Firefox (WebDriver BiDi)',
-    run: (context) => runBrowser('firefox', context),
+    run: (context) => runBrowser('firefox', 'firefox', context),
   },
 ];

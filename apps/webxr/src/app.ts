@@ -1,6 +1,6 @@
 /** The page: shows on the screen what the robot sends, and sends the robot what the operator's hands do. */
 import { CloudView } from '@farpoint/cloud-view';
-import { RobotClient, type TransformSupport } from '@farpoint/operator';
+import { RobotClient, type RobotClientOptions, type TransformSupport } from '@farpoint/operator';
 import { computed, effect, untracked } from '@preact/signals-core';
 import { StoredRobots } from './access/known-robots.ts';
 import { OperatorAccess } from './access/operator-access.ts';
@@ -60,8 +60,8 @@ import { Stage } from './view/stage.ts';
 import { VrSession } from './view/vr-session.ts';
 import type { WristPanel } from './view/wrist-panel.ts';
 
-const DRIVE_TICK_MS = 25;
-const STATUS_TICK_MS = 250;
+type OpenLink = RobotClientOptions['openLink'];
+const [DRIVE_TICK_MS, STATUS_TICK_MS] = [25, 250];
 
 export class App {
   readonly settings: Settings;
@@ -104,8 +104,8 @@ export class App {
   readonly #estop: EstopUi;
   readonly #access: AccessUi;
 
-  /** @throws {Error} without WebGL 2 */
-  constructor(settings: Settings, transform: TransformSupport, notices: Notices) {
+  /** @param openLink of tests @throws {Error} without WebGL 2 */
+  constructor(settings: Settings, transform: TransformSupport, notices: Notices, openLink?: OpenLink) {
     this.settings = settings;
     this.stage = new Stage(elements.stage, settings.canvas, settings.headset);
     const { renderer, world } = this.stage;
@@ -124,7 +124,7 @@ export class App {
     const access = new OperatorAccess(browserAccess(origin), () => Date.now() / 1000);
     const knownRobots = new StoredRobots(origin);
     this.client = new RobotClient({
-      ...{ signalingUrl, name, token, icePolicy, transform, bridge, knownRobots },
+      ...{ signalingUrl, name, token, icePolicy, transform, bridge, knownRobots, openLink },
       credentials: () => access.credentials(),
       cloudFormats: mode === 'points64' ? ['points64'] : undefined,
       inputs: this.#inputs.all,

@@ -11,6 +11,7 @@ import { readSettings } from './settings.ts';
 import { Notices } from './state/notices.ts';
 import { failureWords, forbiddenAddressWords } from './status/words.ts';
 import { hideToken, loadStored, pageOrigin } from './stored-settings.ts';
+import type { OpenedStage } from './testing/open-stage.ts';
 import { elements } from './ui/elements.ts';
 import { showNotices } from './ui/notice.ts';
 
@@ -18,7 +19,7 @@ const settings = readSettings(new URLSearchParams(window.location.search), loadS
 hideToken(settings);
 const notices = new Notices();
 
-function start(): void {
+function start(stage: OpenedStage | null): void {
   const transform = transformSupport();
   const isDirect = settings.bridge === null;
   if (isDirect && typeof RTCPeerConnection === 'undefined') {
@@ -30,12 +31,16 @@ function start(): void {
     return;
   }
   try {
-    const app = new App(settings, transform, notices);
+    const app = new App(settings, transform, notices, stage?.openLink);
+    stage?.attach(app);
     app.start();
     elements.noGpu.hidden = !isSoftwareRenderer(app.stage.gl);
     // The deployed page leaves this out. `pnpm dev` and `vite build --mode testing` include it.
     if (import.meta.env.MODE !== 'production')
-      void import('./testing/test-hooks.ts').then(({ installTestApi }) => installTestApi(app));
+      void import('./testing/test-hooks.ts').then(({ installTestApi }) => {
+        installTestApi(app);
+        stage?.opened();
+      });
   } catch (error) {
     console.error(error);
     notices.failure.value = failureWords.noWebGl2;
@@ -47,4 +52,7 @@ document.addEventListener('securitypolicyviolation', ({ effectiveDirective, bloc
   if (effectiveDirective === 'connect-src') notices.tell(forbiddenAddressWords(blockedURI), 'bad');
 });
 showNotices(notices);
-start();
+// The deployed page leaves this out, too. A page of tests can have a scripted link instead of a robot.
+if (import.meta.env.MODE !== 'production')
+  void import('./testing/open-stage.ts').then(({ openStage }) => openStage()).then(start);
+else start(null);

@@ -1,0 +1,53 @@
+/** Gives the page a scripted robot instead of a link, if its address asks for one: `?stage=STATE`. */
+import type { RobotClientOptions } from '@farpoint/operator';
+import { CloudWorkerHere } from '@farpoint/operator/testing/cloud-worker-here';
+import { ScriptedLink } from '@farpoint/operator/testing/scripted-link';
+import type { App } from '../app.ts';
+import { ScriptedRobot } from './scripted-robot.ts';
+import { StageControl } from './stage-control.ts';
+import { isStageState, STAGE_STATES } from './stage-states.ts';
+
+export interface OpenedStage {
+  openLink: NonNullable<RobotClientOptions['openLink']>;
+  /** The page is there, and has not started. */
+  attach(app: App): void;
+  /** The page has started. */
+  opened(): void;
+}
+
+/** @returns `null` if the page is to have a link of its own */
+export async function openStage(): Promise<OpenedStage | null> {
+  const name = new URLSearchParams(window.location.search).get('stage');
+  if (name === null) return null;
+  if (!isStageState(name)) throw new Error(`there is no state ${name}`);
+  const state = STAGE_STATES[name];
+  const worker = await CloudWorkerHere.open();
+  useInsteadOfCloudWorker(worker);
+  const robot = new ScriptedRobot();
+  const stage = new StageControl(robot);
+  window.farpointStage = stage;
+  for (const cloud of state.clouds ?? []) await stage.load(cloud);
+  return {
+    openLink: (_, events) => {
+      stage.link = new ScriptedLink(worker, events, robot);
+      return stage.link;
+    },
+    attach(app) {
+      stage.app = app;
+    },
+    opened() {
+      state.begin(stage);
+      window.farpointStageOpened?.();
+    },
+  };
+}
+
+/** Other workers are real. */
+function useInsteadOfCloudWorker(worker: CloudWorkerHere): void {
+  const Real = globalThis.Worker;
+  globalThis.Worker = new Proxy(Real, {
+    construct(target, [url, options]: [URL | string, WorkerOptions | undefined]) {
+      return String(url).includes('cloud-worker') ? worker : new target(url, options);
+    },
+  });
+}

@@ -1,0 +1,180 @@
+/**
+ * `window.farpointStage`: what a test, or a person who looks at a state of the page, does with the scripted robot. Only in
+ * the testing build, at `?stage=STATE`.
+ */
+import type { ScriptedLink, SentMessage, ToldMessage } from '@farpoint/operator/testing/scripted-link';
+import { stampUsOf } from '@farpoint/protocol';
+import type { App } from '../app.ts';
+import { type CloudFile, placed } from './cloud-file.ts';
+import type { ScriptedRobot } from './scripted-robot.ts';
+
+declare global {
+  interface Window {
+    farpointStage: StageControl;
+    /** Set by tests before the page loads; called once the page has a scripted robot. */
+    farpointStageOpened?: () => void;
+  }
+}
+
+export interface CloudOptions {
+  /** Packets that are lost, by their place in the frame. */
+  lose?: readonly number[];
+  /** Which of the file's frames. Default: the next. */
+  frame?: number;
+  sensor?: number;
+  /** How long before now it was captured, ms. */
+  ageMs?: number;
+  /** The camera's height over base_link, metres. */
+  heightM?: number;
+}
+
+const CAMERA_HEIGHT_M = 1;
+/** A camera's optical frame that looks ahead: x, y, z, w. */
+const AHEAD = [-0.5, 0.5, -0.5, 0.5] as const;
+
+export class StageControl {
+  readonly robot: ScriptedRobot;
+  readonly #files = new Map<string, CloudFile>();
+  #link: ScriptedLink | null = null;
+  #app: App | null = null;
+  #frameNumber = 0;
+  readonly #packets: number[] = [];
+  #streaming: ReturnType<typeof setInterval> | undefined;
+  #picture: { width: number; height: number; pixels: Uint8Array } | null = null;
+
+  constructor(robot: ScriptedRobot) {
+    this.robot = robot;
+  }
+
+  get link(): ScriptedLink {
+    if (this.#link === null) throw new Error('the page has opened no link');
+    return this.#link;
+  }
+
+  set link(link: ScriptedLink) {
+    this.#link = link;
+  }
+
+  get app(): App {
+    if (this.#app === null) throw new Error('the page has not started');
+    return this.#app;
+  }
+
+  set app(app: App) {
+    this.#app = app;
+  }
+
+  /** The robot sends these. */
+  tell(...messages: ToldMessage[]): void {
+    for (const message of messages) this.robot.tell(message);
+  }
+
+  /** What the page has sent of these types since {@link forget}, in this order. */
+  sent<Type extends SentMessage['type']>(...types: Type[]): Extract<SentMessage, { type: Type }>[] {
+    return this.link.sent.filter((message): message is Extract<SentMessage, { type: Type }> =>
+      (types as string[]).includes(message.type),
+    );
+  }
+
+  forget(): void {
+    this.link.sent.length = 0;
+  }
+
+  /** Loads a cloud that {@link cloud} can send then. */
+  async load(name: string): Promise<void> {
+    if (this.#files.has(name)) return;
+    const response = await fetch(`stage/clouds/${name}.json`);
+    if (!response.ok) throw new Error(`there is no cloud ${name}`);
+    this.#files.set(name, (await response.json()) as CloudFile);
+  }
+
+  /** A frame of a cloud comes, seen from where the robot is now. @returns how many packets it has */
+  cloud(name: string, options: CloudOptions = {}): number {
+    const file = this.#files.get(name);
+    if (file === undefined) throw new Error(`the cloud ${name} is not loaded`);
+    const { lose = [], sensor = 0, ageMs = 0, heightM = CAMERA_HEIGHT_M } = options;
+    const frameNumber = this.#frameNumber++;
+    if (file.stream !== undefined && this.#packets[sensor] === undefined)
+      this.link.tell({ type: 'cloudStream', ...file.stream, ...(sensor === 0 ? {} : { sensor }) });
+    const packets = file.frames[(options.frame ?? frameNumber) % file.frames.length] ?? [];
+    const { x, y, z, yaw } = this.robot.pose;
+    const place = {
+      ...{ frameNumber, sensor, captureUs: stampUsOf(this.robot.nowMs - ageMs) },
+      position: [x, y, z + heightM] as const,
+      orientation: turned(yaw, file.stream?.format === 'unorganised' ? [0, 0, 0, 1] : AHEAD),
+    };
+    for (const [i, packet] of packets.entries()) {
+      const sequence = this.#packets[0] ?? 0;
+      this.#packets[0] = sequence + 1;
+      if (sensor !== 0) this.#packets[sensor] = 1;
+      if (!lose.includes(i)) this.link.receivePacket(placed(packet, place), sequence);
+    }
+    return packets.length;
+  }
+
+  /** Sends a cloud again and again, until it is called with `null`. */
+  stream(name: string | null, everyMs = 100): void {
+    clearInterval(this.#streaming);
+    if (name === null) return;
+    const send = () => {
+      if (this.link.phase === 'live' && !this.link.isCut) this.cloud(name);
+    };
+    this.#streaming = setInterval(send, everyMs);
+  }
+
+  /** Nothing arrives any more, in either direction. */
+  cut(): void {
+    this.link.isCut = true;
+  }
+
+  restore(): void {
+    this.link.isCut = false;
+  }
+
+  /** Keeps the next display frame, for {@link pixels}. */
+  photograph(): void {
+    this.#picture = null;
+    this.app.frames.afterNextFrame(() => {
+      const { gl } = this.app.stage;
+      const { drawingBufferWidth: width, drawingBufferHeight: height } = gl;
+      const pixels = new Uint8Array(4 * width * height);
+      gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+      this.#picture = { width, height, pixels };
+    });
+  }
+
+  get hasPicture(): boolean {
+    return this.#picture !== null;
+  }
+
+  /**
+   * A rectangle of the kept frame, row by row from the top left; shares of the canvas, 0–1.
+   *
+   * @returns red, green and blue of each pixel, as the characters of a string: the quickest way out of a browser
+   */
+  pixels({ x, y, width, height }: { x: number; y: number; width: number; height: number }): string {
+    const picture = this.#picture;
+    if (picture === null) throw new Error('no display frame is kept');
+    const columns = spanOf(x, width, picture.width);
+    const rows = spanOf(y, height, picture.height);
+    let text = '';
+    for (const row of rows)
+      for (const column of columns) {
+        const at = 4 * ((picture.height - 1 - row) * picture.width + column);
+        text += String.fromCharCode(...picture.pixels.subarray(at, at + 3));
+      }
+    return btoa(text);
+  }
+}
+
+function spanOf(from: number, share: number, size: number): number[] {
+  const first = Math.min(Math.max(Math.floor(from * size), 0), size - 1);
+  const count = Math.max(1, Math.min(Math.round(share * size), size - first));
+  return Array.from({ length: count }, (_, i) => first + i);
+}
+
+/** The orientation of a camera on a robot that has turned. */
+function turned(yaw: number, [x, y, z, w]: readonly [number, number, number, number]) {
+  const [sin, cos] = [Math.sin(yaw / 2), Math.cos(yaw / 2)];
+  return [cos * x - sin * y, cos * y + sin * x, cos * z + sin * w, cos * w - sin * z] as const;
+}

@@ -1,0 +1,95 @@
+/** What a scripted robot says in the states of stage-states.ts: each with everything that the page can show of it. */
+import type { ToldMessage } from '@farpoint/operator/testing/scripted-link';
+import {
+  type MotionState,
+  NEAR_SECTORS,
+  type NearSector,
+  nearFieldText,
+  type Videos,
+} from '@farpoint/protocol';
+
+/** What the robot makes of a wish, where nothing bounds it. */
+export const freeMotion: MotionState = { factor: 1, reasons: [], mostLinear: 0.5, obstacleGuard: 'on' };
+
+/** Two topics with curves, a position on the earth, diagnostics and a reading. */
+export function telemetryOf(robotMs: number): ToldMessage[] {
+  const temperature = (number: number, label: string): ToldMessage => ({
+    ...{ type: 'quantity', number, topic: `/motor_${number}`, field: 'temperature', label, unit: '°C' },
+  });
+  return [
+    temperature(0, 'Left motor'),
+    temperature(1, 'Right motor'),
+    {
+      ...{ type: 'samples', timeMs: robotMs },
+      samples: [
+        [0, -100, 30],
+        [1, -100, 31],
+        [0, 0, 31],
+        [1, 0, 32],
+      ],
+    },
+    {
+      ...{ type: 'diagnostics', topic: '/diagnostics', timeMs: robotMs },
+      counts: { error: 0, warn: 1, stale: 0, ok: 3 },
+      reports: [
+        { name: 'Battery', level: 'warn', message: 'low', sinceMs: robotMs },
+        { name: 'Left motor', level: 'ok', message: '30 °C', sinceMs: robotMs },
+      ],
+    },
+    {
+      ...{ type: 'reading', topic: '/arm', label: 'Arm', level: 'ok', ageMs: 0, timeMs: robotMs },
+      values: [['', 'stowed']],
+    },
+  ];
+}
+
+export function lowBattery(robotMs: number, recorded = false): ToldMessage {
+  return {
+    ...{ type: 'alarm', number: 0, level: 'warn', text: 'The battery is low: drive to the charger' },
+    ...{ value: 15, limit: 20, unit: '%', sinceMs: robotMs },
+    ...(recorded ? { recorded: true as const } : {}),
+  };
+}
+
+/**
+ * What is near the robot.
+ *
+ * @param sector of the nearest thing, of {@link NEAR_SECTORS}, counter-clockwise from ahead
+ * @param metres from the footprint's edge to it
+ */
+export function thingAt(sector: number, metres: number, robotMs: number): ToldMessage {
+  const sectors = Array.from({ length: NEAR_SECTORS }, (_, i): NearSector => {
+    const off = Math.min(
+      (i - sector + NEAR_SECTORS) % NEAR_SECTORS,
+      (sector - i + NEAR_SECTORS) % NEAR_SECTORS,
+    );
+    if (off > 3) return { hit: null, unseen: null };
+    return { hit: { kind: 'thing', metres: metres + 0.05 * off }, unseen: null };
+  });
+  return { type: 'nearField', timeMs: robotMs, sectors: nearFieldText(sectors) };
+}
+
+export const twoSensors: ToldMessage = { type: 'sensors', sensors: [{ name: 'Camera' }, { name: 'LiDAR' }] };
+export const lidarRings: ToldMessage = {
+  ...{ type: 'rings', sensor: 1 },
+  elevations: Array.from({ length: 16 }, (_, i) => ((-25 + 1.87 * i) * Math.PI) / 180),
+};
+export const twoVideos: Videos = {
+  type: 'videos',
+  videos: [
+    { name: 'Front', mid: 'v0', codec: 'VP8' },
+    { name: 'Rear', mid: 'v1', codec: 'VP8' },
+  ],
+};
+export const twoCameras: ToldMessage = { type: 'cameras', cameras: [{ name: 'Gripper' }, { name: 'Mast' }] };
+export const sound: ToldMessage = {
+  ...{ type: 'sound', mid: 's0', microphone: { state: 'off' }, voice: { state: 'closed' } },
+};
+export const people: ToldMessage = {
+  type: 'operators',
+  operators: [
+    { number: 1, name: 'Anna', role: 'supervise', drives: false, you: true },
+    { number: 2, name: 'Bo', role: 'drive', drives: true, you: false },
+    { number: 3, name: 'Cy', role: 'watch', drives: false, you: false },
+  ],
+};

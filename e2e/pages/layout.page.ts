@@ -1,0 +1,114 @@
+/** Nothing covers anything: each state of the page on a phone, on a laptop and on a large screen. */
+import type { StageStateName } from '@farpoint/webxr/stage-states';
+import { expectNothingCovered } from '../src/stage/boxes.ts';
+import { expect, test } from '../src/stage/page-test.ts';
+
+/** Each state, and what must be seen in it on every screen. */
+const STATES: Readonly<Record<StageStateName, readonly string[]>> = {
+  blank: ['robots', 'settings-open'],
+  'no-robots': ['robots', 'settings-open'],
+  disconnected: ['robots', 'settings-open'],
+  'service-away': ['robots', 'settings-open'],
+  'token-refused': ['robots', 'settings-open'],
+  connecting: ['disconnect', 'settings-open'],
+  'robot-full': ['disconnect', 'settings-open'],
+  'not-granted': ['obstacle', 'settings-open'],
+  'key-changed': ['obstacle', 'settings-open'],
+  live: ['estop', 'holder', 'facts'],
+  still: ['estop', 'holder'],
+  driving: ['estop', 'holder', 'release'],
+  'other-drives': ['estop', 'holder', 'take'],
+  'stop-latched': ['estop', 'estop-release', 'stop-state'],
+  'stopped-at-robot': ['estop', 'estop-release'],
+  'stop-unconfirmed': ['estop', 'stop-state'],
+  'path-lost': ['estop'],
+  'robot-gone': ['disconnect'],
+  'view-too-old': ['estop', 'motion-state'],
+  'view-late': ['estop', 'motion-state'],
+  'obstacle-ahead': ['estop', 'motion-state', 'near'],
+  'guard-blind': ['estop', 'obstacle-guard'],
+  'guard-off': ['estop', 'obstacle-guard'],
+  returning: ['estop', 'motion-state'],
+  watching: ['estop', 'holder'],
+  people: ['estop', 'people'],
+  alarm: ['estop', 'alarm'],
+  playback: ['estop', 'alarm'],
+  'two-sensors': ['estop'],
+  videos: ['estop', 'pictures'],
+  everything: ['estop', 'estop-release', 'alarm', 'pictures'],
+};
+/** What opens further parts of a state, and what must be seen then. */
+const OPENED: readonly {
+  state: StageStateName;
+  what: string;
+  open: readonly string[];
+  seen: readonly string[];
+}[] = [
+  {
+    ...{ state: 'alarm', what: 'the dashboard', open: ['#dashboard-open'] },
+    seen: ['dashboard', 'estop'],
+  },
+  {
+    ...{ state: 'stop-latched', what: 'the dashboard', open: ['#dashboard-open'] },
+    seen: ['dashboard', 'estop', 'estop-release'],
+  },
+  {
+    ...{
+      state: 'two-sensors',
+      what: 'the colours of clouds, from above',
+      open: ['#colours-open', '#from-above'],
+    },
+    seen: ['estop'],
+  },
+  { state: 'videos', what: 'what became of the frames', open: ['.video-report button'], seen: ['estop'] },
+];
+/** When a state has come about, ms: at once, or after a path has been silent. */
+const SETTLED_MS = 1000;
+const LATE: Partial<Record<StageStateName, number>> = {
+  'stop-unconfirmed': 2500,
+  'path-lost': 2500,
+  'two-sensors': 1500,
+};
+
+const SCREENS = [
+  { name: 'a phone', screens: [[360, 740]], hasTouch: true },
+  {
+    name: 'a laptop and a large screen',
+    screens: [
+      [1280, 720],
+      [3840, 2160],
+    ],
+    hasTouch: false,
+  },
+] as const;
+/** More than there is room for on a phone: its panels are reached by scrolling. */
+const NOT_ON_PHONES: ReadonlySet<StageStateName> = new Set(['everything']);
+
+for (const { name, screens, hasTouch } of SCREENS) {
+  test.describe(`on ${name}`, () => {
+    test.use({ hasTouch });
+    const closed = Object.entries(STATES) as [StageStateName, readonly string[]][];
+    const rows = [
+      ...closed.map(([state, seen]) => ({ state, what: '', open: [] as readonly string[], seen })),
+      ...OPENED,
+    ].filter(({ state }) => !hasTouch || !NOT_ON_PHONES.has(state));
+    for (const { state, what, open, seen } of rows) {
+      test(`nothing covers anything: ${state}${what === '' ? '' : ` with ${what}`}`, async ({ stage }) => {
+        const page = await stage.open({ state, canvas: '64x36', forMs: LATE[state] ?? SETTLED_MS });
+        for (const [i, [width, height]] of screens.entries()) {
+          await stage.resize(width, height);
+          if (i === 0) for (const each of open) await page.locator(each).click();
+          await stage.run(300);
+          // The code of a panel may be loaded only now.
+          for (const id of seen) await page.locator(`#${id}`).waitFor();
+          const on = `${state} on ${width} × ${height}`;
+          const found = await expectNothingCovered(page, on, open.length > 0);
+          const isLive = (await stage.state()).session === 'live';
+          // Whatever is on the screen, STOP can be pressed.
+          if (isLive) await page.locator('#estop').click({ trial: true });
+          expect(found, on).toEqual(expect.arrayContaining([...seen]));
+        }
+      });
+    }
+  });
+}
