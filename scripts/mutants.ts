@@ -12,6 +12,7 @@ import { type Mutant, mutate, readMutants } from './test/mutant.ts';
 import type { Outcome } from './test/outcome.ts';
 import { nameOf } from './test/outcome.ts';
 import { readPlaywrightReport } from './test/playwright-report.ts';
+import { pureTestsOf } from './test/selection.ts';
 import { durationWords } from './test/summary.ts';
 import { readVitestReport } from './test/vitest-report.ts';
 
@@ -74,7 +75,7 @@ async function isFound(mutant: Mutant): Promise<boolean> {
   writeFileSync(file, mutate(mutant, text));
   try {
     for (const tests of mutant.foundBy) {
-      const failed = await failuresOf(tests);
+      const failed = await failuresOf(tests, pureTestsOf(mutant.file));
       if (failed.length === 0) continue;
       const took = durationWords(performance.now() - began);
       console.log(`✓ ${mutant.name}: found by ${failed.length} of ${tests} (${took}), first ${failed[0]}`);
@@ -87,8 +88,12 @@ async function isFound(mutant: Mutant): Promise<boolean> {
   }
 }
 
-/** @returns names of the tests that fail @throws {Error} if the tests could not be run */
-async function failuresOf(tests: string): Promise<string[]> {
+/**
+ * @param pure the pure tests that can find it; default: all of them
+ * @returns names of the tests that fail
+ * @throws {Error} if the tests could not be run
+ */
+async function failuresOf(tests: string, pure: readonly string[] = []): Promise<string[]> {
   rmSync(report, { force: true });
   if (tests.startsWith('e2e/')) {
     await must('node', 'scripts/build.ts');
@@ -109,7 +114,7 @@ async function failuresOf(tests: string): Promise<string[]> {
     });
     return failed(readPlaywrightReport(readFileSync(report, 'utf8'), 'e2e').outcomes);
   }
-  const project = tests === 'pure' ? ['--project', 'pure'] : ['--project', projectOf(tests), tests];
+  const project = tests === 'pure' ? ['--project', 'pure', ...pure] : ['--project', projectOf(tests), tests];
   // The copy's own vitest: one of another place does not know the tests' `describe` and `it`.
   const args = ['exec', 'vitest', 'run', ...project, '--reporter=json', `--outputFile=${report}`];
   await run('pnpm', args, { cwd: copy });

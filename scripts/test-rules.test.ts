@@ -9,7 +9,7 @@ import { workspaceFiles as files, readWorkspaceFile as read } from './lib/worksp
 const SLEEP = 'no sleep';
 const PORT = 'no port number';
 const BOUND = 'no upper bound of a time';
-/** The page loads a panel's code, and a socket brings a message, when the browser does. */
+/** A socket brings a message when the browser does. */
 const POLLING = 'no polling';
 const NOTHING = 'a test expects something';
 
@@ -26,8 +26,6 @@ const EXCEPTIONS: Readonly<Record<string, readonly string[]>> = {
   'apps/robot-node/src/transport/operator-peer.stack.test.ts': [NOTHING],
   'apps/signaling/src/server.stack.test.ts': [PORT, NOTHING],
   'apps/signaling/src/strict-transport.stack.test.ts': [PORT],
-  'e2e/pages/dashboard.page.ts': [POLLING],
-  'e2e/pages/layout.page.ts': [POLLING],
   'e2e/pages/signaling.page.ts': [POLLING],
   'packages/conformance/src/main.stack.test.ts': [PORT],
   'packages/conformance/src/suites/suites.stack.test.ts': [NOTHING],

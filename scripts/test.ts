@@ -63,8 +63,7 @@ if (unknown !== undefined) {
   process.exit(2);
 }
 
-const { repeat, load, cpus } = repeatOptions();
-if (cpus !== null) await pinTo(cpus);
+const { repeat, load, cpus } = await repeatOptions();
 
 if (values.all) process.env.FARPOINT_LONG_TESTS = '1';
 if (values.pictures) process.env.FARPOINT_PICTURES = '1';
@@ -88,7 +87,7 @@ const filesOf = (step: string) => changed?.files.get(step);
 const context: TestRun = { say, missing, groups, proven, quarantine, filesOf };
 
 const busy = startLoad(load);
-if (repeat > 1 || load > 0) process.exit(await repeated());
+if (values.repeat !== undefined || values.load !== undefined) process.exit(await repeated());
 const { summaries, counted } = await runSteps(chosen, context);
 selection.keepPassed(summaries);
 
@@ -127,14 +126,16 @@ async function repeated(): Promise<number> {
   const what = { at: new Date().toISOString(), repeat, load, cpus, ...flakes };
   mkdirSync(join(root, '.farpoint'), { recursive: true });
   appendFileSync(join(root, '.farpoint', 'flakes.jsonl'), `${JSON.stringify(what)}\n`);
-  const beside = `${repeat} times beside ${load} busy programs${cpus === null ? '' : `, on ${cpus} cores`}`;
+  const beside = `${repeat} × beside ${load} × busy${cpus === null ? '' : `, cores: ${cpus}`}`;
   console.log(`\n${[beside, ...flakeLines(flakes)].join('\n')}`);
   return flakes.ok ? 0 : 1;
 }
 
-function repeatOptions(): RepeatOptions {
+async function repeatOptions(): Promise<RepeatOptions> {
   try {
-    return readRepeatOptions(values, availableParallelism());
+    const options = readRepeatOptions(values, availableParallelism());
+    if (options.cpus !== null) await pinTo(options.cpus);
+    return options;
   } catch (error) {
     console.error(error instanceof Error ? error.message : error);
     process.exit(2);

@@ -72,6 +72,11 @@ describe('no rule finds what is allowed', () => {
       'deterministic',
       test("await page.click('#a');", 'expect(a).toBe(1);'),
     ],
+    [
+      'trying whether something can be pressed',
+      'deterministic',
+      test("await page.locator('#estop').click({ trial: true });"),
+    ],
     ['waiting until something is so', 'stack', test(`while (!is()) ${SLEEP}`)],
     [
       'the order of two instants',

@@ -40,7 +40,7 @@ const LINE_RULES: Readonly<Record<TestLayer, readonly LineRule[]>> = {
     ...ALL,
     ['no waitForTimeout', /\bwaitForTimeout\b/],
     ['no stack', /\bLocalStack\b|stack-test/],
-    ['no polling', /\bexpect\.poll\b|\.waitFor\(|\btoPass\(/],
+    ['no polling', /\bexpect\.poll\b|\btoPass\(/],
     ['no real clock', /\bDate\.now\b|\bperformance\.now\b|\bprocess\.hrtime\b/],
     ['no sleep', SLEEP],
   ],
@@ -105,7 +105,8 @@ function pictures(lines: readonly string[]): Violation[] {
 }
 
 const TEST = /^(?<indent>\s*)(?:test|it)(?:\.each\b.*|\.for\b.*)?\(/;
-const EXPECTS = /\bexpect\w*\s*[.(<]|\bassert\w*[.(]|\bfail\(|\b(?:until|eventually|waitFor\w*)\(|\bwhile \(/;
+const EXPECTS =
+  /\btrial: true\b|\bexpect\w*\s*[.(<]|\bassert\w*[.(]|\bfail\(|\b(?:until|eventually|waitFor\w*)\(|\bwhile \(/;
 /** What changes what is tested. */
 const ACTS =
   /\.(?:click|dblclick|press|down|up|tap|fill|check|selectOption|dispatchEvent|tell|cut|restore|lose|hold|stick|release|goto|reload)\(/;

@@ -3,10 +3,10 @@ import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import * as z from 'zod';
-import type { ExportingPackage } from '../lib/import-graph.ts';
+import { type ExportingPackage, ImportGraph } from '../lib/import-graph.ts';
 import { root } from '../lib/run.ts';
 import { readWorkspaceFile, workspaceFiles } from '../lib/workspace-files.ts';
-import { type Selection, selectChanged, type TestFile, testFiles } from './changed.ts';
+import { LAYERS, type Selection, selectChanged, type TestFile, testFiles } from './changed.ts';
 import { ProvenFiles } from './proven-files.ts';
 import type { StepSummary } from './summary.ts';
 
@@ -18,23 +18,42 @@ function exportingPackages(): ExportingPackage[] {
     .map((file) => ({ folder: dirname(file), ...manifestSchema.parse(JSON.parse(readWorkspaceFile(file))) }));
 }
 
+/** The pure tests that import a file, themselves or through others: those that a fault in it can reach. */
+export function pureTestsOf(file: string): string[] {
+  const graph = new ImportGraph(workspaceFiles, exportingPackages(), readWorkspaceFile);
+  const pure = LAYERS.find(({ step }) => step === 'pure');
+  return workspaceFiles
+    .filter((each) => pure?.tests.test(each))
+    .filter((each) => graph.closureOf(each).includes(file));
+}
+
+function readTests(): TestFile[] {
+  const contents = new Map<string, Uint8Array>();
+  const read = (file: string): Uint8Array => {
+    const known = contents.get(file) ?? readFileSync(join(root, file));
+    contents.set(file, known);
+    return known;
+  };
+  const tools = createHash('sha256').update([process.version, process.platform, process.arch].join());
+  return testFiles({ files: workspaceFiles, packages: exportingPackages(), read }, tools.digest('hex'));
+}
+
+/** None where a file is gone: what has passed then is not what is there. */
+function hashesNow(): ReadonlySet<string | null> {
+  try {
+    return new Set(readTests().map(({ hash }) => hash));
+  } catch {
+    return new Set();
+  }
+}
+
 export class TestSelection {
   readonly #tests: readonly TestFile[];
   readonly #proven: ProvenFiles;
 
   /** Reads all files of the workspace, as they are before the tests. */
   constructor(proven = new ProvenFiles()) {
-    const contents = new Map<string, Uint8Array>();
-    const read = (file: string): Uint8Array => {
-      const known = contents.get(file) ?? readFileSync(join(root, file));
-      contents.set(file, known);
-      return known;
-    };
-    const tools = createHash('sha256').update([process.version, process.platform, process.arch].join());
-    this.#tests = testFiles(
-      { files: workspaceFiles, packages: exportingPackages(), read },
-      tools.digest('hex'),
-    );
+    this.#tests = readTests();
     this.#proven = proven;
   }
 
@@ -43,9 +62,11 @@ export class TestSelection {
     return selectChanged(this.#tests, (hash) => this.#proven.has(hash), steps);
   }
 
-  /** Remembers the files of which every test has passed. */
+  /** Remembers the files of which every test has passed, and nothing has changed meanwhile. */
   keepPassed(summaries: readonly StepSummary[]): void {
-    const passed = this.#tests.filter(({ step, file }) => {
+    const now = hashesNow();
+    const passed = this.#tests.filter(({ step, file, hash }) => {
+      if (!now.has(hash)) return false;
       const own = summaries
         .filter(({ name }) => name === step)
         .flatMap(({ judged }) => judged.filter((test) => test.file === file));

@@ -29,12 +29,19 @@ export class PaintedGrid implements SensorGrid {
 
   /** Everything in this rectangle of the plane, metres. */
   paint(kind: keyof typeof floorClasses, fromX: number, toX: number, fromY: number, toY: number): this {
-    for (let j = 0; j < SIDE; j++) {
-      for (let i = 0; i < SIDE; i++) {
-        const [x, y] = [(this.firstX + i + 0.5) * CELL, (this.firstY + j + 0.5) * CELL];
-        if (x > fromX && x < toX && y > fromY && y < toY) this.classes[j * SIDE + i] = floorClasses[kind];
-      }
-    }
+    const [left, right] = cellsBetween(fromX, toX, this.firstX);
+    const [low, high] = cellsBetween(fromY, toY, this.firstY);
+    for (let j = low; j < high; j++) this.classes.fill(floorClasses[kind], j * SIDE + left, j * SIDE + right);
     return this;
   }
+}
+
+/** The cells of a row or column whose middles are between these, from the first to before the last. */
+function cellsBetween(from: number, to: number, first: number): [number, number] {
+  const isBetween = (cell: number) => (first + cell + 0.5) * CELL > from && (first + cell + 0.5) * CELL < to;
+  let begin = Math.max(0, Math.floor(from / CELL) - first - 1);
+  while (begin < SIDE && !isBetween(begin)) begin++;
+  let end = begin;
+  while (end < SIDE && isBetween(end)) end++;
+  return [begin, end];
 }
