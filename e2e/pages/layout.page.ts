@@ -29,6 +29,7 @@ const STATES: Readonly<Record<StageStateName, readonly string[]>> = {
   'guard-blind': ['estop', 'obstacle-guard'],
   'guard-off': ['estop', 'obstacle-guard'],
   returning: ['estop', 'motion-state'],
+  'came-back': ['estop', 'motion-state'],
   watching: ['estop', 'holder'],
   people: ['estop', 'people'],
   alarm: ['estop', 'alarm'],

@@ -179,3 +179,19 @@ test.describe('in the headset', () => {
     ]);
   });
 });
+
+test('a robot that came back while its link was away says how far and why, until it has nothing to say of it', async ({
+  stage,
+}) => {
+  const page = await stage.open({ state: 'came-back' });
+  await stage.run(300);
+  const words = page
+    .getByText('The link was lost; it came back 2.3 m: until somebody was heard again')
+    .first();
+  await expect(words).toBeVisible();
+  await stage.script(({ robot }) => {
+    robot.telemetry = {};
+  });
+  await stage.run(300);
+  await expect(words).toBeHidden();
+});

@@ -113,6 +113,24 @@ describe('a robot that has lost its operators', () => {
     expect(drive(driver, 0.1)).toBe(stood);
   });
 
+  test('stands when STOP that was pressed meanwhile arrives, and does not go on when that is released', () => {
+    start('--return-unseen', 'slow');
+    const driver = scenario.connected();
+    drive(driver);
+    for (const direction of [driver.up, driver.down]) direction.blackhole(true);
+    scenario.until(() => (returns()?.metres ?? 0) >= 0.1, 30_000);
+    driver.client.estop();
+    scenario.run(200);
+    for (const direction of [driver.up, driver.down]) direction.blackhole(false);
+    scenario.until(() => driver.client.stops.status === 'confirmed');
+    scenario.until(() => scenario.robot.base.state.twist.linear.x === 0, 1000);
+    const stood = x();
+    driver.client.releaseEstop();
+    scenario.until(() => !driver.client.link.session.estop.latched);
+    scenario.run(5000);
+    expect(x()).toBe(stood);
+  });
+
   test('stands when it is stopped at the robot, and for good', () => {
     start('--return-unseen', 'slow');
     const driver = scenario.connected();

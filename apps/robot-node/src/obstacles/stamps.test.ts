@@ -1,8 +1,10 @@
 /**
  * Time from outside is judged: whatever the stamps of clouds, poses and fixes say, the robot comes no nearer to a wall and no
- * farther out of its fence than with honest ones and what is stated here.
+ * farther out of its fence than with honest ones and what is stated here. A sensor whose clouds are all older than the guard
+ * remembers is none: then, as towards all that no sensor sees, the robot is slow.
  */
 import { casesOf, longProperty } from '@farpoint/network-sim/cases';
+import { defaultObstacleGuardOptions } from '@farpoint/safety';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
@@ -25,6 +27,7 @@ import { driveAtWall, type WallTruth } from '../testing/wall-drive.ts';
 
 const MOUNT = { x: 0.1, y: 0, z: 0.9, roll: 0, pitch: 0.3, yaw: 0 };
 const SPEED = 0.6;
+const { occupiedMemoryMs, unseenMps } = defaultObstacleGuardOptions;
 /** What clocks in step may differ by, at full speed. */
 const AHEAD_M = 0.1 * SPEED;
 /** How far the robot goes before a pose that does not move is given up, and until it stands. */
@@ -32,6 +35,8 @@ const FROZEN_M = 0.1 + 0.55 * SPEED + SPEED ** 2 / 2 + 0.1;
 
 type Header = ReturnType<typeof headerAt>;
 type Stamps = (nowMs: number) => Header['stamp'] | null;
+/** How old the newest message was by its stamp when it came, ms. */
+type Publisher = Stamps & { leastAgeMs: number };
 
 /** One way in which a publisher stamps; `null`: as it should. */
 const ways = {
@@ -61,19 +66,24 @@ const publisher = fc
       maxLength: 4,
     },
   )
-  .map((phases): Stamps => {
+  .map((phases): Publisher => {
     let [phase, left, last] = [0, phases[0]?.[0] ?? 0, 5000];
-    return (nowMs) => {
-      if (left-- <= 0) {
-        phase = (phase + 1) % phases.length;
-        left = phases[phase]?.[0] ?? 0;
-      }
-      const way = phases[phase]?.[1] as Way;
-      const ms = way(nowMs, last);
-      if (ms === null) return { sec: 0, nanosec: 0 };
-      last = ms;
-      return headerAt(ms, '').stamp;
-    };
+    const stamps: Publisher = Object.assign(
+      (nowMs: number) => {
+        if (left-- <= 0) {
+          phase = (phase + 1) % phases.length;
+          left = phases[phase]?.[0] ?? 0;
+        }
+        const way = phases[phase]?.[1] as Way;
+        const ms = way(nowMs, last);
+        stamps.leastAgeMs = Math.min(stamps.leastAgeMs, nowMs - (ms ?? nowMs));
+        if (ms === null) return { sec: 0, nanosec: 0 };
+        last = ms;
+        return headerAt(ms, '').stamp;
+      },
+      { leastAgeMs: Number.POSITIVE_INFINITY },
+    );
+    return stamps;
   });
 
 const stamped = <Message extends { header: Header }>(
@@ -171,7 +181,10 @@ describe('a robot', async () => {
       await fc.assert(
         fc.asyncProperty(publisher, publisher, async (clouds, poses) => {
           const atWall = await drive({ by, clouds, poses, seconds: 8 });
-          expect(atWall.contactMps).toBeNull();
+          // What was seen longer ago than that is remembered no more, as if there were no sensor: the robot is slow.
+          if (clouds.leastAgeMs > occupiedMemoryMs)
+            expect(atWall.fastestMps).toBeLessThanOrEqual(unseenMps + 1e-9);
+          else expect(atWall.contactMps).toBeNull();
           metres += 1.5 - atWall.gapM;
         }),
         longProperty(36, 12),

@@ -143,6 +143,11 @@ const states = {
   returning: robotThat('The robot drives back along its track', ({ robot }) => {
     robot.telemetry = { motion: { ...freeMotion, return: { phase: 'returning', metres: 1.2 } } };
   }),
+  'came-back': robotThat('The robot came back while its link was away', ({ robot }) => {
+    robot.telemetry = {
+      motion: { ...freeMotion, return: { phase: 'ended', metres: 2.3, end: 'service-back' } },
+    };
+  }),
   watching: robotThat('Your grant lets you watch', ({ robot }) => {
     robot.access = { role: 'watch', name: 'Anna', expiresInS: 3600 };
   }),
