@@ -203,8 +203,8 @@ export class RobotClient {
   }
 
   /**
-   * Asks for these videos only: indices into the list of the `videos` event. Initially none. `barcode`: whether the robot
-   * draws the capture time into their pictures, for everyone: to measure latency.
+   * Asks for these videos only: indices into the list of the `videos` event. Initially none.
+   * @param barcode whether the robot draws the capture time into their pictures, for everyone: to measure latency
    */
   watchVideos(videos: readonly number[], barcode = false): void {
     this.link.sendSession({ type: 'videos', videos: [...videos], ...(barcode ? { barcode } : {}) });
