@@ -86,11 +86,10 @@ describe.skipIf(findJanus() === null)(`Janus’ streaming plugin (needs: ${JANUS
   });
 
   it('notices that Janus has died', async () => {
-    const failure = new Promise<JanusFailure>((resolve) => void connect({ onClosed: resolve }));
-    // The connection is there once a second one is.
-    await connect();
+    const closed = Promise.withResolvers<JanusFailure>();
+    await connect({ onClosed: closed.resolve });
     await janus.kill();
-    expect((await failure).reason).toBe('closed');
+    expect((await closed.promise).reason).toBe('closed');
     expect(await failureOf(connect())).toBe('unreachable');
     await janus.restart();
     await connect();
