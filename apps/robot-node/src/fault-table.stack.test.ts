@@ -125,8 +125,9 @@ describe.skipIf(!isAvailable())(
       try {
         await rig.wheels.until(({ linear }) => linear === 0);
         if (withinMs !== undefined) note(name, causeMs, withinMs);
-        // Longer than a gap after which it would move on.
-        await (silent ? rig.wheels.silence(600) : rig.wheels.beats(15));
+        // Longer than a gap after which it would move on, and shorter than what frees the lease.
+        const stoodMs = performance.now();
+        await (silent ? rig.wheels.silence(600) : rig.wheels.until(({ atMs }) => atMs - stoodMs > 1000));
       } finally {
         await ends(driving);
       }
