@@ -142,6 +142,8 @@ export class OperatorPage {
 
   /** Waits until the robot's points are drawn, and more keep arriving. */
   async expectPoints(least = 1000): Promise<void> {
+    // A page that was loaded again has it a moment later.
+    await this.page.waitForFunction(() => window.farpoint !== undefined);
     await this.expectState('session', 'live');
     await expect
       .poll(async () => (await this.probe()).points, { message: 'points drawn' })

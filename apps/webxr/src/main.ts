@@ -53,6 +53,6 @@ document.addEventListener('securitypolicyviolation', ({ effectiveDirective, bloc
 });
 showNotices(notices);
 // The deployed page leaves this out, too. A page of tests can have a scripted link instead of a robot.
-if (import.meta.env.MODE !== 'production')
+if (import.meta.env.MODE !== 'production' && new URLSearchParams(window.location.search).has('stage'))
   void import('./testing/open-stage.ts').then(({ openStage }) => openStage()).then(start);
 else start(null);
