@@ -1,6 +1,7 @@
 import { join } from 'node:path';
 import { chromiumLaunchOptions } from '@farpoint/local-stack';
 import { defineConfig } from '@playwright/test';
+import { voiceFlags } from './src/voice.ts';
 
 /**
  * `pnpm test` runs a failed test again, alone, and names the folder for what it leaves behind, by which the failure is to be
@@ -9,6 +10,9 @@ import { defineConfig } from '@playwright/test';
 const secondRun = process.env.FARPOINT_SECOND_RUN ?? '';
 const isSecondRun = secondRun !== '';
 const outputOf = (project: string): string => join('output', isSecondRun ? secondRun : project);
+
+const browser = chromiumLaunchOptions();
+const FIREFOX = 'firefox*.smoke.ts';
 
 export default defineConfig({
   projects: [
@@ -20,10 +24,20 @@ export default defineConfig({
       ...{ timeout: 60_000, expect: { timeout: 10_000 } },
     },
     // One stack and one software-rendered browser at a time, because two would slow each other down.
-    { name: 'chromium', testDir: 'tests', outputDir: outputOf('chromium'), workers: 1 },
+    {
+      ...{ name: 'smoke', testDir: 'smoke', testMatch: '*.smoke.ts', testIgnore: FIREFOX },
+      ...{ outputDir: outputOf('smoke'), workers: 1 },
+      use: {
+        permissions: ['microphone'],
+        launchOptions: { ...browser, args: [...(browser.args ?? []), ...voiceFlags()] },
+      },
+    },
     // Uses only Playwright's runner. Firefox itself is driven through WebDriver BiDi (FirefoxBrowser of
     // @farpoint/local-stack).
-    { name: 'firefox', testDir: 'firefox', outputDir: outputOf('firefox'), workers: 1 },
+    {
+      ...{ name: 'firefox', testDir: 'smoke', testMatch: FIREFOX },
+      ...{ outputDir: outputOf('firefox'), workers: 1 },
+    },
   ],
   workers: 2,
   retries: 0,
@@ -32,7 +46,7 @@ export default defineConfig({
   forbidOnly: process.env.CI !== undefined,
   reporter: [['list']],
   use: {
-    launchOptions: chromiumLaunchOptions(),
+    launchOptions: browser,
     viewport: { width: 960, height: 540 },
     // A trace has each WebSocket frame and each change of the page: it makes a page slow that draws in software.
     trace: isSecondRun ? { mode: 'on', screenshots: false } : 'off',

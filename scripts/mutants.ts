@@ -104,7 +104,7 @@ async function failuresOf(tests: string, pure: readonly string[] = []): Promise<
       'playwright',
       'test',
       '--project',
-      tests.endsWith('.page.ts') ? 'page' : 'chromium',
+      tests.endsWith('.page.ts') ? 'page' : 'smoke',
       '--reporter',
       'json',
     ];

@@ -47,6 +47,13 @@ test('there are tests that have rules', () => {
   expect(tests.length).toBeGreaterThan(50);
 });
 
+test('there are at most 20 smoke tests: what takes ten seconds each, and real time', () => {
+  const smoke = tests.filter(({ file }) => layerOf(file) === 'smoke').map(({ file }) => read(file));
+  const count = smoke.reduce((sum, text) => sum + (text.match(/^ *test\(/gm)?.length ?? 0), 0);
+  expect(count).toBeGreaterThan(10);
+  expect(count).toBeLessThanOrEqual(20);
+});
+
 test('no test breaks a rule of its layer', () => {
   const broken = tests.flatMap(({ file, violations }) =>
     violations

@@ -144,9 +144,8 @@ async function repeatOptions(): Promise<RepeatOptions> {
 
 /** The command that repeats one test. */
 function againWords(step: string, test: Judged): string {
-  if (step === 'page' || step === 'e2e' || step === 'firefox') {
-    const project = step === 'e2e' ? 'chromium' : step;
-    return `pnpm --dir e2e exec playwright test --project=${project} ${test.file.replace('e2e/', '')}:${test.line ?? ''}`;
+  if (step === 'page' || step === 'smoke' || step === 'firefox') {
+    return `pnpm --dir e2e exec playwright test --project=${step} ${test.file.replace('e2e/', '')}:${test.line ?? ''}`;
   }
   return `pnpm exec vitest run ${nameOf({ ...test, title: '' })}`;
 }

@@ -3,8 +3,11 @@ import { join } from 'node:path';
 import { repositoryRoot } from '@farpoint/local-stack';
 import type { Page } from '@playwright/test';
 import { Headset } from '../src/headset.ts';
-import { OperatorPage } from '../src/operator-page.ts';
-import { expect, simulatedRobot, test } from '../src/stack-test.ts';
+import { expectStanding, OperatorPage, poseOf } from '../src/operator-page.ts';
+import { robotLike } from '../src/robots.ts';
+import { expect, test } from '../src/smoke-test.ts';
+
+const simulatedRobot = robotLike('sim-1');
 
 const WHOLE_CLOUD = { ...simulatedRobot, args: ['--source', 'sim', '--sim-seed', '1', '--fps', '5'] };
 
@@ -25,7 +28,7 @@ async function expectQuiet(page: Page): Promise<void> {
 test('operator-view', async ({ page, startStack }) => {
   await page.setViewportSize({ width: 1280, height: 720 });
   const stack = await startStack({ robots: [WHOLE_CLOUD] });
-  const operator = await OperatorPage.open(page, stack, {
+  const operator = await OperatorPage.open(page, stack.webUrl, {
     ...{ robot: WHOLE_CLOUD.id, every: '1', surface: '1' },
   });
   await operator.expectPoints(100_000);
@@ -35,9 +38,12 @@ test('operator-view', async ({ page, startStack }) => {
 
 test('pictures', async ({ page, startStack }) => {
   await page.setViewportSize({ width: 960, height: 540 });
-  const robot = { ...simulatedRobot, args: [...simulatedRobot.args, '--pictures-of-cloud'] };
+  const robot = {
+    ...simulatedRobot,
+    args: ['--sim-seed', '1', '--mode', 'points64', '--max-points', '15000', '--pictures-of-cloud'],
+  };
   const stack = await startStack({ robots: [robot] });
-  const operator = await OperatorPage.open(page, stack, { robot: robot.id });
+  const operator = await OperatorPage.open(page, stack.webUrl, { robot: robot.id });
   await operator.expectPoints(10_000);
   await expect(page.locator('#pictures figure', { hasText: 'Camera' }).locator('canvas')).toBeVisible();
   await operator.expectFrames(30);
@@ -49,7 +55,7 @@ test('headset-view', async ({ page, startStack }) => {
   await page.setViewportSize({ width: 960, height: 540 });
   const stack = await startStack({ robots: [SAMPLE] });
   await Headset.wear(page);
-  const operator = await OperatorPage.open(page, stack, { robot: SAMPLE.id });
+  const operator = await OperatorPage.open(page, stack.webUrl, { robot: SAMPLE.id });
   await operator.expectPoints(20_000);
   await page.getByRole('button', { name: /VR/ }).click();
   await operator.expectState('vr', true);
@@ -61,7 +67,7 @@ test('headset-tabletop', async ({ page, startStack }) => {
   await page.setViewportSize({ width: 960, height: 540 });
   const stack = await startStack({ robots: [SAMPLE] });
   const headset = await Headset.wear(page);
-  const operator = await OperatorPage.open(page, stack, { robot: SAMPLE.id });
+  const operator = await OperatorPage.open(page, stack.webUrl, { robot: SAMPLE.id });
   await operator.expectPoints(20_000);
   await page.getByRole('button', { name: /VR/ }).click();
   await operator.expectState('vr', true);
@@ -85,20 +91,20 @@ test('dashboard', async ({ page, startStack }) => {
   await page.setViewportSize({ width: 1280, height: 800 });
   const robot = { ...SAMPLE, args: [...SAMPLE.args, '--sim-charge', '19'] };
   const stack = await startStack({ robots: [robot] });
-  const operator = await OperatorPage.open(page, stack, { robot: robot.id });
+  const operator = await OperatorPage.open(page, stack.webUrl, { robot: robot.id });
   await operator.expectPoints(20_000);
   await page.keyboard.press('KeyB');
   const dashboard = page.locator('#dashboard');
   await expect(dashboard.locator('.state')).toHaveText(/^In step with the picture/);
   // A turn to the right, so that the map has a track and the curve of the speed a shape.
-  const start = await operator.body();
-  await operator.holdForward();
+  const start = await poseOf(operator);
+  await operator.hold(operator.script);
   await operator.expectMovedFrom(start, 0.5);
   await page.keyboard.down('d');
-  await expect.poll(async () => Math.abs((await operator.body()).yaw - start.yaw)).toBeGreaterThan(0.1);
+  await expect.poll(async () => Math.abs((await poseOf(operator)).yaw - start.yaw)).toBeGreaterThan(0.1);
   await page.keyboard.up('d');
   await operator.release();
-  await operator.expectStanding();
+  await expectStanding(operator);
   await operator.expectFrames(10);
   await expectQuiet(page);
   await save(page, 'dashboard');

@@ -1,6 +1,6 @@
 import { FirefoxBrowser, firefoxMissing } from '@farpoint/local-stack';
 import type { Page } from 'puppeteer-core';
-import { test as base } from './stack-test.ts';
+import { test as base } from './smoke-test.ts';
 
 /** Tests in Firefox. They are skipped, with the reason, if Firefox is unavailable. */
 export const test = base.extend<{ firefoxPage: Page }, { firefox: FirefoxBrowser | string }>({

@@ -1,42 +1,24 @@
-import type { LocalStack } from '@farpoint/local-stack';
 import type { DrawnProbe, PageState, PageStats } from '@farpoint/webxr/test-api';
-import type { Page, TestInfo } from '@playwright/test';
+import type { TestInfo } from '@playwright/test';
 import { expect } from './expect.ts';
-import { savesPictures, screenSizes, shownOrLate } from './screens.ts';
+import { savesPictures } from './screens.ts';
 
 export interface OpenOptions {
   robot?: string;
-  token?: string;
-  /** Where the page finds signaling; default: where it was loaded from. */
-  signaling?: string;
   /** `relay`: through TURN servers only. */
   ice?: 'relay';
-  /**
-   * Fixed size of the canvas, `WIDTHxHEIGHT`; by default a small one, which leaves more processor time for the rest.
-   * `full`: as large as the window gives it, for tests whose subject is the picture.
-   */
+  /** Fixed size of the canvas, `WIDTHxHEIGHT`; by default a small one, which leaves more processor time for the rest. */
   canvas?: string;
-  /** `1`: each picture is waited for, so that its time is known. */
-  measure?: '1';
   /** Refuse coded clouds. */
   mode?: 'points64';
   /** Draw only every n-th point of coded clouds. */
   every?: string;
   /** `1`: draw clouds of depth cameras as surfaces, which a software renderer does not by default. */
-  surface?: '0' | '1';
-  /** `0`: surfaces have the packets' colours, not those of their camera's video. */
-  paint?: '0';
-  /** `1`: remember what was seen, which a page with a software renderer does not by default. */
-  memory?: '0' | '1';
+  surface?: '1';
   /** Take the stream from this bridge. */
   bridge?: string;
   /** `1`: videos carry their capture time in the picture. */
   barcode?: '1';
-  /** `0`: videos are shown as they come, not in step. */
-  sync?: '0';
-  cues?: '0';
-  /** `0`: the view is not led by commands. */
-  predict?: '0';
   /** How videos are received; by default what suits the browser best. */
   video?: 'track' | 'native' | 'webcodecs';
 }
@@ -45,7 +27,11 @@ export interface OpenOptions {
 export interface BrowserPage {
   goto(url: string): Promise<unknown>;
   waitForFunction(holds: () => boolean): Promise<unknown>;
-  evaluate<T>(work: () => T | Promise<T>): Promise<T>;
+  evaluate<Result, Argument>(
+    work: (argument: Argument) => Result | Promise<Result>,
+    argument: Argument,
+  ): Promise<Result>;
+  evaluate<Result>(work: () => Result | Promise<Result>): Promise<Result>;
   screenshot(options: { path: string }): Promise<Uint8Array>;
   readonly keyboard: BrowserKeyboard;
 }
@@ -57,26 +43,21 @@ interface BrowserKeyboard {
 }
 
 const SMALL_CANVAS = '320x180';
+/** How long one short push lasts. The robot stands after it. */
+const PUSH_MS = 400;
 
 const DEAD_MAN = ' ';
 const FORWARD = 'w';
 const RELEASE_ESTOP = 'r';
 type Key = typeof DEAD_MAN | typeof FORWARD | typeof RELEASE_ESTOP;
 
-/** Run in the page. A hand grips before it pushes: after a stop, a robot does not move for one that does both at once. */
-const SCRIPTED = {
-  forward: async () => {
-    window.farpoint.hold({ forward: 0, left: 0 });
-    await new Promise((resolve) => setTimeout(resolve, 100));
-    window.farpoint.hold({ forward: 1, left: 0 });
-  },
-  back: async () => {
-    window.farpoint.hold({ forward: 0, left: 0 });
-    await new Promise((resolve) => setTimeout(resolve, 100));
-    window.farpoint.hold({ forward: -1, left: 0 });
-  },
-};
-type ScriptedWay = keyof typeof SCRIPTED;
+/** Somebody who hears where the robot is: the driver's own page, or another operator. */
+export interface Watcher {
+  /** base_link in the world, metres and radians; `null` before its telemetry has arrived. */
+  pose(): Promise<{ x: number; y: number; yaw: number } | null>;
+  /** Whether the robot measures that it stands still; `null` before it has said so. */
+  stands(): Promise<boolean | null>;
+}
 
 /** A dead-man grip in a test's hand. */
 export interface Grip {
@@ -85,7 +66,7 @@ export interface Grip {
 }
 
 /** The operator's page as a test uses it: real keys and buttons, and `window.farpoint` to inspect it. */
-export class OperatorPage {
+export class OperatorPage implements Watcher {
   readonly page: BrowserPage;
   #grip: Grip | null = null;
 
@@ -93,34 +74,20 @@ export class OperatorPage {
     this.page = page;
   }
 
-  static async open(page: BrowserPage, stack: LocalStack, options: OpenOptions = {}): Promise<OperatorPage> {
-    const url = new URL(stack.webUrl);
-    if (options.robot !== undefined) url.searchParams.set('robot', options.robot);
-    const { canvas = SMALL_CANVAS } = options;
-    if (canvas !== 'full') url.searchParams.set('canvas', canvas);
-    for (const name of [
-      'token',
-      'signaling',
-      'ice',
-      'bridge',
-      'measure',
-      'mode',
-      'every',
-      'surface',
-      'memory',
-      'paint',
-      'barcode',
-      'sync',
-      'cues',
-      'predict',
-      'video',
-    ] as const) {
-      const value = options[name];
+  /** @param webUrl where the service serves the page */
+  static async open(page: BrowserPage, webUrl: string, options: OpenOptions = {}): Promise<OperatorPage> {
+    const url = new URL(webUrl);
+    for (const [name, value] of Object.entries({ canvas: SMALL_CANVAS, ...options }))
       if (value !== undefined) url.searchParams.set(name, value);
-    }
     await page.goto(url.href);
-    await page.waitForFunction(() => window.farpoint !== undefined);
-    return new OperatorPage(page);
+    const operator = new OperatorPage(page);
+    await operator.loaded();
+    return operator;
+  }
+
+  /** Waits until the page can be asked; also after it was loaded again. */
+  async loaded(): Promise<void> {
+    await this.page.waitForFunction(() => window.farpoint !== undefined);
   }
 
   state(): Promise<PageState> {
@@ -135,20 +102,27 @@ export class OperatorPage {
     return this.page.evaluate(() => window.farpoint.probe());
   }
 
+  async pose() {
+    return (await this.state()).body;
+  }
+
+  async stands() {
+    const { velocity } = await this.state();
+    return velocity === null ? null : velocity.linear === 0 && velocity.angular === 0;
+  }
+
   /** Waits until a part of the page's state has this value. */
   async expectState<Key extends keyof PageState>(key: Key, value: PageState[Key]): Promise<void> {
     await expect.poll(async () => (await this.state())[key], { message: `state.${key}` }).toEqual(value);
   }
 
   /** Waits until the robot's points are drawn, and more keep arriving. */
-  async expectPoints(least = 1000): Promise<void> {
-    // A page that was loaded again has it a moment later.
-    await this.page.waitForFunction(() => window.farpoint !== undefined);
+  async expectPoints(least = 100): Promise<void> {
     await this.expectState('session', 'live');
     await expect
       .poll(async () => (await this.probe()).points, { message: 'points drawn' })
       .toBeGreaterThan(least);
-    await this.expectFrames(5);
+    await this.expectFrames(3);
   }
 
   /** Waits until more than this many further frames of the robot have been drawn. */
@@ -159,61 +133,30 @@ export class OperatorPage {
       .toBeGreaterThan(framesDrawn + more);
   }
 
-  /** Pose of base_link in the world. The robot's telemetry must have arrived. */
-  async body(): Promise<{ x: number; y: number; yaw: number }> {
-    const { body } = await this.state();
-    if (body === null) throw new Error('no telemetry of the robot yet');
-    return body;
+  /** Drives by short pushes of the page's script input until the robot has moved at least this far, metres. */
+  async drives(least: number, { ahead = 1, watcher = this as Watcher } = {}): Promise<void> {
+    const from = await poseOf(watcher);
+    await expectMoved(watcher, from, least, () =>
+      this.page.evaluate(([ahead, ms]) => window.farpoint.drive({ forward: ahead, left: 0 }, ms), [
+        ahead,
+        PUSH_MS,
+      ] as const),
+    );
+    await expectStanding(watcher);
   }
 
-  /**
-   * Waits until the robot has moved at least this far from a position, metres.
-   *
-   * @param driver whose keys or grip are held
-   */
-  async expectMovedFrom(from: { x: number; y: number }, least: number, driver: OperatorPage = this) {
-    await expect
-      .poll(
-        async () => {
-          await driver.gripAnew(this);
-          const { x, y } = await this.body();
-          return Math.hypot(x - from.x, y - from.y);
-        },
-        { message: 'metres driven', intervals: [100] },
-      )
-      .toBeGreaterThan(least);
+  /** A short push does not move the robot, which stands. */
+  async cannotDrive(watcher: Watcher = this): Promise<void> {
+    await expectStanding(watcher);
+    const stood = await poseOf(watcher);
+    await this.page.evaluate((ms) => window.farpoint.drive({ forward: 1, left: 0 }, ms), 2 * PUSH_MS);
+    expect(await poseOf(watcher)).toEqual(stood);
   }
 
-  /** Waits until the robot measures that it stands still. */
-  async expectStanding(): Promise<void> {
-    await expect
-      .poll(
-        async () => {
-          const { velocity } = await this.state();
-          return velocity === null ? Number.NaN : Math.abs(velocity.linear) + Math.abs(velocity.angular);
-        },
-        { message: 'speed' },
-      )
-      .toBe(0);
-  }
-
-  /** Drives forward until {@link release}, by the page's script input. The first grip requests the lease. */
-  holdForward(): Promise<void> {
-    return this.hold(this.scriptGrip('forward'));
-  }
-
-  /** A grip of the page's script input. No device has to be read in time, which a page that draws in software is not. */
-  scriptGrip(way: ScriptedWay): Grip {
-    return {
-      hold: () => this.page.evaluate(SCRIPTED[way]),
-      release: () => this.page.evaluate(() => window.farpoint.hold(null)),
-    };
-  }
-
-  /** As {@link holdForward}, by the dead-man key and W: for tests whose subject is the keyboard. */
-  async holdForwardKeys(): Promise<void> {
+  /** The keys with which a person drives ahead. */
+  get keys(): Grip {
     const { keyboard } = this.page;
-    await this.hold({
+    return {
       async hold() {
         await keyboard.down(DEAD_MAN);
         await keyboard.down(FORWARD);
@@ -222,7 +165,20 @@ export class OperatorPage {
         await keyboard.up(FORWARD);
         await keyboard.up(DEAD_MAN);
       },
-    });
+    };
+  }
+
+  /** The page's script input, pushed ahead. A hand grips before it pushes. */
+  get script(): Grip {
+    return {
+      hold: () =>
+        this.page.evaluate(async () => {
+          window.farpoint.hold({ forward: 0, left: 0 });
+          await new Promise(requestAnimationFrame);
+          window.farpoint.hold({ forward: 1, left: 0 });
+        }),
+      release: () => this.page.evaluate(() => window.farpoint.hold(null)),
+    };
   }
 
   /** Holds this grip until {@link release}. */
@@ -237,21 +193,27 @@ export class OperatorPage {
     await grip?.release();
   }
 
+  /** Waits until what is held has moved the robot at least this far, metres. */
+  async expectMovedFrom(
+    from: { x: number; y: number },
+    least: number,
+    watcher: Watcher = this,
+  ): Promise<void> {
+    await expectMoved(watcher, from, least, () => this.gripAnew());
+  }
+
   /**
    * On a busy machine the page may pause for longer than a grip or the robot's watchdog allows, even for an instant. The
    * robot then stops until the operator lets go and grips again, so that is what this does, as an operator would.
-   *
-   * @param watcher a page that hears the robot's state; through a bridge, another one
    */
-  async gripAnew(watcher: OperatorPage = this): Promise<void> {
+  async gripAnew(): Promise<void> {
     const grip = this.#grip;
     if (grip === null) return;
-    const { drive } = await watcher.state();
-    const { gripLost } = await this.state();
+    const { drive, gripLost } = await this.state();
     if (drive !== 'watchdog' && gripLost === null) return;
     await this.release();
-    await watcher.expectState('drive', 'idle');
     await this.expectState('gripLost', null);
+    await expect.poll(async () => (await this.state()).drive).not.toBe('watchdog');
     await this.hold(grip);
   }
 
@@ -262,25 +224,37 @@ export class OperatorPage {
     await this.page.keyboard.up(RELEASE_ESTOP);
   }
 
-  /** Saves pictures for people of the page as a phone, a laptop and a large screen show it, if they want any. */
-  async screenshots(page: Page, testInfo: TestInfo, name: string): Promise<void> {
-    if (!savesPictures) return;
-    const before = page.viewportSize();
-    for (const size of screenSizes) {
-      await page.setViewportSize(size);
-      await this.screenshot(testInfo, `${name}-${size.width}`);
-    }
-    if (before !== null) await page.setViewportSize(before);
+  /** Saves a picture for people, if they want any. */
+  async picture(testInfo: TestInfo, name: string): Promise<void> {
+    if (savesPictures) await this.page.screenshot({ path: testInfo.outputPath(`${name}.png`) });
   }
+}
 
-  /** Saves a picture for people, if they want any; otherwise waits until what it would show is drawn. */
-  async screenshot(testInfo: TestInfo, name: string): Promise<void> {
-    if (savesPictures) await this.picture(testInfo, name);
-    else await this.page.evaluate(shownOrLate);
-  }
+/** Waits for the robot's first telemetry. */
+export async function poseOf(watcher: Watcher): Promise<{ x: number; y: number; yaw: number }> {
+  await expect.poll(async () => (await watcher.pose()) !== null, { message: 'telemetry' }).toBe(true);
+  return (await watcher.pose()) as { x: number; y: number; yaw: number };
+}
 
-  /** Takes a picture for the test, and saves it with its output. */
-  async picture(testInfo: TestInfo, name: string): Promise<Buffer> {
-    return Buffer.from(await this.page.screenshot({ path: testInfo.outputPath(`${name}.png`) }));
-  }
+/** Waits until the robot measures that it stands still. */
+export async function expectStanding(watcher: Watcher): Promise<void> {
+  await expect.poll(() => watcher.stands(), { message: 'stands' }).toBe(true);
+}
+
+async function expectMoved(
+  watcher: Watcher,
+  from: { x: number; y: number },
+  least: number,
+  push: () => Promise<unknown>,
+): Promise<void> {
+  await expect
+    .poll(
+      async () => {
+        await push();
+        const { x, y } = await poseOf(watcher);
+        return Math.hypot(x - from.x, y - from.y);
+      },
+      { message: 'metres driven' },
+    )
+    .toBeGreaterThan(least);
 }

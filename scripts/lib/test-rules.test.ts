@@ -61,6 +61,7 @@ describe('each rule finds what it forbids', () => {
 
 describe('no rule finds what is allowed', () => {
   it.each<[string, TestLayer, string]>([
+    ['what a machine lacks', 'smoke', test('test.skip(!hasVideo, NEEDS_VIDEO);', 'expect(a).toBe(1);')],
     [
       'stepped frames',
       'deterministic',

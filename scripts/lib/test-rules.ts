@@ -24,7 +24,8 @@ const SLEEP =
 /** Until something is true: that this takes long is no fault. */
 const LOOPS = /\bwhile \(/;
 const RETRIES = /\bretr(?:y|ies):\s*[1-9]|\.configure\(\{[^}]*retries/;
-const CHOSEN = /\b(?:test|it|describe)\.(?:only|skip|fixme)\(/;
+/** A test may ask what this machine has: `test.skip(!hasVideo, …)`. */
+const CHOSEN = /\b(?:test|it|describe)\.(?:(?:only|fixme)\(|skip\(\s*(?:['"`)]|true\b|$))/;
 const PORT =
   /(?:127\.0\.0\.1|localhost|\[::1\]):[1-9]\d{3,4}\b|\b(?:\w*P|p)ort['"]?\s*[:=,]\s*['"]?[1-9]\d{3,4}\b/;
 
@@ -39,7 +40,7 @@ const LINE_RULES: Readonly<Record<TestLayer, readonly LineRule[]>> = {
   deterministic: [
     ...ALL,
     ['no waitForTimeout', /\bwaitForTimeout\b/],
-    ['no stack', /\bLocalStack\b|stack-test/],
+    ['no stack', /\bLocalStack\b|smoke-test|shared-stack/],
     ['no polling', /\bexpect\.poll\b|\btoPass\(/],
     ['no real clock', /\bDate\.now\b|\bperformance\.now\b|\bprocess\.hrtime\b/],
     ['no sleep', SLEEP],

@@ -13,7 +13,6 @@ const NOTHING: Budget = { firstTries: 0, afterRerun: 0 };
 const BUDGETS: Readonly<Record<string, Budget>> = {
   stack: { firstTries: 0.0005, afterRerun: 0 },
   smoke: { firstTries: 0.01, afterRerun: 0 },
-  e2e: { firstTries: 0.01, afterRerun: 0 },
   firefox: { firstTries: 0.01, afterRerun: 0 },
 };
 

@@ -94,21 +94,21 @@ export const NEEDS: readonly Need[] = [
     packages: GSTREAMER.packages,
     isThere: gstreamerIsThere,
     without: `camera video and sound: no GStreamer (apt-get install ${GSTREAMER.packages.join(' ')})`,
-    steps: ['native', 'stack', 'e2e', 'firefox'],
+    steps: ['native', 'stack', 'smoke', 'firefox'],
   },
   {
     name: 'ros1',
     packages: Ros1Peers.PACKAGES,
     isThere: async () => Ros1Peers.find().python !== null,
     without: `a ROS 1 graph: no rospy (apt-get install ${Ros1Peers.PACKAGES.join(' ')})`,
-    steps: ['stack', 'e2e'],
+    steps: ['stack', 'smoke'],
   },
   {
     name: 'janus',
     packages: ['janus'],
     isThere: async () => findJanus() !== null,
     without: 'broadcasts: no Janus (apt-get install janus)',
-    steps: ['stack', 'e2e'],
+    steps: ['stack', 'smoke'],
   },
   {
     name: 'chromium',
@@ -125,14 +125,14 @@ export const NEEDS: readonly Need[] = [
       return path !== null && (await run(path, ['--version'], { timeoutMs: 30_000 })).code === 0;
     },
     without: `the page: no Chromium (${CHROMIUM_REMEDY})`,
-    steps: ['page', 'e2e'],
+    steps: ['page', 'stack', 'smoke'],
   },
   {
     name: 'turnserver',
     packages: ['coturn'],
     isThere: () => Promise.resolve(findProgram(['turnserver']) !== null),
     without: 'relays: no TURN server (apt-get install coturn)',
-    steps: ['e2e'],
+    steps: ['smoke'],
   },
   {
     name: 'firefox',

@@ -3,7 +3,7 @@ import { readWorkspaceFile, workspaceFiles } from '../lib/workspace-files.ts';
 import { daysLeft, MOST_QUARANTINED, quarantineOf, readQuarantine } from './quarantine.ts';
 
 const ENTRY = {
-  test: 'e2e/tests/flat.spec.ts > drives',
+  test: 'e2e/smoke/flat.smoke.ts > drives',
   since: '2026-11-28',
   until: '2026-12-12',
   cause: 'a page drawn in software reads its keys late',
@@ -20,9 +20,9 @@ describe('the quarantine', () => {
 
   it('finds a test by its file and title', () => {
     const quarantine = readQuarantine(yaml(ENTRY));
-    expect(quarantineOf({ file: 'e2e/tests/flat.spec.ts', title: 'drives' }, quarantine)).toEqual(ENTRY);
-    expect(quarantineOf({ file: 'e2e/tests/flat.spec.ts', title: 'drives on' }, quarantine)).toBeUndefined();
-    expect(quarantineOf({ file: 'e2e/tests/other.spec.ts', title: 'drives' }, quarantine)).toBeUndefined();
+    expect(quarantineOf({ file: 'e2e/smoke/flat.smoke.ts', title: 'drives' }, quarantine)).toEqual(ENTRY);
+    expect(quarantineOf({ file: 'e2e/smoke/flat.smoke.ts', title: 'drives on' }, quarantine)).toBeUndefined();
+    expect(quarantineOf({ file: 'e2e/smoke/other.smoke.ts', title: 'drives' }, quarantine)).toBeUndefined();
   });
 
   it.each([
@@ -30,7 +30,7 @@ describe('the quarantine', () => {
     ['of grants', { test: 'apps/robot-node/src/grants.stack.test.ts > x' }],
     ['of strangers', { test: 'apps/robot-node/src/strangers.stack.test.ts > x' }],
     ['of packages/safety', { test: 'packages/safety/src/watchdog.test.ts > x' }],
-    ['without a title', { test: 'e2e/tests/flat.spec.ts' }],
+    ['without a title', { test: 'e2e/smoke/flat.smoke.ts' }],
     ['that lasts longer than 14 days', { until: '2026-12-13' }],
     ['that ends before it begins', { until: '2026-11-27' }],
     ['without a cause', { cause: '' }],

@@ -77,12 +77,12 @@ describe('vitest’s report', () => {
 
 describe('Playwright’s report', () => {
   const spec = (title: string, status: string, results: object[]) => ({
-    ...{ title, file: 'flat.spec.ts', line: 7, ok: status === 'expected' },
+    ...{ title, file: 'flat.smoke.ts', line: 7, ok: status === 'expected' },
     tests: [{ projectName: 'chromium', status, results }],
   });
   const result = (more: object = {}) => ({ status: 'passed', duration: 1500, ...more });
   const report = (specs: object[], suites: object[] = [], errors: object[] = []) =>
-    JSON.stringify({ suites: [{ title: 'flat.spec.ts', specs, suites }], errors });
+    JSON.stringify({ suites: [{ title: 'flat.smoke.ts', specs, suites }], errors });
 
   it('gives each test, how long it took and what it left behind', () => {
     const failure = result({
@@ -92,12 +92,12 @@ describe('Playwright’s report', () => {
     const inner = { title: 'a phone', specs: [spec('stops', 'skipped', [])] };
     const { outcomes, errors } = readPlaywrightReport(
       report([spec('drives', 'unexpected', [failure]), spec('waits', 'expected', [result()])], [inner]),
-      'e2e/tests',
+      'e2e/smoke',
     );
     expect(errors).toEqual([]);
     expect(outcomes).toEqual([
       {
-        ...{ file: 'e2e/tests/flat.spec.ts', title: 'drives', status: 'failed', ms: 1500, line: 7 },
+        ...{ file: 'e2e/smoke/flat.smoke.ts', title: 'drives', status: 'failed', ms: 1500, line: 7 },
         ...{ reason: 'expected 0.3', attachments: ['/t/trace.zip'] },
       },
       expect.objectContaining({ title: 'waits', status: 'passed' }),
@@ -111,7 +111,7 @@ describe('Playwright’s report', () => {
         spec('a', 'flaky', [result(), result()]),
         spec('b', 'unexpected', [result({ status: 'timedOut' })]),
       ]),
-      'e2e/tests',
+      'e2e/smoke',
     );
     expect(outcomes.map(({ status }) => status)).toEqual(['failed', 'failed']);
   });

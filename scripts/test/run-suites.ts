@@ -107,7 +107,7 @@ function escaped(text: string): string {
 export interface PlaywrightOptions {
   /** The only files that run; default: all. */
   files?: readonly string[] | undefined;
-  project: 'page' | 'chromium' | 'firefox';
+  project: 'page' | 'smoke' | 'firefox';
   /** As of {@link VitestOptions}. */
   again: boolean;
   quarantine: readonly Quarantined[];

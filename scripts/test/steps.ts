@@ -156,27 +156,23 @@ function provenWords({ group, provenAt }: GroupState): string {
   return `${group.name} (${provenAt?.slice(0, 10)})`;
 }
 
-/** A project of e2e/playwright.config.ts, and the browser that it needs. */
-const BROWSERS = { page: 'chromium', chromium: 'chromium', firefox: 'firefox' } as const;
+/** Steps that are projects of e2e/playwright.config.ts, and the browsers that they need. */
+const BROWSERS = { page: 'chromium', smoke: 'chromium', firefox: 'firefox' } as const;
 
-async function runBrowser(
-  step: 'page' | 'e2e' | 'firefox',
-  project: keyof typeof BROWSERS,
-  context: TestRun,
-): Promise<StepResult> {
+async function runBrowser(step: keyof typeof BROWSERS, context: TestRun): Promise<StepResult> {
   const notTested = untested(step, context);
-  const browser = BROWSERS[project];
+  const browser = BROWSERS[step];
   if (context.missing.some(({ name }) => name === browser)) {
     // Without Chromium nothing says that the page works.
     if (browser === 'firefox') return { ok: true, notTested };
     return { ok: false, failure: `not tested: ${NEEDS.find(({ name }) => name === browser)?.without}` };
   }
   // Its tests have neither a program nor real time that could excuse a failure.
-  const again = project !== 'page';
+  const again = step !== 'page';
   if (again) await warmPrograms(context.say);
   const { quarantine } = context;
   const files = context.filesOf(step);
-  return { ...ofSuite(await runPlaywright({ project, files, again, quarantine })), notTested };
+  return { ...ofSuite(await runPlaywright({ project: step, files, again, quarantine })), notTested };
 }
 
 export const STEPS: readonly Step[] = [
@@ -219,17 +215,17 @@ export const STEPS: readonly Step[] = [
   {
     name: 'page',
     what: 'the page in Chromium on a scripted link, with a clock of its own (playwright)',
-    run: (context) => runBrowser('page', 'page', context),
+    run: (context) => runBrowser('page', context),
   },
   { name: 'stack', what: 'unit tests with processes, threads and sockets (vitest)', run: runStack },
   {
-    name: 'e2e',
-    what: 'end to end in Chromium (playwright)',
-    run: (context) => runBrowser('e2e', 'chromium', context),
+    name: 'smoke',
+    what: 'the real programs with a real Chromium (playwright)',
+    run: (context) => runBrowser('smoke', context),
   },
   {
     name: 'firefox',
-    what: 'end to end in Firefox (WebDriver BiDi)',
-    run: (context) => runBrowser('firefox', 'firefox', context),
+    what: 'the same with a real Firefox (WebDriver BiDi)',
+    run: (context) => runBrowser('firefox', context),
   },
 ];

@@ -3,7 +3,7 @@ import { type StepSummary, summaryOf } from './summary.ts';
 import type { Judged } from './verdict.ts';
 
 const judged = (title: string, verdict: Judged['verdict'], more: Partial<Judged> = {}): Judged => ({
-  ...{ file: 'e2e/tests/a.spec.ts', title, status: verdict === 'passed' ? 'passed' : 'failed', verdict },
+  ...{ file: 'e2e/smoke/a.smoke.ts', title, status: verdict === 'passed' ? 'passed' : 'failed', verdict },
   ...{ ms: 2000, reason: '', line: 7, attachments: [], alone: [] },
   ...more,
 });
@@ -16,7 +16,9 @@ const summary = (steps: StepSummary[], quarantine: Parameters<typeof summaryOf>[
 
 describe('the summary', () => {
   it('says of each step whether it passed, and how long all took', () => {
-    expect(summary([step('pure'), step('e2e', { ok: false })])[0]).toBe('2 min 5 s   pure ✓ 61   e2e ✗ 61');
+    expect(summary([step('pure'), step('smoke', { ok: false })])[0]).toBe(
+      '2 min 5 s   pure ✓ 61   smoke ✗ 61',
+    );
     const many = summary(Array.from({ length: 20 }, (_, n) => step(`step-${n}`)));
     expect(many.join(' ')).toContain('step-19 ✓ 61');
   });
@@ -24,19 +26,19 @@ describe('the summary', () => {
   it('says of a failure what was expected, how it ended alone, what repeats it and what it left', () => {
     const alone = [judged('drives', 'failed', { attachments: ['/t/trace.zip'] }), judged('drives', 'passed')];
     const failure = judged('drives', 'failed', { reason: 'expected 0.3\n\nto be 0.5\na\nb', alone });
-    expect(summary([step('e2e', { ok: false, judged: [failure] })]).slice(1, 7)).toEqual([
-      'FAILED  e2e  e2e/tests/a.spec.ts > drives (line 7)',
+    expect(summary([step('smoke', { ok: false, judged: [failure] })]).slice(1, 7)).toEqual([
+      'FAILED  smoke  e2e/smoke/a.smoke.ts > drives (line 7)',
       '        expected 0.3',
       '        to be 0.5',
       '        a',
-      '        alone: failed, passed; again: repeat e2e e2e/tests/a.spec.ts:7',
+      '        alone: failed, passed; again: repeat smoke e2e/smoke/a.smoke.ts:7',
       '        left behind: /t/trace.zip',
     ]);
   });
 
   it('names what was flaky, in quarantine, not tested, and passed before', () => {
     const entry = {
-      ...{ test: 'e2e/tests/a.spec.ts > keys', since: '2026-11-28', until: '2026-12-05' },
+      ...{ test: 'e2e/smoke/a.smoke.ts > keys', since: '2026-11-28', until: '2026-12-05' },
       ...{ cause: '', seen: '', ends: '' },
     };
     const tests = [
@@ -44,12 +46,12 @@ describe('the summary', () => {
       judged('keys', 'quarantined'),
     ];
     const steps = [
-      step('e2e', { judged: tests, notTested: ['relays: no TURN server'], proven: ['rust (2026-11-27)'] }),
+      step('smoke', { judged: tests, notTested: ['relays: no TURN server'], proven: ['rust (2026-11-27)'] }),
     ];
     const text = summary(steps, [entry]).join('\n');
-    expect(text).toContain('e2e ✓ 61 (1 flaky, in part)');
-    expect(text).toContain('flaky (passed 2/2 alone)  e2e  e2e/tests/a.spec.ts > turns');
-    expect(text).toContain('quarantined (7 days left)  e2e  e2e/tests/a.spec.ts > keys: failed');
+    expect(text).toContain('smoke ✓ 61 (1 flaky, in part)');
+    expect(text).toContain('flaky (passed 2/2 alone)  smoke  e2e/smoke/a.smoke.ts > turns');
+    expect(text).toContain('quarantined (7 days left)  smoke  e2e/smoke/a.smoke.ts > keys: failed');
     expect(text).toContain('not tested here  relays: no TURN server');
     expect(text).toContain('passed before, with the same inputs  rust (2026-11-27)');
     expect(summary(steps, [{ ...entry, until: '2026-11-26' }]).join('\n')).toContain('EXPIRED 2 days ago');
@@ -57,15 +59,15 @@ describe('the summary', () => {
 
   it('says that too many flaky tests are a fault', () => {
     const flaky = ['a', 'b', 'c', 'd'].map((title) => judged(title, 'flaky'));
-    expect(summary([step('e2e', { judged: flaky.slice(1) })]).join('\n')).not.toContain('FAILED');
-    expect(summary([step('e2e', { judged: flaky })]).join('\n')).toContain('FAILED  4 flaky tests');
+    expect(summary([step('smoke', { judged: flaky.slice(1) })]).join('\n')).not.toContain('FAILED');
+    expect(summary([step('smoke', { judged: flaky })]).join('\n')).toContain('FAILED  4 flaky tests');
   });
 
   it('has at most 40 lines, and none of them is long', () => {
     const failures = Array.from({ length: 60 }, (_, n) =>
       judged(`${'long '.repeat(60)}${n}`, 'failed', { reason: 'x'.repeat(500) }),
     );
-    const lines = summary([step('e2e', { ok: false, judged: failures, failure: 'and\nthat\ntoo' })]);
+    const lines = summary([step('smoke', { ok: false, judged: failures, failure: 'and\nthat\ntoo' })]);
     expect(lines.length).toBeLessThanOrEqual(40);
     expect(Math.max(...lines.map(({ length }) => length))).toBeLessThanOrEqual(150);
     expect(lines.join('\n')).toContain('FAILED  and 52 more');

@@ -1,5 +1,5 @@
 import { existsSync } from 'node:fs';
-import { chromium, type LaunchOptions } from '@playwright/test';
+import { type Browser, chromium, type LaunchOptions } from '@playwright/test';
 import { findProgram } from './find-program.ts';
 
 /** The command that installs a missing browser. */
@@ -54,4 +54,9 @@ export function chromiumLaunchOptions(): LaunchOptions {
       '--disable-features=WebRtcHideLocalIpsWithMdns',
     ],
   };
+}
+
+/** Starts the browser with {@link chromiumLaunchOptions}, for what is no Playwright test. */
+export function launchChromium(): Promise<Browser> {
+  return chromium.launch(chromiumLaunchOptions());
 }

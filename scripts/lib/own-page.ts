@@ -4,8 +4,8 @@ import { createServer } from 'node:http';
 import type { AddressInfo } from 'node:net';
 import { extname, join, normalize } from 'node:path';
 import { repositoryRoot } from '@farpoint/local-stack';
-import { packPackage, publishedPackages } from '../../scripts/lib/published-packages.ts';
-import { run } from '../../scripts/lib/run.ts';
+import { packPackage, publishedPackages } from './published-packages.ts';
+import { run } from './run.ts';
 
 /**
  * Builds and packs both packages, and installs them into a copy of the example. Nothing is downloaded: three.js comes
