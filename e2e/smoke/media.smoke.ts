@@ -109,7 +109,7 @@ test('a camera changes its codec for somebody without H.264, under way, in all w
   }
 });
 
-test('the robot is heard while Sound is on; the driver’s voice comes out of it while M is held', async ({
+test('the robot is heard while Sound is on; the driver’s voice comes out of it while a key or a button is held', async ({
   page,
   shared,
 }) => {
@@ -142,8 +142,16 @@ test('the robot is heard while Sound is on; the driver’s voice comes out of it
     ).filter((share) => share > 0.7).length;
   };
   await expect.poll(tones).toBeGreaterThan(3);
-  await page.keyboard.up('m');
+  // A page that loses the focus hears no key that is let go.
+  await page.evaluate(() => window.dispatchEvent(new Event('blur')));
+  expect((await sound(page)).sending).toBe(false);
   await expect.poll(() => shared.metric(spec.id, 'voice_open')).toBe(0);
+  await page.keyboard.up('m');
+  await page.locator('#talk').hover();
+  await page.mouse.down();
+  await expect.poll(async () => (await sound(page)).said.state).toBe('live');
+  await page.mouse.up();
+  expect((await sound(page)).sending).toBe(false);
   await expectTone();
   await page.getByRole('button', { name: 'Sound', exact: true }).click();
   await expect.poll(() => shared.metric(spec.id, 'sound_bits_per_second')).toBe(0);
