@@ -1,3 +1,4 @@
+import { longProperty } from '@farpoint/network-sim/cases';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { FrameWindow, MAX_RUNS } from './frame-window.ts';
@@ -173,7 +174,7 @@ describe('FrameWindow', () => {
           expect(slots.size).toBe(new Set([...slots.values()].flatMap((set) => [...set])).size);
         }
       }),
-      { seed: 7, numRuns: 500 },
+      longProperty(7, 500),
     );
   });
 

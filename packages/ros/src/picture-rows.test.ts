@@ -1,3 +1,4 @@
+import { longProperty } from '@farpoint/network-sim/cases';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { compressedPicture } from './compressed-picture.ts';
@@ -173,7 +174,7 @@ describe('pictureRows', () => {
           expect(error).toBeInstanceOf(RosFault);
         }
       }),
-      { seed: 4, numRuns: 4000 },
+      longProperty(4, 4000),
     );
     expect(read).toBeGreaterThan(50);
   });

@@ -28,20 +28,21 @@ function session() {
 describe('SrtpOpener', () => {
   it('decrypts what another implementation encrypted, past wraps, out of order within its window, once', () => {
     const { opener, seal } = session();
-    const packets = Array.from({ length: 70_000 }, (_, i) =>
-      seal(65_000 + i, new Uint8Array([i & 0xff, i >> 8])),
-    );
+    // All of those around both wraps; between them, jumps that are no longer than a receiver can follow.
+    const isSent = (i: number) => i < 1000 || (i > 65_700 && i < 66_700) || i % 8192 === 0;
+    const packets = Array.from({ length: 70_000 }, (_, i) => i)
+      .filter(isSent)
+      .map((i) => ({ i, packet: seal(65_000 + i, new Uint8Array([i & 0xff, i >> 8])) }));
     // Every tenth packet arrives three packets later.
     const order = packets
-      .map((packet, i) => ({ packet, i, at: i + (i % 10 === 0 ? 3.5 : 0) }))
+      .map(({ i, packet }, at) => ({ packet, i, at: at + (i % 10 === 0 && i % 8192 !== 0 ? 3.5 : 0) }))
       .sort((a, b) => a.at - b.at);
     for (const { packet, i } of order) {
       const payload = opener.open(packet, 12);
       if (payload?.[0] !== (i & 0xff)) throw new Error(`packet ${i}`);
     }
     expect(opener.drops).toEqual({});
-    expect(opener.open(packets[69_999] as Buffer, 12)).toBeNull();
-    expect(opener.open(packets[69_000] as Buffer, 12)).toBeNull();
+    for (const { packet } of packets.slice(-2)) expect(opener.open(packet, 12)).toBeNull();
     expect(opener.drops).toEqual({ replayed: 2 });
   }, 30_000);
 
