@@ -6,36 +6,12 @@ import { expect, test } from 'vitest';
 import { layerOf, violationsOf } from './lib/test-rules.ts';
 import { workspaceFiles as files, readWorkspaceFile as read } from './lib/workspace-files.ts';
 
-const SLEEP = 'no sleep';
-const PORT = 'no port number';
-const BOUND = 'no upper bound of a time';
 /** A socket brings a message when the browser does. */
 const POLLING = 'no polling';
-const NOTHING = 'a test expects something';
 
 /** Rules that these files break. Delete an entry as soon as its file keeps the rule. */
 const EXCEPTIONS: Readonly<Record<string, readonly string[]>> = {
-  'apps/bridge/src/bridge.stack.test.ts': [PORT],
-  'apps/robot-node/src/broadcast/broadcast.stack.test.ts': [SLEEP],
-  'apps/robot-node/src/broadcast/encrypted-broadcast.stack.test.ts': [SLEEP],
-  'apps/robot-node/src/grants.stack.test.ts': [SLEEP],
-  'apps/robot-node/src/reference/reference-profile.stack.test.ts': [NOTHING],
-  'apps/robot-node/src/signaling/signaling-client.stack.test.ts': [SLEEP],
-  'apps/robot-node/src/strangers.stack.test.ts': [SLEEP],
-  'apps/robot-node/src/transport/offered-videos.stack.test.ts': [BOUND, SLEEP],
-  'apps/robot-node/src/transport/operator-peer.stack.test.ts': [NOTHING],
-  'apps/signaling/src/server.stack.test.ts': [PORT, NOTHING],
-  'apps/signaling/src/strict-transport.stack.test.ts': [PORT],
   'e2e/pages/signaling.page.ts': [POLLING],
-  'packages/conformance/src/main.stack.test.ts': [PORT],
-  'packages/conformance/src/suites/suites.stack.test.ts': [NOTHING],
-  'packages/dds/src/peers.stack.test.ts': [PORT],
-  'packages/foxglove/src/live-listener.stack.test.ts': [PORT],
-  'packages/link-emulator/src/udp-link.stack.test.ts': [PORT],
-  'packages/shared-memory/src/producers.stack.test.ts': [NOTHING],
-  'packages/sound/src/sound.stack.test.ts': [SLEEP],
-  'packages/video/src/video-process.stack.test.ts': [BOUND],
-  'packages/webrtc/src/werift/remote-candidates.stack.test.ts': [SLEEP],
 };
 
 const tests = files.flatMap((file) => {

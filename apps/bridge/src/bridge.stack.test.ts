@@ -164,7 +164,7 @@ it('refuses pages from other origins, and says how to allow them', async () => {
   }
   const refused = lines.filter((line) => line.includes('--allowed-origins https://evil.example'));
   expect(refused.length).toBe(1);
-  await page(made.ports.telemetry, 'http://localhost:5173');
+  await page(made.ports.telemetry, 'http://localhost:517');
   await page(made.ports.telemetry, 'https://own.example');
 });
 

@@ -4,7 +4,7 @@ import { on, once } from 'node:events';
 import { isIPv6 } from 'node:net';
 import { PROTOCOL_VERSION } from '@farpoint/protocol';
 import { clientHello, closeAlert, connectivityCheck } from '@farpoint/webrtc/testing';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { createSelfSignedCertificate } from 'werift';
 import { WebSocket } from 'ws';
 import { metricOf } from './testing/metric-of.ts';
@@ -181,18 +181,16 @@ describe('strangers', { timeout: 30_000 }, () => {
     while ((await operators()) > 1) await new Promise((resolve) => setTimeout(resolve, 20));
     const idle = await Promise.all([0, 1].map(() => robot.stack.signalingUrl).map(openAndNeverAnswer));
     const ended = await metric('sessions_ended', refused('not-connected'));
-    let guest: SignaledOperator | null = null;
-    // It asks again as the page does, until one of the others has had its second.
-    while (guest === null) {
+    const asks = async (): Promise<SignaledOperator | null> => {
       const asker = robot.keep(await SignaledOperator.open(robot.stack.signalingUrl, ROBOT));
       await asker.until(({ type }) => type === 'session.closed' || type === 'session.offer');
-      if (asker.heard.some(({ type }) => type === 'session.offer')) guest = asker;
-      else {
-        // In the page's rhythm: a fast machine would otherwise use up all sockets of its address.
-        await asker.close();
-        await new Promise((resolve) => setTimeout(resolve, 200));
-      }
-    }
+      if (asker.heard.some(({ type }) => type === 'session.offer')) return asker;
+      await asker.close();
+      return null;
+    };
+    // It asks again in the page's rhythm, until one of the others has had its second: a fast machine would otherwise use
+    // up all sockets of its address.
+    const guest = await vi.waitUntil(asks, { timeout: 30_000, interval: 200 });
     await guest.client.ready();
     expect(await metric('sessions_ended', refused('not-connected'))).toBeGreaterThan(ended);
     await expectDriving();

@@ -282,7 +282,7 @@ describe('admission', () => {
     await expect(
       service.open(service.url('/x', 'referenceClient'), { origin: 'https://evil.example' }),
     ).rejects.toThrow('403');
-    await from(`http://localhost:5173`);
+    await from('http://localhost:517');
     await from(service.http('').replace(/\/$/, ''));
     await service.operator();
   });
@@ -520,6 +520,6 @@ describe('shutdown', () => {
     await start({ shutdownMs: 20 });
     const robot = await service.robot('r1');
     robot.socket.pause();
-    await service.service.close();
+    await expect(service.service.close()).resolves.toBeUndefined();
   });
 });

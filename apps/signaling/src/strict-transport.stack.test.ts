@@ -27,7 +27,7 @@ test('with TLS, browsers are told to use HTTPS only; not for localhost, nor with
       });
     expect(await headerFor('teleop.example')).toBe('max-age=31536000');
     expect(await headerFor('teleop.example:8443', '/nothing-here')).toBe('max-age=31536000');
-    for (const host of ['localhost:3000', 'a.localhost', '127.0.0.1', '[::1]:3000', 'no host'])
+    for (const host of ['localhost:300', 'a.localhost', '127.0.0.1', '[::1]:300', 'no host'])
       expect(await headerFor(host), host).toBeUndefined();
     const response = await fetch(plain.http('/healthz'), { headers: { host: 'localhost' } });
     expect(response.headers.has('strict-transport-security')).toBe(false);

@@ -59,8 +59,8 @@ it.each([
   [['signaling', '--level', 'lenient'], '--level lenient: must be one of reference, strict'],
   [['signaling', '--levle', 'strict'], "Unknown option '--levle'"],
   [
-    ['signaling', '--robot', 'localhost:3001'],
-    '--robot localhost:3001: must be an address that begins with ws://',
+    ['signaling', '--robot', 'localhost:301'],
+    '--robot localhost:301: must be an address that begins with ws://',
   ],
 ])('%j: says which argument is invalid', async (args, message) => {
   const { code, err } = await run(...args);

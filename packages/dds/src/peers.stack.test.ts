@@ -250,7 +250,9 @@ for (const kind of kinds) {
       const clouds = hearClouds(64);
       const random = new Random(7, 0);
       const socket = createSocket('udp4');
-      const port = 7400 + 250 * domain;
+      // Where participants of a domain are discovered: PB and DG of DDSI-RTPS.
+      const [base, perDomain] = [7400, 250];
+      const port = base + perDomain * domain;
       for (let i = 0; i < 3000; i++) {
         const packet = Uint8Array.from(
           { length: 24 + Math.floor(random.next() * 300) },

@@ -100,7 +100,7 @@ describe('LiveListener', () => {
     expect(await refusal(open(['chat']))).toBe(400);
     expect(await refusal(open([]))).toBe(400);
     const welcome = [
-      open(PROTOCOLS, 'http://localhost:3000'),
+      open(PROTOCOLS, 'http://localhost:300'),
       open(PROTOCOLS, 'https://app.foxglove.dev'),
       open(),
     ];

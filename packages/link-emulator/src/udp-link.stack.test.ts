@@ -153,9 +153,9 @@ test('each endpoint has one stand-in, a stand-in is its own stand-in, and their 
 
 test('an endpoint of the other address family gets a stand-in of its own family', async () => {
   const link = open();
-  const place = await link.standInFor('operator', { address: '2001:db8::7', port: 5000 });
+  const place = await link.standInFor('operator', { address: '2001:db8::7', port: 500 });
   expect(place.address).toBe('::1');
-  expect((await link.standInFor('operator', { address: '198.51.100.7', port: 5000 })).address).toBe(
+  expect((await link.standInFor('operator', { address: '198.51.100.7', port: 500 })).address).toBe(
     '127.0.0.1',
   );
 });

@@ -106,7 +106,8 @@ describe.each(producers)('producer in $name', ({ there, command }) => {
     });
 
     it('refuses invalid arguments, a second producer, and to keep writing in vain', () => {
-      run([...program, folder, 'refusals']);
+      // It ends with another status if one of them is accepted.
+      expect(() => run([...program, folder, 'refusals'])).not.toThrow();
     });
 
     it('continues over what a killed producer left', () => {

@@ -422,10 +422,10 @@ describe(`the video process (${VIDEO_SUITE.note})`, { skip: VIDEO_SUITE.skip }, 
       const pictures = decodeLuma(Buffer.concat(video.frames.map((frame) => frame.bytes)), width, height);
       const times = pictures.map((luma) => barcodeTime(luma, width));
       expect(times.slice(0, 3)).toEqual(video.frames.slice(0, 3).map(({ captureNs }) => captureNs));
-      const shownMs = Number(times[3]! / 1_000_000n);
+      const shownAtMs = Number(times[3]! / 1_000_000n);
       // Two clocks, each rounded.
-      expect(shownMs).toBeGreaterThanOrEqual(beginMs - 2);
-      expect(shownMs).toBeLessThanOrEqual(endMs + 2);
+      expect(shownAtMs).toBeGreaterThanOrEqual(beginMs - 2);
+      expect(shownAtMs).toBeLessThanOrEqual(endMs + 2);
     });
   });
 });

@@ -6,8 +6,11 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { findJanus, JANUS_REMEDY, JanusServer, LocalStack } from '@farpoint/local-stack';
 import { availableEncoders } from '@farpoint/video';
-import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, it, vi } from 'vitest';
 import { JanusViewer } from '../testing/janus-viewer.ts';
+
+/** What is waited for comes at once or, on a busy machine, later. */
+const SOON = { timeout: 30_000, interval: 20 };
 
 const hasJanus = findJanus() !== null;
 const hasVideo = await availableEncoders().then(
@@ -47,15 +50,10 @@ describe.skipIf(!hasJanus || !hasVideo)(
     });
 
     async function watch(pin = 'look'): Promise<JanusViewer> {
-      for (;;) {
-        try {
-          const viewer = await JanusViewer.watch({ url: janus.url, mountpoint: 7, pin });
-          viewers.push(viewer);
-          return viewer;
-        } catch {
-          await new Promise((resolve) => setTimeout(resolve, 100));
-        }
-      }
+      const opens = () => JanusViewer.watch({ url: janus.url, mountpoint: 7, pin }).catch(() => null);
+      const viewer = await vi.waitUntil(opens, SOON);
+      viewers.push(viewer);
+      return viewer;
     }
 
     const frames = (viewer: JanusViewer, mid: string) => viewer.videos.get(mid)?.frames ?? 0;
@@ -94,10 +92,11 @@ describe.skipIf(!hasJanus || !hasVideo)(
       await viewer.until(() => (viewer.videos.get('v0')?.keyFrames ?? 0) > 0);
       const before = viewer.videos.get('v0')?.keyFrames ?? 0;
       const [until, beginMs] = [frames(viewer, 'v0') + 90, performance.now()];
-      while (frames(viewer, 'v0') < until) {
+      const hasEnough = async () => {
         await viewer.losePicture();
-        await new Promise((resolve) => setTimeout(resolve, 20));
-      }
+        return frames(viewer, 'v0') >= until;
+      };
+      await vi.waitUntil(hasEnough, SOON);
       const more = (viewer.videos.get('v0')?.keyFrames ?? 0) - before;
       expect(more).toBeGreaterThan(0);
       // One in 2 s, however long it took; to the ms: key-frame-gate.test.ts.

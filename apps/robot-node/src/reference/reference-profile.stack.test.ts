@@ -217,6 +217,7 @@ describe('reference profile of the robot process', { timeout: 60_000 }, () => {
     const again = await referenceOperator();
     again.say('start');
     await again.packets.next();
+    expect(again.robotId).not.toBe('');
   });
 
   it('is not offered unless configured', async () => {

@@ -8,9 +8,12 @@ import {
   type ServiceToRobot,
 } from '@farpoint/protocol';
 import { createLogger, Secret, silentLogger } from '@farpoint/service';
-import { afterEach, describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it, vi } from 'vitest';
 import { type WebSocket, WebSocketServer } from 'ws';
 import { SignalingClient } from './signaling-client.ts';
+
+/** What is waited for comes at once or, on a busy machine, later. */
+const SOON = { timeout: 30_000, interval: 20 };
 
 const cleanups: (() => Promise<unknown> | unknown)[] = [];
 afterEach(async () => {
@@ -137,10 +140,11 @@ describe('SignalingClient', () => {
     socket.once('ping', () => {
       asked = true;
     });
-    while (!asked) {
+    const hasAsked = () => {
       robot.check();
-      await new Promise((resolve) => setTimeout(resolve, 5));
-    }
+      return asked;
+    };
+    await vi.waitUntil(hasAsked, SOON);
     // This connection gets no answer.
     const [again] = (await once(deaf, 'connection')) as [WebSocket];
     expect(again).not.toBe(socket);

@@ -7,7 +7,7 @@ import {
   unixMsOfNtp,
   writePictureLoss,
 } from '@farpoint/rtp';
-import { afterEach, describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it, vi } from 'vitest';
 import { RtcpSrPacket } from 'werift';
 import { monotonicMs } from '../clock.ts';
 import { OperatorClient } from '../testing/operator-client.ts';
@@ -16,6 +16,9 @@ import { OperatorPeer } from './operator-peer.ts';
 import type { RtpTransport } from './rtp-transport.ts';
 import { StreamSender } from './stream-sender.ts';
 import type { VideoLine } from './video-line.ts';
+
+/** What is waited for comes at once or, on a busy machine, later. */
+const SOON = { timeout: 30_000, interval: 20 };
 
 const cleanups: (() => unknown)[] = [];
 afterEach(async () => {
@@ -157,7 +160,8 @@ describe('videos of a session', { timeout: 30_000 }, () => {
       expect(frames[0]!.bytes).toHaveLength(5000);
     }
     for (const { captureTime } of received) {
-      expect(Math.abs(unixMsOfNtp(captureTime!.captured) - unixMs)).toBeLessThan(1000);
+      // To the second: two clocks of this machine.
+      expect(Math.trunc(Math.abs(unixMsOfNtp(captureTime!.captured) - unixMs) / 1000)).toBe(0);
     }
   });
 
@@ -182,7 +186,7 @@ describe('videos of a session', { timeout: 30_000 }, () => {
     const nowMs = monotonicMs();
     const waiting = setInterval(() => transport.sendReport(nowMs, 90_000), 20);
     cleanups.push(() => clearInterval(waiting));
-    while (reports.length === 0) await new Promise((resolve) => setTimeout(resolve, 5));
+    await vi.waitUntil(() => reports.length > 0, SOON);
     expect(reports[0]).toMatchObject({ rtpTimestamp: rtpTimestamp(nowMs, 90_000), packets: 0, octets: 0 });
   });
 
@@ -195,10 +199,11 @@ describe('videos of a session', { timeout: 30_000 }, () => {
     const ask = (ssrc: number) =>
       dtlsTransport.sendRtcp([{ serialize: () => Buffer.from(writePictureLoss(1, ssrc)) } as never]);
     await ask(99);
-    while (lost.length === 0) {
+    const hasHeard = async () => {
       await ask(second!.transport!.ssrc);
-      await new Promise((resolve) => setTimeout(resolve, 10));
-    }
+      return lost.length > 0;
+    };
+    await vi.waitUntil(hasHeard, SOON);
     expect(new Set(lost)).toEqual(new Set([2]));
   });
 

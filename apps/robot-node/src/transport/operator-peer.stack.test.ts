@@ -171,6 +171,7 @@ describe('OperatorPeer', () => {
     // werift queries it for five seconds, as long as a test may take.
     await robot.meet();
     await robot.connected;
+    expect(robot.peer.connected).toBe(true);
   });
 
   it('drops answers while the channel is full: a flood of probes gets few answers, and costs little', async () => {

@@ -38,13 +38,15 @@ describe('signaling', () => {
   // The service without robots, so that the suite gets its first id.
   it.each(signalingSuite.map(({ name, run }) => [name, run] as const))('%s', async (_name, run) => {
     const { referenceRobot, referenceClient } = fresh.ports;
-    await run({ robot: at(referenceRobot), client: at(referenceClient) }, 'strict');
+    const target = { robot: at(referenceRobot), client: at(referenceClient) };
+    await expect(run(target, 'strict')).resolves.toBeUndefined();
   });
 });
 
 describe('robot', { timeout: 60_000 }, () => {
   it.each(robotSuite.map(({ name, run }) => [name, run] as const))('%s', async (_name, run) => {
-    await run({ client: at(stack.ports.referenceClient), name: ROBOT.name }, 'strict');
+    const target = { client: at(stack.ports.referenceClient), name: ROBOT.name };
+    await expect(run(target, 'strict')).resolves.toBeUndefined();
   });
 });
 
@@ -58,7 +60,7 @@ describe('bridge', { timeout: 60_000 }, () => {
       telemetry: at(telemetry),
       streaming: at(streaming),
     };
-    await run(target, 'strict');
+    await expect(run(target, 'strict')).resolves.toBeUndefined();
   });
 });
 
