@@ -1,4 +1,5 @@
 /** Who may do what, and who the robot is, as the page says it. */
+import { admit, endedGrantFor, grantFor, grantsDialog, storedKey, ticketFor } from '../src/stage/grants.ts';
 import { expect, test } from '../src/stage/page-test.ts';
 
 const THUMBPRINT = 'A'.repeat(43);
@@ -43,7 +44,9 @@ test('whoever may drive can take over, once, from somebody else', async ({ stage
   expect((await stage.state()).holder).toBe('nobody');
 });
 
-test('without a grant the page says what to do, and asks nobody again by itself', async ({ stage }) => {
+test('without a grant the page says what to do, and asks again once it has one; key and grant outlive the page', async ({
+  stage,
+}) => {
   const page = await stage.open({ state: 'blank' });
   await stage.script((stage) => {
     const { robot, link } = stage;
@@ -59,15 +62,65 @@ test('without a grant the page says what to do, and asks nobody again by itself'
       throw new Error('the page has asked again');
     };
   });
-  await stage.run(60_000);
+  // No wait between two attempts is longer than 6.25 s.
+  await stage.run(7000);
   expect((await stage.state()).session).toBe('waiting');
   await obstacle.getByRole('button', { name: 'Grants…' }).click();
-  const dialog = page.getByRole('dialog', { name: 'Grants' });
+  const { own, text, read, add, held } = grantsDialog(page);
   // WebCrypto makes it while nobody waits.
-  await expect(dialog.getByLabel('This browser’s key')).toHaveValue(/^[\w-]{43}$/);
-  await dialog.getByLabel('Grant or ticket').fill('not a grant');
-  await expect(dialog.getByText('neither a grant nor a ticket')).toBeVisible();
-  await expect(dialog.getByRole('button', { name: 'Add grant' })).toBeDisabled();
+  await expect(own).toHaveValue(/^[\w-]{43}$/);
+  const forKey = await own.inputValue();
+  const ticket = await ticketFor({});
+  for (const [refused, words] of [
+    ['not a grant', 'This is neither a grant nor a ticket. Paste the whole line.'],
+    [await grantFor(THUMBPRINT), 'This grant was made for another key than this browser’s.'],
+    [await endedGrantFor(forKey), 'This grant has ended. Ask for another.'],
+    [ticket.slice(0, -40), 'This ticket is damaged. Paste the whole line, or ask for another.'],
+  ] as const) {
+    await text.fill(refused);
+    await expect(read).toHaveText(words);
+    await expect(add).toBeDisabled();
+  }
+  await text.fill(await grantFor(forKey));
+  await expect(read).toHaveText(/^Ada Lovelace may drive: \*, until /);
+  await expect(held).toHaveCount(0);
+  expect(await storedKey(page)).toEqual({ extractable: false, grants: 0 });
+  await stage.run(300);
+
+  await stage.script(admit, { role: 'drive', name: 'Ada Lovelace', expiresInS: 3600 } as const);
+  await add.click();
+  await expect(read).toHaveText('Added.');
+  await expect(held).toHaveText(/^Ada Lovelace may drive: \*, until /);
+  await expect(add).toBeDisabled();
+  await stage.run(500);
+  expect((await stage.state()).session).toBe('live');
+  await expect(obstacle).toBeHidden();
+
+  // No script can read the key; it and the grant are there at the next visit.
+  expect(await storedKey(page)).toEqual({ extractable: false, grants: 1 });
+  await stage.reload();
+  await page.getByRole('button', { name: 'Settings' }).click();
+  await page.getByRole('button', { name: 'Grants and robots’ keys…' }).click();
+  await expect(held).toHaveText(/^Ada Lovelace may drive: \*, until /);
+  await expect(own).toHaveValue(forKey);
+});
+
+test('a ticket in a link is taken out of the address, and used only once it was added', async ({ stage }) => {
+  const ticket = await ticketFor({ name: 'Wim', role: 'watch' });
+  const page = await stage.open({ state: 'not-granted', hash: `#grant=${ticket}` });
+  const { read, add, held } = grantsDialog(page);
+  await expect(read).toHaveText(/^Wim may watch: \*, until /);
+  expect(new URL(page.url()).hash).toBe('');
+  await stage.script(admit, { role: 'watch', name: 'Wim', expiresInS: 3600 } as const);
+  await stage.run(7000);
+  await expect(held).toHaveCount(0);
+  expect((await storedKey(page))?.grants).toBe(0);
+  expect((await stage.state()).session).toBe('waiting');
+  await add.click();
+  await expect(held).toHaveText(/^Wim may watch/);
+  await stage.run(500);
+  expect((await stage.state()).session).toBe('live');
+  await expect(page.locator('#holder')).toHaveText('Nobody is driving. Your grant lets you watch');
 });
 
 test('a robot with another key is not taken for the one that this browser knows', async ({ stage }) => {
@@ -109,6 +162,10 @@ test('a supervisor sees who is here, and ends a driver’s session', async ({ st
   await confirm.getByRole('button', { name: 'End session' }).click();
   await stage.run(300);
   expect(await stage.sent('endSession')).toEqual([{ type: 'endSession', operator: 2, block: true }]);
+  const anna = { number: 1, name: 'Anna', role: 'supervise', drives: false, you: true } as const;
+  await stage.tell({ type: 'operators', operators: [anna] });
+  await stage.run(300);
+  await expect(page.locator('#people')).toContainText('Only you are here');
 });
 
 test('a driver whose session a supervisor has ended is told by whom, and does not come back by itself', async ({
@@ -119,5 +176,13 @@ test('a driver whose session a supervisor has ended is told by whom, and does no
   await stage.run(20_000);
   expect((await stage.state()).notice).toContain('Sue ended the session');
   expect(await stage.state()).toMatchObject({ session: 'none', sessionsOpened: 1 });
-  await expect(page.getByRole('button', { name: /Robot on a stage/ })).toBeVisible();
+  // Its own choice asks again, and the robot refuses its grant.
+  await stage.script(({ robot, link }) => {
+    robot.onRequest = () => link.end('not-granted', 'this grant was revoked');
+  });
+  await page.getByRole('button', { name: /Robot on a stage/ }).click();
+  await stage.run(300);
+  await expect(page.getByRole('alertdialog')).toContainText('The robot does not admit you');
+  await expect(page.getByRole('alertdialog')).toContainText('this grant was revoked');
+  expect(await stage.state()).toMatchObject({ session: 'waiting', sessionsOpened: 1 });
 });

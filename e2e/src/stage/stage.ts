@@ -9,7 +9,7 @@ export const FRAME_MS = 16;
 /** Until the session is there and the state has come about, ms. */
 const BEGIN_MS = 600;
 /** When the page is opened. Nothing depends on the date. */
-const OPENED_AT = Date.UTC(2026, 0, 1);
+export const OPENED_AT = Date.UTC(2026, 0, 1);
 
 export interface StageOptions {
   /** How it begins: a name of stage-states.ts. Default: connected to a robot, and nobody drives. */
@@ -18,6 +18,8 @@ export interface StageOptions {
   canvas?: string;
   /** Further parameters of the page's address. */
   query?: Readonly<Record<string, string>>;
+  /** The address's fragment, with `#`. */
+  hash?: string;
   /** How long to wait, ms. */
   forMs?: number;
 }
@@ -44,27 +46,28 @@ export class Stage {
   /** Opens the page in a state. Call it once, or again to load the page anew: what the browser stores is kept. */
   async open(options: StageOptions = {}): Promise<Page> {
     const { page } = this;
-    const { state = 'live', canvas = '320x180', query = {}, forMs = BEGIN_MS } = options;
+    const { state = 'live', canvas = '320x180', query = {}, hash = '', forMs = BEGIN_MS } = options;
     await this.#prepare();
     const url = new URL(this.#origin);
     url.searchParams.set('stage', state);
     if (canvas !== 'full') url.searchParams.set('canvas', canvas);
     // Each picture is waited for: a frame that has been stepped has been drawn.
     for (const [name, value] of Object.entries({ measure: '1', ...query })) url.searchParams.set(name, value);
+    url.hash = hash;
     await page.goto(url.href);
     await this.#begun(forMs);
     return page;
   }
 
-  /** Opens the page with a link of its own; the test answers its sockets by `page.routeWebSocket`. */
-  async openOwn(query: Readonly<Record<string, string>> = {}): Promise<Page> {
+  /** Opens the page with a link of its own; the test answers its sockets by `page.routeWebSocket`. @param path of the page */
+  async openOwn(query: Readonly<Record<string, string>> = {}, path = '/'): Promise<Page> {
     await this.#prepare();
-    const url = new URL(this.#origin);
+    const url = new URL(path, this.#origin);
     for (const [name, value] of Object.entries({ canvas: '64x36', ...query }))
       url.searchParams.set(name, value);
     await this.page.goto(url.href);
     // Until the page's scripts have run.
-    await expect(this.page.locator('#link')).not.toHaveText('Starting…');
+    await expect(this.page.locator('#link:not([hidden])').filter({ hasText: 'Starting…' })).toHaveCount(0);
     return this.page;
   }
 

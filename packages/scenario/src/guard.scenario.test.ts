@@ -37,6 +37,8 @@ describe('a wall', () => {
     expect(scenario.robot.wheels.speed).toBe(0);
     expect(core.driving.status.state(core.host.now()).reasons).toContain('obstacle');
     expect(scenario.operators[0]?.client.telemetry?.motion?.reasons).toContain('obstacle');
+    expect(scenario.robot.counters.interventions.get('obstacle')).toBe(1);
+    expect(scenario.log.text).toContain('obstacle');
     expect(base.state.collision).toBe(false);
   });
 

@@ -16,8 +16,6 @@ export interface RobotSessionParts {
   host: SessionHost;
   ended: (session: RobotSession, end: PeerEnd, detail: string) => void;
   connected: (session: RobotSession) => void;
-  /** The robot makes a new path, at the operator's request. */
-  restart: (session: RobotSession) => void;
 }
 
 /** The robot's end of an operator's session, with the real interpreter of its messages. */
@@ -44,10 +42,7 @@ export class RobotSession implements KeptOperator, HostedOperator {
     this.peer = {
       connected: false,
       close: (end = 'closed', detail = '') => this.end(end, detail),
-      restart: async () => {
-        parts.restart(this);
-        return 'v=0';
-      },
+      restart: async () => 'v=0',
       useIceServers: () => undefined,
     };
     this.messages = new OperatorMessages(id, name, parts.host, {

@@ -100,7 +100,12 @@ export class ScenarioRobot {
         check: () => undefined,
       },
     });
-    this.core.host.drive.motion.onIntervention = (reason) => log.add('intervention', { reason });
+    const { motion } = this.core.host.drive;
+    const report = motion.onIntervention;
+    motion.onIntervention = (reason, nowMs) => {
+      report?.(reason, nowMs);
+      log.add('intervention', { reason });
+    };
     const advance = () => {
       const now = monotonicMs();
       wheels.advance(now);
@@ -126,7 +131,6 @@ export class ScenarioRobot {
       host: this.core.host,
       connected: (connected) => this.#welcome(connected),
       ended: (ended, end, detail) => this.#ended(ended, end, detail),
-      restart: () => undefined,
     });
     if (access !== null) session.messages.access = access;
     if (access?.subject != null) this.core.host.drive.guard.identify(session.id, access.subject);

@@ -82,8 +82,32 @@ export class Scenario implements Disposable {
   async settle(ms: number): Promise<void> {
     for (let passed = 0; passed < ms; passed++) {
       this.run(1);
-      for (let turns = 0; turns < 10; turns++) await Promise.resolve();
+      await othersGoOn();
     }
+  }
+
+  /**
+   * Does something that may take time, and lets that pass.
+   *
+   * @returns when it was done
+   * @throws what it throws or rejects with, and {Error} if it takes longer than `mostMs`
+   */
+  async happens(act: () => unknown, mostMs = 60_000): Promise<number> {
+    let ended = false;
+    const end = () => {
+      ended = true;
+    };
+    const acted = Promise.resolve(act());
+    void acted.then(end, end);
+    const endMs = this.nowMs + mostMs;
+    for (;;) {
+      await othersGoOn();
+      if (ended) break;
+      if (this.nowMs >= endMs) throw new Error(`not done within ${mostMs} ms:\n${this.log.text}`);
+      this.run(1);
+    }
+    await acted;
+    return this.nowMs;
   }
 
   /** Lets time pass until something holds. @throws {Error} if that takes longer than `mostMs` */
@@ -132,4 +156,9 @@ export class Scenario implements Disposable {
     Scenario.onEnd?.(this.log.text);
     rmSync(this.#folder, { recursive: true, force: true });
   }
+}
+
+/** Whatever waits for a timer of the last millisecond goes on. */
+async function othersGoOn(): Promise<void> {
+  for (let turns = 0; turns < 10; turns++) await Promise.resolve();
 }

@@ -15,12 +15,8 @@ export class WheelRecord {
   readonly #log: EventLog;
   readonly #watchdogMs: number;
   readonly #told: Told[] = [];
-  /** When a velocity was last told, whether it changed or not. */
-  lastToldMs = 0;
   /** The highest speed that was ever asked of the wheels, m/s. */
   fastest = 0;
-  /** When the newest accepted command came. */
-  acceptedMs = 0;
   /** Until when the newest accepted command moves the robot. */
   validUntilMs = 0;
 
@@ -31,7 +27,6 @@ export class WheelRecord {
 
   told({ linear: { x }, angular: { z } }: Twist): void {
     const atMs = performance.now();
-    this.lastToldMs = atMs;
     this.fastest = Math.max(this.fastest, Math.abs(x), Math.abs(z));
     const before = this.#told.at(-1);
     if (before?.linear === x && before.angular === z) return;
@@ -40,11 +35,7 @@ export class WheelRecord {
   }
 
   judged(session: string, { sequence }: Command, verdict: CommandVerdict): void {
-    const atMs = performance.now();
-    if (verdict.accepted) {
-      this.acceptedMs = atMs;
-      this.validUntilMs = atMs - verdict.spentMs + this.#watchdogMs;
-    }
+    if (verdict.accepted) this.validUntilMs = performance.now() - verdict.spentMs + this.#watchdogMs;
     this.#log.add(verdict.accepted ? 'accepted' : verdict.reason, { session, sequence });
   }
 

@@ -25,6 +25,8 @@ export interface WatchStats {
 export interface WatchApi {
   stats(): WatchStats;
   resetDistributions(): void;
+  /** Draws a picture in the panel of a video, as if its camera had sent one. */
+  showPicture(video: number): void;
 }
 
 declare global {
@@ -46,6 +48,12 @@ export function installWatchApi(app: WatchApp): void {
     resetDistributions: () => {
       app.videos.resetDistributions();
       app.hold.resetDistributions();
+    },
+    showPicture: (video) => {
+      const picture = new OffscreenCanvas(16, 12);
+      picture.getContext('2d')?.fillRect(0, 0, 16, 12);
+      const nowMs = performance.now();
+      app.views.views.peek()[video]?.draw(picture, 16, 12, nowMs, nowMs);
     },
   };
 }

@@ -33,13 +33,13 @@ export class WatchApp {
   readonly cloud: CloudView;
   /** Clouds wait here for the videos that were captured with them. */
   readonly hold: CloudHold;
+  readonly views: VideoViews;
   /** Display frames drawn. */
   drawnFrames = 0;
   readonly #elements: WatchElements;
   readonly #stage: Stage;
   readonly #clouds: SensorClouds;
   readonly #held: HeldClouds;
-  readonly #views: VideoViews;
   readonly #enlarged: Enlarged;
   readonly #governor = new DrawingGovernor();
   readonly #state = signal<WatchState>({ phase: 'connecting', obstacle: null, detail: '' });
@@ -55,10 +55,10 @@ export class WatchApp {
     const { url, mountpoint, pin, synchronised } = settings;
     const watcher = new RobotWatcher({ url, mountpoint, pin, transform });
     this.watcher = watcher;
-    this.#views = new VideoViews(this.#nowMs, () => document.createElement('canvas'));
-    this.#enlarged = new Enlarged(this.#views.views);
+    this.views = new VideoViews(this.#nowMs, () => document.createElement('canvas'));
+    this.#enlarged = new Enlarged(this.views.views);
     this.videos = new VideoFeed({
-      ...{ client: watcher, views: this.#views, synchronised, presented: null },
+      ...{ client: watcher, views: this.views, synchronised, presented: null },
       // Its frames tell the timestamps with which the relay's were paired.
       receiver: videoReceiver('native'),
       captureMs: (video, { rtpTimestamp }) =>
@@ -84,13 +84,13 @@ export class WatchApp {
     const { watcher } = this;
     const { stage: canvas } = this.#elements;
     watcher.on('session', () => {
-      this.#views.clear();
+      this.views.clear();
       this.#stage.forgetPose();
     });
     watcher.on('broadcast', ({ name }) => {
       this.#name.value = name;
     });
-    watcher.on('videos', (videos) => this.#views.list(videos));
+    watcher.on('videos', (videos) => this.views.list(videos));
     watcher.on('watching', (state) => {
       this.#state.value = state;
     });
@@ -113,7 +113,7 @@ export class WatchApp {
     showWatchPanels({
       ...{
         container: pictures,
-        views: this.#views.views,
+        views: this.views.views,
         enlarged: this.#enlarged,
         sampledAtMs: this.#nowMs,
       },

@@ -1,6 +1,7 @@
 import type { LinkProfile } from '@farpoint/network-sim';
 import { Random } from '@farpoint/network-sim';
 import type { Driving, Fault } from '@farpoint/robot-node/testing/faults';
+import type { ScenarioOperator } from '../operator.ts';
 import { Scenario } from '../scenario.ts';
 import { virtualTime } from '../virtual-time.ts';
 import { drivingIn } from './scenario-rig.ts';
@@ -52,8 +53,20 @@ export function longestWayMs(seed: number): number {
   return delayMs + jitterMs + (reorder?.extraMs ?? 0) + 2;
 }
 
-/** Lets a robot be driven, and the fault happen. */
-export async function runFault(fault: Fault, seed: number): Promise<FaultOutcome> {
+interface Caused {
+  scenario: Scenario;
+  driver: ScenarioOperator;
+  driving: Driving;
+  /** When the cause was done. */
+  causeMs: number;
+}
+
+/** Lets a robot be driven on a link of this seed, and the fault's cause happen. @param then what is seen of it */
+async function afterCause<Outcome>(
+  fault: Fault,
+  seed: number,
+  then: (caused: Caused) => Outcome | Promise<Outcome>,
+): Promise<Outcome> {
   using time = virtualTime();
   using scenario = new Scenario(time.advance, {
     seed,
@@ -62,20 +75,27 @@ export async function runFault(fault: Fault, seed: number): Promise<FaultOutcome
   });
   const driver = scenario.driving(SHARE);
   const driving = drivingIn(scenario, driver);
-  const { wheels } = scenario.robot;
-  const causeMs = await happens(scenario, () => fault.cause(driving));
+  const causeMs = await scenario.happens(() => fault.cause(driving));
   scenario.log.add('cause');
-  scenario.run(WATCHED_MS);
-  const [braked, stoodMs] = [wheels.braked(causeMs), wheels.stoodMs(causeMs)];
-  return {
-    brakedAfterMs: braked === null ? null : braked.atMs - causeMs,
-    stoodAfterMs: stoodMs === null ? null : stoodMs - causeMs,
-    validAfterMs: (braked?.validUntilMs ?? 0) - causeMs,
-    movedAgain: stoodMs === null ? 0 : wheels.fastestSince(stoodMs),
-    endSpeed: wheels.speed,
-    fastest: wheels.fastest,
-    log: scenario.log.text,
-  };
+  return await then({ scenario, driver, driving, causeMs });
+}
+
+/** Lets a robot be driven, and the fault happen. */
+export async function runFault(fault: Fault, seed: number): Promise<FaultOutcome> {
+  return await afterCause(fault, seed, ({ scenario, causeMs }) => {
+    const { wheels } = scenario.robot;
+    scenario.run(WATCHED_MS);
+    const [braked, stoodMs] = [wheels.braked(causeMs), wheels.stoodMs(causeMs)];
+    return {
+      brakedAfterMs: braked === null ? null : braked.atMs - causeMs,
+      stoodAfterMs: stoodMs === null ? null : stoodMs - causeMs,
+      validAfterMs: (braked?.validUntilMs ?? 0) - causeMs,
+      movedAgain: stoodMs === null ? 0 : wheels.fastestSince(stoodMs),
+      endSpeed: wheels.speed,
+      fastest: wheels.fastest,
+      log: scenario.log.text,
+    };
+  });
 }
 
 /** Whether a robot that stood while something was wrong moved when that ended, and drove again after the hand had let go. */
@@ -92,45 +112,22 @@ export async function runReturn(
   fault: Fault & { ends(driving: Driving): void | Promise<void> },
   seed: number,
 ): Promise<ReturnOutcome> {
-  using time = virtualTime();
-  using scenario = new Scenario(time.advance, {
-    seed,
-    link: linkOf(seed),
-    args: ['--take-policy', 'always'],
+  return await afterCause(fault, seed, async ({ scenario, driver, driving, causeMs }) => {
+    const { wheels } = scenario.robot;
+    scenario.run(LASTS_MS);
+    const stoodMs = wheels.stoodMs(causeMs);
+    const movedWhileWrong = stoodMs === null ? SPEED : wheels.fastestSince(stoodMs);
+    const endMs = await scenario.happens(() => fault.ends(driving));
+    scenario.run(WATCHED_MS);
+    const movedBeforeLetGo = wheels.fastestSince(endMs);
+    driver.hand.letGo();
+    scenario.run(700);
+    driver.hand.push(SHARE);
+    scenario.run(DRIVES_AGAIN_MS);
+    return {
+      ...{ stood: stoodMs !== null, movedWhileWrong, movedBeforeLetGo },
+      drivesAgain: Math.abs(wheels.speed - SPEED) < 1e-6,
+      log: scenario.log.text,
+    };
   });
-  const driver = scenario.driving(SHARE);
-  const driving = drivingIn(scenario, driver);
-  const { wheels } = scenario.robot;
-  const causeMs = await happens(scenario, () => fault.cause(driving));
-  scenario.run(LASTS_MS);
-  const stoodMs = wheels.stoodMs(causeMs);
-  const movedWhileWrong = stoodMs === null ? SPEED : wheels.fastestSince(stoodMs);
-  const endMs = await happens(scenario, () => fault.ends(driving));
-  scenario.run(WATCHED_MS);
-  const movedBeforeLetGo = wheels.fastestSince(endMs);
-  driver.hand.letGo();
-  scenario.run(700);
-  driver.hand.push(SHARE);
-  scenario.run(DRIVES_AGAIN_MS);
-  return {
-    ...{ stood: stoodMs !== null, movedWhileWrong, movedBeforeLetGo },
-    drivesAgain: Math.abs(wheels.speed - SPEED) < 1e-6,
-    log: scenario.log.text,
-  };
-}
-
-/** Does something that may take time. @returns when it was done, `performance.now()` */
-async function happens(scenario: Scenario, act: () => unknown): Promise<number> {
-  let done = false;
-  const acted = Promise.resolve(act()).then(() => {
-    done = true;
-  });
-  for (;;) {
-    // Whatever waits for a timer of the last millisecond goes on.
-    for (let turns = 0; turns < 10; turns++) await Promise.resolve();
-    if (done) break;
-    scenario.run(1);
-  }
-  await acted;
-  return performance.now();
 }

@@ -1,0 +1,43 @@
+/** What is in the built page, and what must not be. */
+import { globSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { repositoryRoot } from '@farpoint/local-stack';
+import { expect, test } from '@playwright/test';
+
+/** All scripts of one build of the page, joined. */
+function scripts(build: string): string {
+  const folder = join(repositoryRoot, 'apps/webxr', build);
+  const files = globSync('assets/*.js', { cwd: folder });
+  expect(files, `${build}: run \`pnpm build\``).not.toEqual([]);
+  return files.map((file) => readFileSync(join(folder, file), 'utf8')).join('\n');
+}
+
+/** The modules that have code in a build's scripts. */
+function modules(build: string): string[] {
+  const folder = join(repositoryRoot, 'apps/webxr', build);
+  const maps = globSync('assets/*.js.map', { cwd: folder });
+  expect(maps, `${build}: run \`pnpm build\``).not.toEqual([]);
+  return maps.flatMap((file) => {
+    const { sources } = JSON.parse(readFileSync(join(folder, file), 'utf8')) as { sources: string[] };
+    return sources;
+  });
+}
+
+/** Words of the test interface, and of the scripted robot and its states. */
+const OF_TESTS = ['latencyResults', 'farpointStage', 'Robot on a stage', 'stop-unconfirmed'];
+
+test('the deployed page contains neither the test interface nor a scripted robot', () => {
+  for (const word of OF_TESTS) {
+    expect(scripts('dist-testing')).toContain(word);
+    expect(scripts('dist')).not.toContain(word);
+  }
+  expect(modules('dist-testing').filter((source) => /\/testing\//.test(source)).length).toBeGreaterThan(5);
+  expect(modules('dist').filter((source) => /\/testing\//.test(source))).toEqual([]);
+});
+
+test('the page has the small build of the schema library, with a single language', () => {
+  const ofZod = modules('dist').flatMap((source) => source.split('/zod/v4/')[1] ?? []);
+  expect(ofZod).toContain('mini/schemas.js');
+  expect(ofZod.filter((module) => module.startsWith('classic/'))).toEqual([]);
+  expect(ofZod.filter((module) => module.startsWith('locales/'))).toEqual(['locales/en.js']);
+});
