@@ -69,6 +69,8 @@ const LATE: Partial<Record<StageStateName, number>> = {
   'stop-unconfirmed': 2500,
   'path-lost': 2500,
   'two-sensors': 1500,
+  // Until the notice on connecting has gone: on a phone it lies over the pictures, and is only read.
+  videos: 7000,
 };
 
 const SCREENS = [

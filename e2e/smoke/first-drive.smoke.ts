@@ -14,7 +14,7 @@ test('choose the robot, see its world, drive it by keys, stop it, release the st
   const start = await poseOf(operator);
   await operator.hold(operator.keys);
   await operator.expectState('holder', 'you');
-  await operator.expectMovedFrom(start, 0.3);
+  await operator.expectMovedFrom(start, 0.2);
   await operator.release();
   await expectStanding(operator);
   await operator.picture(testInfo, 'after-driving');

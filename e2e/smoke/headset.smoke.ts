@@ -21,7 +21,7 @@ test('in the headset: the room is drawn, the thumbstick drives and turns, and th
   const before = (await operator.probe()).camera;
   await operator.hold(headset.grip('right'));
   await headset.thumbstick('right', 0, -1);
-  await operator.expectMovedFrom(start, 0.3);
+  await operator.expectMovedFrom(start, 0.1);
   await headset.thumbstick('right', 0, 0);
   await operator.release();
   await expectStanding(operator);

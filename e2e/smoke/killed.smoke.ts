@@ -16,7 +16,7 @@ test('a browser that is killed while it drives: the robot stops by itself', asyn
     const driver = await OperatorPage.open(await browser.newPage(), shared.stack.webUrl, { robot: id });
     await driver.expectPoints();
     await driver.hold(driver.script);
-    await driver.expectMovedFrom(start, 0.2, watcher);
+    await driver.expectMovedFrom(start, 0.1, watcher);
     await server.kill();
     await expectStanding(watcher);
     expect(['watchdog', 'idle', 'blocked']).toContain(watcher.drive);

@@ -161,34 +161,3 @@ async function readShares(input: {
     return near / (data.length / 4);
   });
 }
-
-/** Mean difference of two pictures of the same size in a part of both, over all channels, 0–255. */
-export async function meanDifference(page: Page, a: Buffer, b: Buffer, part: Part): Promise<number> {
-  const reader = await page.context().newPage();
-  try {
-    const pngs = [a, b].map((png) => png.toString('base64'));
-    return await reader.evaluate(readMeanDifference, { pngs, part });
-  } finally {
-    await reader.close();
-  }
-}
-
-async function readMeanDifference({ pngs, part }: { pngs: string[]; part: Part }): Promise<number> {
-  const read = async (base64: string): Promise<Uint8ClampedArray> => {
-    const blob = await (await fetch(`data:image/png;base64,${base64}`)).blob();
-    const bitmap = await createImageBitmap(blob);
-    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-    const context = canvas.getContext('2d') as OffscreenCanvasRenderingContext2D;
-    context.drawImage(bitmap, 0, 0);
-    return context.getImageData(
-      Math.round(part.left * bitmap.width),
-      Math.round(part.top * bitmap.height),
-      Math.round(part.width * bitmap.width),
-      Math.round(part.height * bitmap.height),
-    ).data;
-  };
-  const [a, b] = [await read(pngs[0] as string), await read(pngs[1] as string)];
-  let sum = 0;
-  for (let i = 0; i < a.length; i++) if (i % 4 !== 3) sum += Math.abs((a[i] as number) - (b[i] as number));
-  return sum / ((a.length / 4) * 3);
-}

@@ -1,5 +1,5 @@
 /** The page in a browser, with a scripted robot, a clock that only the test moves on, and display frames one by one. */
-import type { CloudOptions, StageControl } from '@farpoint/webxr/stage-control';
+import type { CloudOptions, PictureOptions, StageControl } from '@farpoint/webxr/stage-control';
 import type { StageStateName } from '@farpoint/webxr/stage-states';
 import type { DrawnProbe, PageState, PageStats } from '@farpoint/webxr/test-api';
 import { expect, type Page } from '@playwright/test';
@@ -171,6 +171,14 @@ export class Stage {
     return this.page.evaluate(([name, options]) => window.farpointStage.cloud(name, options), [
       name,
       options,
+    ] as const);
+  }
+
+  /** A picture of a video comes. @returns whether the page takes it */
+  video(name: string, picture: PictureOptions = {}): Promise<boolean> {
+    return this.page.evaluate(([name, picture]) => window.farpointStage.video(name, picture), [
+      name,
+      picture,
     ] as const);
   }
 

@@ -25,6 +25,7 @@ export async function openStage(): Promise<OpenedStage | null> {
   useInsteadOfCloudWorker(worker);
   const robot = new ScriptedRobot();
   const stage = new StageControl(robot);
+  stage.videos.install();
   window.farpointStage = stage;
   for (const cloud of state.clouds ?? []) await stage.load(cloud);
   return {

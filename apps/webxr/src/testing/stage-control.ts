@@ -7,6 +7,9 @@ import { stampUsOf } from '@farpoint/protocol';
 import type { App } from '../app.ts';
 import { type CloudFile, placed } from './cloud-file.ts';
 import type { ScriptedRobot } from './scripted-robot.ts';
+import { type PictureOptions, type Rgb, ScriptedVideos } from './scripted-videos.ts';
+
+export type { PictureOptions } from './scripted-videos.ts';
 
 declare global {
   interface Window {
@@ -28,18 +31,28 @@ export interface CloudOptions {
   heightM?: number;
 }
 
+/** A video that goes on. Without colours, each picture's tells its number, see {@link numbered}. */
+export interface PlayedVideo extends Pick<PictureOptions, 'colour' | 'quarters'> {
+  /** From capture to the page, ms. */
+  delayMs?: number;
+  /** Whether it leaves out the capture of this number. */
+  lacks?: readonly number[];
+}
+
 const CAMERA_HEIGHT_M = 1;
 /** A camera's optical frame that looks ahead: x, y, z, w. */
 const AHEAD = [-0.5, 0.5, -0.5, 0.5] as const;
 
 export class StageControl {
   readonly robot: ScriptedRobot;
+  readonly videos = new ScriptedVideos();
   readonly #files = new Map<string, CloudFile>();
   #link: ScriptedLink | null = null;
   #app: App | null = null;
   #frameNumber = 0;
   readonly #packets: number[] = [];
   #streaming: ReturnType<typeof setInterval> | undefined;
+  #playing: ReturnType<typeof setInterval> | undefined;
   #picture: { width: number; height: number; pixels: Uint8Array } | null = null;
 
   constructor(robot: ScriptedRobot) {
@@ -122,6 +135,34 @@ export class StageControl {
     this.#streaming = setInterval(send, everyMs);
   }
 
+  /** A picture of a video comes. @returns whether the page takes it: it takes none of a video that is hidden */
+  video(name: string, picture: PictureOptions = {}): boolean {
+    if (this.link.phase !== 'live' || this.link.isCut) return false;
+    const track = this.videos.offer(this.link, this.#videoOf(name));
+    return this.videos.show(track, picture, this.robot.nowMs);
+  }
+
+  /** The browser refuses a video, e.g. because it does not know its codec. */
+  refuseVideo(name: string): void {
+    this.videos.offer(this.link, this.#videoOf(name), true);
+  }
+
+  /** Videos come again and again, all captured at the same instants, until it is called with `null`. */
+  play(videos: Readonly<Record<string, PlayedVideo>> | null, everyMs = 100): void {
+    clearInterval(this.#playing);
+    if (videos === null) return;
+    let number = 0;
+    this.#playing = setInterval(() => {
+      const [capture, atMs] = [number++, performance.now()];
+      for (const [name, { delayMs = 0, lacks = [], ...picture }] of Object.entries(videos)) {
+        if (lacks.includes(capture)) continue;
+        const show = () =>
+          this.video(name, { colour: numbered(capture), ...picture, ageMs: performance.now() - atMs });
+        setTimeout(show, delayMs);
+      }
+    }, everyMs);
+  }
+
   /** Nothing arrives any more, in either direction. */
   cut(): void {
     this.link.isCut = true;
@@ -141,6 +182,12 @@ export class StageControl {
       gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
       this.#picture = { width, height, pixels };
     });
+  }
+
+  #videoOf(name: string): number {
+    const video = this.app.state.videos.switches.all.peek().findIndex((each) => each.name === name);
+    if (video < 0) throw new Error(`the robot has no video ${name}`);
+    return video;
   }
 
   get hasPicture(): boolean {
@@ -165,6 +212,11 @@ export class StageControl {
       }
     return btoa(text);
   }
+}
+
+/** Of a picture: its red tells its number, modulo 51. */
+function numbered(capture: number): Rgb {
+  return [(capture % 51) * 5, 0, 100];
 }
 
 function spanOf(from: number, share: number, size: number): number[] {

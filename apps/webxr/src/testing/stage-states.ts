@@ -64,6 +64,19 @@ function without(what: string, begin: (stage: StageControl) => void): StageState
   return { what, begin };
 }
 
+const [BLUE, SKY] = [[70, 110, 160] as const, [90, 140, 190] as const];
+const [BROWN, SAND] = [[150, 110, 70] as const, [180, 140, 90] as const];
+
+/** Once the session is there. */
+function playTwo(stage: StageControl): void {
+  setTimeout(() => {
+    stage.play({
+      Front: { quarters: [BLUE, SKY, SKY, BLUE], delayMs: 40 },
+      Rear: { quarters: [BROWN, SAND, SAND, BROWN], delayMs: 60 },
+    });
+  }, SETTLED_MS);
+}
+
 const states = {
   blank: without('Nothing has happened yet', () => undefined),
   'no-robots': without('The service lists no robot', ({ link }) => link.enterSignaling('ready')),
@@ -179,8 +192,9 @@ const states = {
       }, 200);
     },
   },
-  videos: robotThat('Two videos that have not begun', ({ robot }) => {
-    robot.greeting = [twoVideos];
+  videos: robotThat('Two videos', (stage) => {
+    stage.robot.greeting = [twoVideos];
+    playTwo(stage);
   }),
   everything: {
     what: 'A robot with all that the page can show, stopped, held and with an alarm',

@@ -24,6 +24,7 @@ import type { RobotLinkEvents } from '../link/robot-link.ts';
 import type { RobotChannel } from '../session/robot-session.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
 import type { SignalingState } from '../signaling/signaling-state.ts';
+import type { VideoTrack } from '../video/video-track.ts';
 import type { CloudWorkerHere } from './cloud-worker-here.ts';
 
 /** Neither the shortest nor the longest of the random waits. */
@@ -117,6 +118,11 @@ export class ScriptedLink extends KeptLink {
   /** A packet of the robot's clouds comes. @param sequence its number */
   receivePacket(payload: ArrayBuffer, sequence: number): void {
     if (!this.isCut && this.phase === 'live') this.#worker.take(payload, sequence);
+  }
+
+  /** The browser has made the track of a video that the robot offers. */
+  offerVideo(track: VideoTrack): void {
+    this.events.onVideoTrack(track);
   }
 
   sendControl(message: OperatorControlMessage): void {
