@@ -36,6 +36,7 @@ const STATES: Readonly<Record<StageStateName, readonly string[]>> = {
   playback: ['estop', 'alarm'],
   'two-sensors': ['estop'],
   videos: ['estop', 'pictures'],
+  cameras: ['estop', 'pictures'],
   everything: ['estop', 'estop-release', 'alarm', 'pictures'],
 };
 /** What opens further parts of a state, and what must be seen then. */

@@ -1,6 +1,5 @@
 import { wearEmulatedHeadset } from '@farpoint/local-stack';
 import type { Page } from '@playwright/test';
-import { freezeFrames, thawFrames } from './frames.ts';
 import type { Grip } from './operator-page.ts';
 
 /** Without a GPU, two large eyes take longer to draw than a grip may go unread. */
@@ -113,15 +112,6 @@ export class Headset {
     );
   }
 
-  /**
-   * Stops the headset's frames, as a hung compositor does, with the hands where they are. The page's timers go on.
-   *
-   * @returns when the page was last given a frame, ms since it loaded
-   */
-  async freeze(): Promise<number> {
-    return freezeFrames(this.#page);
-  }
-
   /** Takes the headset off, or puts it on again: the runtime then hides the session from the page. */
   async worn(worn: boolean): Promise<void> {
     await this.#page.evaluate(
@@ -136,11 +126,6 @@ export class Headset {
       hold: () => this.button(hand, 'squeeze', 1),
       release: () => this.button(hand, 'squeeze', 0),
     };
-  }
-
-  /** Lets the frames go on. */
-  async thaw(): Promise<void> {
-    await thawFrames(this.#page);
   }
 
   /** @param value 0 released … 1 held */

@@ -5,6 +5,8 @@
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { openRecording } from '@farpoint/recording';
+import { foxgloveCompressedImageSchema } from '@farpoint/ros';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { makeRecording, SIDE, SPEED, valueOfSample } from './testing/made-recording.ts';
 import { SignaledOperator } from './testing/signaled-operator.ts';
@@ -14,11 +16,23 @@ const ROBOT = 'played-1';
 const folder = mkdtempSync(join(tmpdir(), 'farpoint-played-'));
 const path = join(folder, 'drive.mcap');
 const config = join(folder, 'farpoint.yaml');
+const PICTURES = '/farpoint/pictures/Camera';
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
+/** The files of the recording, base64. */
+async function recordedPictures(): Promise<Set<string>> {
+  const recording = await openRecording(path);
+  const files = new Set<string>();
+  for await (const { topic, data } of recording.messages([PICTURES], recording.startNs))
+    files.add(Buffer.from(foxgloveCompressedImageSchema.parse(topic.decode(data)).data).toString('base64'));
+  await recording.close();
+  return files;
+}
+
 beforeAll(async () => {
   await makeRecording(path);
   const entries = [
-    { topic: '/farpoint/pictures/Camera', as: 'picture', label: 'Front' },
+    { topic: PICTURES, as: 'picture', label: 'Front' },
+    { topic: '/farpoint/pictures/Rear', as: 'picture', label: 'Rear' },
     { topic: '/farpoint/telemetry', as: 'text', type: 'std_msgs/String', label: 'Drive' },
   ];
   writeFileSync(config, JSON.stringify({ robot: { topics: entries } }));
@@ -30,10 +44,20 @@ const robot = useRobot(ROBOT, ['--config', config, ...PLAYS]);
 describe('a robot that plays a recording', { timeout: 30_000 }, () => {
   it('sends its clouds and pictures, and is where it was', async () => {
     const { client } = await robot.connect();
-    expect(await client.message('cameras')).toMatchObject({ cameras: [{ name: 'Front' }] });
-    client.sendSession({ type: 'pictures', cameras: [0] });
-    await client.until(() => client.pictures.has(0));
+    expect((await client.message('cameras')).cameras).toEqual([{ name: 'Front' }, { name: 'Rear' }]);
+    client.sendSession({ type: 'pictures', cameras: [0, 1] });
+    const seen = new Map<number, Uint8Array>();
+    await client.until(() => {
+      const picture = client.pictures.get(0);
+      if (picture !== undefined) seen.set(picture.pictureId, picture.bytes);
+      return seen.size >= 3;
+    });
     expect(client.pictures.get(0)).toMatchObject({ format: 'jpeg', width: SIDE, height: SIDE });
+    // At a rate that carries them, they are the recorded files, byte for byte.
+    const files = await recordedPictures();
+    for (const bytes of seen.values()) expect(files.has(Buffer.from(bytes).toString('base64'))).toBe(true);
+    // A camera that the recording lacks is silent, and does not prevent playback.
+    expect(client.pictures.has(1)).toBe(false);
     await client.until(() => client.readings.has('/farpoint/telemetry'));
     expect(client.readings.get('/farpoint/telemetry')).toMatchObject({ label: 'Drive', level: 'ok' });
     await client.until(() => client.completeFrames.length >= 5);

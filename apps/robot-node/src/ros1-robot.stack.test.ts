@@ -3,12 +3,20 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { LocalStack } from '@farpoint/local-stack';
-import { writeTile } from '@farpoint/protocol';
+import { PictureCodec } from '@farpoint/pictures';
+import { type WholePicture, writeTile } from '@farpoint/protocol';
 import { type Ros1Node, Ros1Peers } from '@farpoint/ros/testing/ros1';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 
 const ROBOT = 'ros-1';
+/** What the node's front camera sees, from the left. */
+const BARS = [
+  [255, 0, 0],
+  [0, 255, 0],
+  [0, 0, 255],
+  [255, 255, 255],
+];
 const { python, missing } = Ros1Peers.find();
 const configuration = (master: string) => `
 robot:
@@ -21,12 +29,25 @@ robot:
     - { topic: /odom, as: pose }
     - { topic: /battery, as: battery }
     - { topic: /temperature, type: std_msgs/Float32, as: text, label: Temperature }
+    - { topic: /diagnostics, as: diagnostics }
     - { topic: /plan, as: path }
     - { topic: /map, as: map }
     - { topic: /cmd_vel, as: velocity }
 `;
 
-const pictures = (master: string) => `
+const cameras = (master: string) => `
+robot:
+  source: { kind: ros1 }
+  ros: { master: '${master}', hostname: 127.0.0.1 }
+  topics:
+    - { topic: /points, as: cloud }
+    - { topic: /camera_info, as: cameraInfo }
+    - { topic: /front/image_raw, as: picture, label: Front }
+    - { topic: /rear/image_raw/compressed, as: picture, label: Rear }
+    - { topic: /mast/image_raw, as: picture, label: Mast }
+`;
+
+const images = (master: string) => `
 robot:
   source: { kind: ros1 }
   ros: { master: '${master}', hostname: 127.0.0.1 }
@@ -52,7 +73,7 @@ describe.skipIf(python === null)(
     beforeAll(async () => {
       peers = await Ros1Peers.open(python ?? '');
       await peers.startCore();
-      camera = await peers.startNode('cloud,state,navigator', 'camera');
+      camera = await peers.startNode('cloud,state,diagnostics,navigator', 'camera');
       base = await peers.startNode('velocity', 'base');
       const config = join(folder, 'farpoint.yaml');
       writeFileSync(config, configuration(peers.masterUrl));
@@ -94,7 +115,7 @@ describe.skipIf(python === null)(
         twist: { linear: { x: 0.125 } },
         battery: { percentage: 0.75 },
       });
-      await client.until(() => client.readings.size === 5);
+      await client.until(() => client.readings.size === 6);
       expect(client.readings.get('/battery')).toMatchObject({
         label: 'Battery',
         values: [
@@ -105,6 +126,13 @@ describe.skipIf(python === null)(
       expect(client.readings.get('/temperature')).toMatchObject({
         label: 'Temperature',
         values: [['', '21.5']],
+      });
+      expect(client.readings.get('/diagnostics')).toMatchObject({
+        ...{ label: 'Diagnostics', level: 'warn' },
+        values: [
+          ['left motor', '71 degrees, which is too warm to go on for long'],
+          ['', '1 of 2 OK'],
+        ],
       });
     });
 
@@ -129,7 +157,7 @@ describe.skipIf(python === null)(
     it('streams depth and colour images of one camera', async () => {
       const node = await peers.startNode('rgbd', 'rgbd');
       const config = join(folder, 'rgbd.yaml');
-      writeFileSync(config, pictures(peers.masterUrl));
+      writeFileSync(config, images(peers.masterUrl));
       await stack.startRobot({
         id: 'ros-2',
         name: 'Robot',
@@ -147,6 +175,39 @@ describe.skipIf(python === null)(
       await watcher.close();
       await stack.robot('ros-2').stop();
       await node.kill();
+    });
+
+    it('sends cameras’ pictures: raw ones are shrunk, and neither a broken file nor a silent camera stops the others', async () => {
+      const node = await peers.startNode('pictures', 'cameras');
+      const config = join(folder, 'cameras.yaml');
+      writeFileSync(config, cameras(peers.masterUrl));
+      // At a fixed rate: a busy machine delays packets like a bad link, which then carries no pictures.
+      const args = ['--config', config, '--max-points', '600', '--rate-control', 'fixed'];
+      await stack.startRobot({ id: 'ros-3', name: 'Robot', args });
+      const watcher = await SignaledOperator.connect(stack.signalingUrl, 'ros-3');
+      const { client } = watcher;
+      expect((await client.message('cameras')).cameras).toEqual(
+        ['Front', 'Rear', 'Mast'].map((name) => ({ name })),
+      );
+      client.sendSession({ type: 'pictures', cameras: [0, 1, 2] });
+      await client.until(() => (client.pictures.get(0)?.pictureId ?? 0) >= 3 && client.pictures.has(1));
+      const { width, height, format, bytes } = client.pictures.get(0) as WholePicture;
+      expect({ width, height, format }).toEqual({ width: 640, height: 480, format: 'jpeg' });
+      const { rgba } = (await PictureCodec.load()).decode('jpeg', bytes, width * height);
+      for (const [bar, colour] of BARS.entries()) {
+        const at = 4 * ((height / 2) * width + ((bar + 0.5) * width) / BARS.length);
+        const away = colour.map((level, i) => Math.abs(level - (rgba[at + i] ?? Number.NaN)));
+        expect(Math.max(...away), `bar ${bar}`).toBeLessThan(20);
+      }
+      // The file says that it has so many pixels, and only who decodes it finds that it has none.
+      expect(client.pictures.get(1)).toMatchObject({ format: 'jpeg', width: 320, height: 240 });
+      expect(client.pictures.has(2)).toBe(false);
+      // The clouds go on when the cameras have gone.
+      await node.kill();
+      const clouds = client.completeFrames.length;
+      await client.until(() => client.completeFrames.length > clouds + 5);
+      await watcher.close();
+      await stack.robot('ros-3').stop();
     });
 
     it('publishes steadily while commanded, zero on silence, then nothing, so that others can drive', async () => {

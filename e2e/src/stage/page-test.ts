@@ -2,12 +2,15 @@ import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { repositoryRoot } from '@farpoint/local-stack';
 import { test as base } from '@playwright/test';
+import { noRecordings } from './recorded-clouds.ts';
 import { type PageServer, servePage } from './serve-page.ts';
 import { Stage } from './stage.ts';
 
 export interface PageFixtures {
   /** The page, which {@link Stage.open} opens, with a scripted robot. Faults of the page's scripts fail the test. */
   stage: Stage;
+  /** Loads recorded clouds that {@link Stage.cloud} can send then. The test is skipped where there are none. */
+  loadRecordings: (...names: string[]) => Promise<void>;
 }
 
 export const test = base.extend<PageFixtures, { server: PageServer }>({
@@ -27,6 +30,12 @@ export const test = base.extend<PageFixtures, { server: PageServer }>({
     page.on('pageerror', (error) => faults.push(error));
     await use(new Stage(page, server.origin));
     if (faults[0] !== undefined) throw faults[0];
+  },
+  loadRecordings: async ({ stage }, use, testInfo) => {
+    await use(async (...names) => {
+      testInfo.skip(noRecordings !== null, noRecordings ?? '');
+      await stage.load(...names);
+    });
   },
 });
 

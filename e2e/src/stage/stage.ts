@@ -1,5 +1,5 @@
 /** The page in a browser, with a scripted robot, a clock that only the test moves on, and display frames one by one. */
-import type { CloudOptions, PictureOptions, StageControl } from '@farpoint/webxr/stage-control';
+import type { CloudOptions, PictureFile, PictureOptions, StageControl } from '@farpoint/webxr/stage-control';
 import type { StageStateName } from '@farpoint/webxr/stage-states';
 import type { DrawnProbe, PageState, PageStats } from '@farpoint/webxr/test-api';
 import { expect, type Page } from '@playwright/test';
@@ -179,6 +179,15 @@ export class Stage {
     return this.page.evaluate(([name, picture]) => window.farpointStage.video(name, picture), [
       name,
       picture,
+    ] as const);
+  }
+
+  /** A picture of a camera comes, and is decoded. @param ageMs how long before now it was taken */
+  async picture(camera: number, file: PictureFile, ageMs = 0): Promise<void> {
+    await this.page.evaluate(([camera, file, ageMs]) => window.farpointStage.picture(camera, file, ageMs), [
+      camera,
+      file,
+      ageMs,
     ] as const);
   }
 

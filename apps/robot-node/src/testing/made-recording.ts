@@ -31,8 +31,13 @@ export async function makeRecording(path: string): Promise<void> {
   recorder.alarm(0, 0, {
     ...{ level: 'warn', text: 'The battery is low', value: 15, limit: 20, unit: '%', sinceMs: 0 },
   });
-  const rgba = new Uint8Array(SIDE * SIDE * 4).fill(99);
-  const picture = (await PictureCodec.load()).encodeJpeg({ width: SIDE, height: SIDE, rgba }, 80);
+  const codec = await PictureCodec.load();
+  // Each picture is another one.
+  const pictureOf = (k: number) =>
+    codec.encodeJpeg(
+      { width: SIDE, height: SIDE, rgba: new Uint8Array(SIDE * SIDE * 4).fill(99 + 2 * k) },
+      80,
+    );
   const tap = new CloudTap(recorder.clouds, { captured: 1000, sent: 0 });
   const [depth, colour] = [new Float32Array(SIDE ** 2).fill(2), new Uint32Array(SIDE ** 2).fill(0xff03_0201)];
   const lens = { fx: SIDE, fy: SIDE, cx: SIDE / 2, cy: SIDE / 2 };
@@ -43,7 +48,7 @@ export async function makeRecording(path: string): Promise<void> {
     const cameraPose = { position: { x, y: 0, z: 1 }, orientation: { x: -0.5, y: 0.5, z: -0.5, w: 0.5 } };
     const cloud = { form: 'images' as const, depth, colour, cameraPose, capturedAtMs: timeMs };
     tap.captured(cloud, { width: SIDE, height: SIDE, camera: lens });
-    recorder.picture(0, timeMs, 'jpeg', Uint8Array.from(picture));
+    recorder.picture(0, timeMs, 'jpeg', pictureOf(k));
     const still = { x: 0, y: 0, z: 0 };
     recorder.state(
       timeMs,

@@ -4,6 +4,8 @@
 export interface CloudFile {
   /** Base64. Absent for `points64`. */
   stream?: { format: 'organised' | 'unorganised'; header: string };
+  /** Axes of its points: x ahead and z up, instead of those of a camera's optical frame. */
+  axes?: 'body';
   /** Payloads of the frames' RTP packets, base64. */
   frames: string[][];
 }
@@ -23,7 +25,7 @@ const QUATERNION_SCALE = 32767;
 
 /** The payload with another place; docs/protocol.md has the layout. */
 export function placed(payload: string, frame: PlacedFrame): ArrayBuffer {
-  const { buffer } = Uint8Array.from(atob(payload), (character) => character.charCodeAt(0));
+  const { buffer } = bytesOf(payload);
   const view = new DataView(buffer);
   const at = view.byteLength - PLACEMENT_BYTES;
   view.setUint32(0, frame.frameNumber, true);
@@ -33,4 +35,8 @@ export function placed(payload: string, frame: PlacedFrame): ArrayBuffer {
   view.setUint32(at + 20, frame.captureUs, true);
   view.setUint8(at + 25, frame.sensor);
   return buffer;
+}
+
+export function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
+  return Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
 }

@@ -1,6 +1,8 @@
 /** Gives the page a scripted robot instead of a link, if its address asks for one: `?stage=STATE`. */
 import type { RobotClientOptions } from '@farpoint/operator';
 import { CloudWorkerHere } from '@farpoint/operator/testing/cloud-worker-here';
+import { MemoryWorkerHere } from '@farpoint/operator/testing/memory-worker-here';
+import { PictureWorkerWatched } from '@farpoint/operator/testing/picture-worker-watched';
 import { ScriptedLink } from '@farpoint/operator/testing/scripted-link';
 import type { App } from '../app.ts';
 import { ScriptedRobot } from './scripted-robot.ts';
@@ -22,10 +24,10 @@ export async function openStage(): Promise<OpenedStage | null> {
   if (!isStageState(name)) throw new Error(`there is no state ${name}`);
   const state = STAGE_STATES[name];
   const worker = await CloudWorkerHere.open();
-  useInsteadOfCloudWorker(worker);
   const robot = new ScriptedRobot();
   const stage = new StageControl(robot);
   stage.videos.install();
+  useOwnWorkers(worker, stage);
   window.farpointStage = stage;
   for (const cloud of state.clouds ?? []) await stage.load(cloud);
   return {
@@ -43,12 +45,18 @@ export async function openStage(): Promise<OpenedStage | null> {
   };
 }
 
-/** Other workers are real. */
-function useInsteadOfCloudWorker(worker: CloudWorkerHere): void {
+/** Those whose answers a test must know of. Other workers are real. */
+function useOwnWorkers(clouds: CloudWorkerHere, stage: StageControl): void {
   const Real = globalThis.Worker;
   globalThis.Worker = new Proxy(Real, {
     construct(target, [url, options]: [URL | string, WorkerOptions | undefined]) {
-      return String(url).includes('cloud-worker') ? worker : new target(url, options);
+      const script = String(url);
+      if (script.includes('cloud-worker')) return clouds;
+      if (script.includes('memory-worker')) return new MemoryWorkerHere();
+      const real = new target(url, options);
+      if (!script.includes('picture-worker')) return real;
+      stage.pictureWorker = new PictureWorkerWatched(real);
+      return stage.pictureWorker;
     },
   });
 }

@@ -2,10 +2,17 @@
  * `window.farpointStage`: what a test, or a person who looks at a state of the page, does with the scripted robot. Only in
  * the testing build, at `?stage=STATE`.
  */
+import type { PictureWorkerWatched } from '@farpoint/operator/testing/picture-worker-watched';
 import type { ScriptedLink, SentMessage, ToldMessage } from '@farpoint/operator/testing/scripted-link';
-import { stampUsOf } from '@farpoint/protocol';
+import {
+  MAX_PICTURE_CHUNK_BYTES,
+  type PictureFormat,
+  pictureChunks,
+  stampUsOf,
+  writePictureChunk,
+} from '@farpoint/protocol';
 import type { App } from '../app.ts';
-import { type CloudFile, placed } from './cloud-file.ts';
+import { bytesOf, type CloudFile, placed } from './cloud-file.ts';
 import type { ScriptedRobot } from './scripted-robot.ts';
 import { type PictureOptions, type Rgb, ScriptedVideos } from './scripted-videos.ts';
 
@@ -39,6 +46,15 @@ export interface PlayedVideo extends Pick<PictureOptions, 'colour' | 'quarters'>
   lacks?: readonly number[];
 }
 
+/** A camera's picture as a file. */
+export interface PictureFile {
+  format: PictureFormat;
+  /** As the robot says, pixels. */
+  width: number;
+  height: number;
+  base64: string;
+}
+
 const CAMERA_HEIGHT_M = 1;
 /** A camera's optical frame that looks ahead: x, y, z, w. */
 const AHEAD = [-0.5, 0.5, -0.5, 0.5] as const;
@@ -46,11 +62,17 @@ const AHEAD = [-0.5, 0.5, -0.5, 0.5] as const;
 export class StageControl {
   readonly robot: ScriptedRobot;
   readonly videos = new ScriptedVideos();
+  /** Decodes pictures; `null` before the first. */
+  pictureWorker: PictureWorkerWatched | null = null;
   readonly #files = new Map<string, CloudFile>();
   #link: ScriptedLink | null = null;
   #app: App | null = null;
   #frameNumber = 0;
-  readonly #packets: number[] = [];
+  #pictureId = 0;
+  /** How many packets were sent. */
+  #packets = 0;
+  /** The header of each sensor's stream that the page knows. */
+  readonly #announced = new Map<number, string>();
   #streaming: ReturnType<typeof setInterval> | undefined;
   #playing: ReturnType<typeof setInterval> | undefined;
   #picture: { width: number; height: number; pixels: Uint8Array } | null = null;
@@ -107,22 +129,26 @@ export class StageControl {
     if (file === undefined) throw new Error(`the cloud ${name} is not loaded`);
     const { lose = [], sensor = 0, ageMs = 0, heightM = CAMERA_HEIGHT_M } = options;
     const frameNumber = this.#frameNumber++;
-    if (file.stream !== undefined && this.#packets[sensor] === undefined)
-      this.link.tell({ type: 'cloudStream', ...file.stream, ...(sensor === 0 ? {} : { sensor }) });
+    this.#announce(file, sensor);
     const packets = file.frames[(options.frame ?? frameNumber) % file.frames.length] ?? [];
     const { x, y, z, yaw } = this.robot.pose;
     const place = {
       ...{ frameNumber, sensor, captureUs: stampUsOf(this.robot.nowMs - ageMs) },
       position: [x, y, z + heightM] as const,
-      orientation: turned(yaw, file.stream?.format === 'unorganised' ? [0, 0, 0, 1] : AHEAD),
+      orientation: turned(yaw, file.axes === 'body' ? [0, 0, 0, 1] : AHEAD),
     };
     for (const [i, packet] of packets.entries()) {
-      const sequence = this.#packets[0] ?? 0;
-      this.#packets[0] = sequence + 1;
-      if (sensor !== 0) this.#packets[sensor] = 1;
+      const sequence = this.#packets++;
       if (!lose.includes(i)) this.link.receivePacket(placed(packet, place), sequence);
     }
     return packets.length;
+  }
+
+  /** A stream's header comes before its first packet, and when it changes. */
+  #announce({ stream }: CloudFile, sensor: number): void {
+    if (stream === undefined || this.#announced.get(sensor) === stream.header) return;
+    this.#announced.set(sensor, stream.header);
+    this.link.tell({ type: 'cloudStream', ...stream, ...(sensor === 0 ? {} : { sensor }) });
   }
 
   /** Sends a cloud again and again, until it is called with `null`. */
@@ -161,6 +187,23 @@ export class StageControl {
         setTimeout(show, delayMs);
       }
     }, everyMs);
+  }
+
+  /**
+   * A picture of a camera comes. Resolves once the page has drawn it, or has found it to be broken.
+   *
+   * @param ageMs how long before now it was taken
+   */
+  async picture(camera: number, { base64, ...facts }: PictureFile, ageMs = 0): Promise<void> {
+    const bytes = bytesOf(base64);
+    const pictureId = this.#pictureId++;
+    const header = { ...facts, camera, pictureId, captureTimeUs: stampUsOf(this.robot.nowMs - ageMs) };
+    const chunk = new Uint8Array(MAX_PICTURE_CHUNK_BYTES);
+    for (let i = 0; i < pictureChunks(bytes.length); i++) {
+      const length = writePictureChunk(header, bytes, i, chunk);
+      this.link.receive('pictures', chunk.slice(0, length));
+    }
+    await this.pictureWorker?.decoded();
   }
 
   /** Nothing arrives any more, in either direction. */

@@ -196,6 +196,9 @@ const states = {
     stage.robot.greeting = [twoVideos];
     playTwo(stage);
   }),
+  cameras: robotThat('Two cameras that have sent no picture', ({ robot }) => {
+    robot.greeting = [twoCameras];
+  }),
   everything: {
     what: 'A robot with all that the page can show, stopped, held and with an alarm',
     clouds: ['light', 'lidar-yard'],
