@@ -1,5 +1,5 @@
 import { join } from 'node:path';
-import { chromiumLaunchOptions } from '@farpoint/local-stack';
+import { chromiumLaunchOptions, findHeadlessShell } from '@farpoint/local-stack';
 import { defineConfig } from '@playwright/test';
 import { voiceFlags } from './src/voice.ts';
 
@@ -22,6 +22,7 @@ export default defineConfig({
       // Each test has a page of its own, and nothing else.
       fullyParallel: true,
       ...{ timeout: 60_000, expect: { timeout: 10_000 } },
+      use: { launchOptions: chromiumLaunchOptions(findHeadlessShell() ?? undefined) },
     },
     // One stack and one software-rendered browser at a time, because two would slow each other down.
     {

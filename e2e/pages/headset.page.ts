@@ -65,7 +65,7 @@ test('set to turn with the robot: the view does, and its edge is dark meanwhile'
   expect(turning.yaw - yaw).toBeGreaterThan(0.3);
   expect(turning.darkness).toBeGreaterThan(0.5);
   await headset.button('right', 'squeeze', 0);
-  await stage.run(2000);
+  await stage.run(3000);
   expect((await shownIn(stage)).darkness).toBe(0);
 });
 

@@ -5,6 +5,7 @@ import {
   CHROMIUM_REMEDY,
   findChromium,
   findFirefox,
+  findHeadlessShell,
   findJanus,
   findProgram,
   firefoxNeedsDisplay,
@@ -22,8 +23,8 @@ export interface Need {
   /** A Python package that pip installs into a folder of its own. */
   python?: { folder: string; install: readonly string[] };
   isThere(): Promise<boolean>;
-  /** What is not tested without it, with the remedy. */
-  without: string;
+  /** What is not tested without it, with the remedy; `null`: everything is, only more slowly. */
+  without: string | null;
   /** The steps that need it. */
   steps: readonly string[];
 }
@@ -126,6 +127,18 @@ export const NEEDS: readonly Need[] = [
     },
     without: `the page: no Chromium (${CHROMIUM_REMEDY})`,
     steps: ['page', 'stack', 'smoke'],
+  },
+  {
+    name: 'headless-shell',
+    packages: ['chromium-headless-shell'],
+    // Debian's Chromium has it beside it. Playwright's own comes with it, and others do without.
+    isThere: () => {
+      const browser = findChromium();
+      const isOfOthers = browser !== null && browser !== '/usr/bin/chromium';
+      return Promise.resolve(isOfOthers || findHeadlessShell() !== null);
+    },
+    without: null,
+    steps: ['page'],
   },
   {
     name: 'turnserver',

@@ -72,7 +72,7 @@ function ofSuite({ judged, failure }: SuiteResult): StepResult {
 
 /** What of a step is not tested, because something is missing. */
 function untested(step: string, { missing }: TestRun): string[] {
-  return missing.filter(({ steps }) => steps.includes(step)).map(({ without }) => without);
+  return missing.filter(({ steps }) => steps.includes(step)).flatMap(({ without }) => without ?? []);
 }
 
 function buildAddons(context: TestRun): StepResult {

@@ -2,7 +2,7 @@
 import type { CloudOptions, PictureFile, PictureOptions, StageControl } from '@farpoint/webxr/stage-control';
 import type { StageStateName } from '@farpoint/webxr/stage-states';
 import type { DrawnProbe, PageState, PageStats } from '@farpoint/webxr/test-api';
-import { expect, type Page } from '@playwright/test';
+import { type CDPSession, expect, type Page } from '@playwright/test';
 
 /** One display frame, ms. */
 export const FRAME_MS = 16;
@@ -37,6 +37,7 @@ export type Rgb = readonly [red: number, green: number, blue: number];
 export class Stage {
   readonly page: Page;
   readonly #origin: string;
+  #devtools: Promise<CDPSession> | null = null;
 
   constructor(page: Page, origin: string) {
     this.page = page;
@@ -117,6 +118,12 @@ export class Stage {
   /** Lets the frames go on. */
   async thaw(): Promise<void> {
     await this.page.evaluate(() => window.thawFrames?.());
+  }
+
+  /** Whether fingers, and no mouse, touch the screen from now on. */
+  async touched(enabled: boolean): Promise<void> {
+    this.#devtools ??= this.page.context().newCDPSession(this.page);
+    await (await this.#devtools).send('Emulation.setTouchEmulationEnabled', { enabled });
   }
 
   /** Changes the size of the window, and lets the page find its new layout. */
