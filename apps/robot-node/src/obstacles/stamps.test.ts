@@ -3,7 +3,7 @@
  * farther out of its fence than with honest ones and what is stated here. A sensor whose clouds are all older than the guard
  * remembers is none: then, as towards all that no sensor sees, the robot is slow.
  */
-import { casesOf, longProperty } from '@farpoint/network-sim/cases';
+import { casesOf, longProperty, someOf } from '@farpoint/network-sim/cases';
 import { defaultObstacleGuardOptions } from '@farpoint/safety';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import fc from 'fast-check';
@@ -153,13 +153,16 @@ describe('a robot', async () => {
     return { ...driven, faults };
   }
 
-  it.each([450, 700, 2000])('whose clouds come %i ms late stops before the wall, slower', async (clouds) => {
-    const { contactMps, fastestMps } = await drive({ lateMs: { clouds }, seconds: 10 });
-    expect(contactMps).toBeNull();
-    expect(fastestMps).toBeLessThan(0.31);
-  });
+  it.each(someOf([450, 700, 2000], 3))(
+    'whose clouds come %i ms late stops before the wall, slower',
+    async (clouds) => {
+      const { contactMps, fastestMps } = await drive({ lateMs: { clouds }, seconds: 10 });
+      expect(contactMps).toBeNull();
+      expect(fastestMps).toBeLessThan(0.31);
+    },
+  );
 
-  it.each([700, 2000, 5000])(
+  it.each(someOf([700, 2000, 5000], 2))(
     'whose odometry comes %i ms late stands, where it has a fence',
     async (poses) => {
       const { outsideM, fastestMps } = await drive({ lateMs: { poses }, fenceM: 5, wallM: 20, seconds: 16 });
