@@ -66,7 +66,7 @@ export abstract class KeptLink implements RobotLink {
   abstract sendSession(message: OperatorSessionMessage): void;
   abstract limitBandwidth(bitsPerSecond: number): void;
   abstract sendReport(report: IntakeReport): void;
-  /** As {@link SessionActions} says, as are the next three. */
+  // What the session's keeper asks for: see SessionActions.
   protected abstract requestSession(robotId: string): void;
   protected abstract resumeSession(session: string, robotId: string): void;
   protected abstract closeSession(session: string): void;

@@ -26,8 +26,6 @@ export class WebRtcLink extends KeptLink {
   #peer: IntroducedPeer | null = null;
   readonly #closed = new AbortController();
   #reportSequence = 0;
-  /** Number of requests for an ICE restart. */
-  resumesAsked = 0;
   /** The robot to reconnect to when the page is restored from the browser's cache. */
   #left: string | null = null;
 
@@ -117,7 +115,6 @@ export class WebRtcLink extends KeptLink {
       this.keeper.onPeerFailed(performance.now());
       return;
     }
-    this.resumesAsked++;
     this.#signaling.ask({ type: 'session.resume', session, robotId, resumeKey });
   }
 
