@@ -14,13 +14,13 @@ test('an operator is let in by a grant, and drives until a supervisor ends the s
   page,
   browser,
   shared,
+  startRobot,
 }, testInfo) => {
   const folder = testInfo.outputPath('office');
   mkdirSync(folder, { recursive: true });
   const office = await GrantOffice.open(folder);
-  const robot = robotLike('guarded', '--grant-keys', office.keys);
+  const robot = await startRobot(robotLike('guarded', '--grant-keys', office.keys));
   const { stack } = shared;
-  await stack.startRobot(robot);
   const enter = async (on: Page, name: string, role: 'drive' | 'supervise') => {
     const operator = await OperatorPage.open(on, stack.webUrl, { robot: robot.id });
     await expect(obstacle(on)).toContainText('admits only operators with a grant');
@@ -53,7 +53,6 @@ test('an operator is let in by a grant, and drives until a supervisor ends the s
   await driverPage.getByRole('button', { name: robot.name }).click();
   await expect(obstacle(driverPage)).toContainText('does not admit you');
   await driverContext.close();
-  await stack.robot(robot.id).stop();
 });
 
 test('who signs in at the provider and agrees is let in, and still after the page was loaded again', async ({

@@ -9,9 +9,10 @@ import { hasVideo, NEEDS_VIDEO, wholeRobot } from '../src/robots.ts';
 test('sees the whole cloud, drives, and stops while the hand still drives', async ({
   firefoxPage,
   shared,
+  startRobot,
 }) => {
   const { stack } = shared;
-  await stack.startRobot(wholeRobot);
+  await startRobot(wholeRobot);
   const operator = await OperatorPage.open(firefoxPage, stack.webUrl, { robot: wholeRobot.id, every: '1' });
   await operator.expectPoints(10_000);
   // 480 × 480 pixels, about 15 % of which a stereo camera cannot see.
@@ -25,7 +26,6 @@ test('sees the whole cloud, drives, and stops while the hand still drives', asyn
   await expectStanding(operator);
   await operator.release();
   await operator.cannotDrive();
-  await stack.robot(wholeRobot.id).stop();
 });
 
 test('shows videos in step, in VP8 if it has no H.264; one that it cannot decode says why', async ({

@@ -1,12 +1,14 @@
 /** What a newcomer does first, by hand. */
 import { expectStanding, OperatorPage, poseOf } from '../src/operator-page.ts';
+import { robotLike } from '../src/robots.ts';
 import { expect, test } from '../src/smoke-test.ts';
 
 test('choose the robot, see its world, drive it by keys, stop it, release the stop, measure', async ({
   page,
   shared,
+  startRobot,
 }, testInfo) => {
-  const { name } = await shared.light();
+  const { name } = await startRobot(robotLike('first'));
   const operator = await OperatorPage.open(page, shared.stack.webUrl);
   await page.getByRole('button', { name }).click();
   await operator.expectPoints();

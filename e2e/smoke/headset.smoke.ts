@@ -1,5 +1,6 @@
 import { Headset, headsetViewport } from '../src/headset.ts';
 import { expectStanding, OperatorPage, poseOf } from '../src/operator-page.ts';
+import { robotLike } from '../src/robots.ts';
 import { expect, test } from '../src/smoke-test.ts';
 
 test.use({ viewport: headsetViewport });
@@ -7,8 +8,9 @@ test.use({ viewport: headsetViewport });
 test('in the headset: the room is drawn, the thumbstick drives and turns, and the view goes with the robot', async ({
   page,
   shared,
+  startRobot,
 }, testInfo) => {
-  const { id } = await shared.light();
+  const { id } = await startRobot(robotLike('worn'));
   const headset = await Headset.wear(page);
   const operator = await OperatorPage.open(page, shared.stack.webUrl, { robot: id });
   await operator.expectPoints();

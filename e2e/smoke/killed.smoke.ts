@@ -6,8 +6,11 @@ import { robotLike } from '../src/robots.ts';
 import { expect, test } from '../src/smoke-test.ts';
 import { WatchingOperator } from '../src/watching-operator.ts';
 
-test('a browser that is killed while it drives: the robot stops by itself', async ({ shared }) => {
-  const { id } = await shared.light();
+test('a browser that is killed while it drives: the robot stops by itself', async ({
+  shared,
+  startRobot,
+}) => {
+  const { id } = await startRobot(robotLike('bereft'));
   const watcher = await WatchingOperator.open(shared.stack, id);
   const start = await poseOf(watcher);
   const server = await chromium.launchServer(chromiumLaunchOptions());
@@ -29,10 +32,10 @@ test('a browser that is killed while it drives: the robot stops by itself', asyn
 test('a robot that is killed: the page says so, comes back with it, and the stop stays latched until it is released', async ({
   page,
   shared,
+  startRobot,
 }) => {
   const { stack } = shared;
-  const robot = robotLike('killed');
-  await stack.startRobot(robot);
+  const robot = await startRobot(robotLike('killed'));
   const operator = await OperatorPage.open(page, stack.webUrl, { robot: robot.id });
   await operator.expectPoints();
   await operator.drives(0.1);
@@ -49,5 +52,4 @@ test('a robot that is killed: the page says so, comes back with it, and the stop
   await operator.expectState('holder', 'you');
   await operator.releaseEstop();
   await operator.drives(0.1);
-  await stack.robot(robot.id).stop();
 });

@@ -5,10 +5,12 @@ import { expect, test } from '../src/smoke-test.ts';
 /** The robot keeps a silent operator for a minute. Whatever ends sooner was told to end. */
 const TOLD_MS = 30_000;
 
-test('an operator whose tab closes, or goes elsewhere, makes room at once', async ({ context, shared }) => {
-  const robot = robotLike('left');
-  const { id } = robot;
-  await shared.stack.startRobot(robot);
+test('an operator whose tab closes, or goes elsewhere, makes room at once', async ({
+  context,
+  shared,
+  startRobot,
+}) => {
+  const { id } = await startRobot(robotLike('left'));
   const expectOperators = (count: number) =>
     expect.poll(() => shared.metric(id, 'operators'), { message: 'operators', timeout: TOLD_MS }).toBe(count);
   const open = async () => {
@@ -24,5 +26,4 @@ test('an operator whose tab closes, or goes elsewhere, makes room at once', asyn
   const gone = await open();
   await gone.goto('about:blank');
   await expectOperators(0);
-  await shared.stack.robot(id).stop();
 });

@@ -15,11 +15,12 @@ const ROUND_TRIP_MS = 40;
 
 test('a browser that hides its addresses behind mDNS names is also led through an emulated link', async ({
   shared,
+  startBehindLink,
 }) => {
   const options = chromiumLaunchOptions();
   const args = (options.args ?? []).filter((flag) => !flag.includes('WebRtcHideLocalIpsWithMdns'));
   const robot = robotLike('hidden');
-  const link = await shared.behindLink(robot, ['--rtt-ms', String(ROUND_TRIP_MS)]);
+  await startBehindLink(robot, ['--rtt-ms', String(ROUND_TRIP_MS)]);
   const browser = await chromium.launch({ ...options, args });
   try {
     const page = await browser.newPage();
@@ -28,36 +29,30 @@ test('a browser that hides its addresses behind mDNS names is also led through a
     expect((await operator.stats()).minRttMs).toBeGreaterThanOrEqual(ROUND_TRIP_MS);
   } finally {
     await browser.close();
-    await link.stop();
-    await shared.stack.robot(robot.id).stop();
   }
 });
 
 test('all addresses change while driving: the robot stands, and drives again in the same session', async ({
   page,
   shared,
+  startBehindLink,
 }) => {
   const robot = robotLike('moving', '--bitrate-mbps', '6');
-  const link = await shared.behindLink(robot, ['--rate-mbps', '20', '--rtt-ms', '30']);
-  try {
-    const operator = await OperatorPage.open(page, shared.stack.webUrl, { robot: robot.id });
-    await operator.expectPoints();
-    const start = await poseOf(operator);
-    await operator.hold(operator.script);
-    await operator.expectMovedFrom(start, 0.2);
+  const link = await startBehindLink(robot, ['--rate-mbps', '20', '--rtt-ms', '30']);
+  const operator = await OperatorPage.open(page, shared.stack.webUrl, { robot: robot.id });
+  await operator.expectPoints();
+  const start = await poseOf(operator);
+  await operator.hold(operator.script);
+  await operator.expectMovedFrom(start, 0.2);
 
-    await link.renumber();
-    // No path but the new one brings frames.
-    await operator.expectState('driving', false);
-    await operator.expectFrames(5);
-    await expectStanding(operator);
-    expect(await operator.state()).toMatchObject({ session: 'live', sessionsOpened: 1, driving: false });
-    await operator.release();
-    await operator.drives(0.1);
-  } finally {
-    await link.stop();
-    await shared.stack.robot(robot.id).stop();
-  }
+  await link.renumber();
+  // No path but the new one brings frames.
+  await operator.expectState('driving', false);
+  await operator.expectFrames(5);
+  await expectStanding(operator);
+  expect(await operator.state()).toMatchObject({ session: 'live', sessionsOpened: 1, driving: false });
+  await operator.release();
+  await operator.drives(0.1);
 });
 
 test('through a TURN relay only: points and commands arrive, and a restarted relay is found again', async ({

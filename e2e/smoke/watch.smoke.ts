@@ -17,6 +17,7 @@ const cloudFrames = async (page: Page): Promise<number> => (await stats(page))?.
 test('cameras and clouds come through Janus in step, and again after Janus and the robot were killed', async ({
   page,
   shared,
+  startRobot,
 }, testInfo) => {
   test.skip(findJanus() === null, `needs Janus: ${JANUS_REMEDY}`);
   test.skip(!hasVideo, NEEDS_VIDEO);
@@ -39,7 +40,7 @@ test('cameras and clouds come through Janus in step, and again after Janus and t
     };
     await page.goto(watch);
     await expect(link).toContainText('not broadcasting');
-    await stack.startRobot(robot);
+    await startRobot(robot);
     await expectLive();
     const states = async () =>
       ((await stats(page))?.videos.sources ?? [])
@@ -57,7 +58,6 @@ test('cameras and clouds come through Janus in step, and again after Janus and t
     await expect(link).not.toContainText('Live');
     await stack.restartRobot(robot.id);
     await expectLive();
-    await stack.robot(robot.id).stop();
   } finally {
     await janus.stop();
   }

@@ -5,10 +5,10 @@ import { expect, test } from '../src/smoke-test.ts';
 test('each point of a depth camera’s whole cloud arrives, and a latency test finds all of them', async ({
   page,
   shared,
+  startRobot,
 }, testInfo) => {
-  const { stack } = shared;
-  await stack.startRobot(wholeRobot);
-  const operator = await OperatorPage.open(page, stack.webUrl, { robot: wholeRobot.id, every: '1' });
+  await startRobot(wholeRobot);
+  const operator = await OperatorPage.open(page, shared.stack.webUrl, { robot: wholeRobot.id, every: '1' });
   await operator.expectPoints(10_000);
   // 480 × 480 pixels, about 15 % of which a stereo camera cannot see.
   await expect.poll(async () => (await operator.stats()).pointsPerFrame).toBeGreaterThan(170_000);
@@ -19,5 +19,4 @@ test('each point of a depth camera’s whole cloud arrives, and a latency test f
   const result = await page.evaluate(() => window.farpoint.latencyTest());
   expect(result.totalPoints).toBeGreaterThan(100_000);
   expect(result.points).toBe(result.totalPoints);
-  await stack.robot(wholeRobot.id).stop();
 });

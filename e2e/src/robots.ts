@@ -19,13 +19,13 @@ export const NEEDS_VIDEO = 'needs GStreamer and `pnpm build:native video`';
 export const NEEDS_SOUND = 'needs GStreamer and `pnpm build:native sound`';
 
 /** Its clouds are few and small: they leave the processor to the page, which draws in software. */
-export const lightRobot = {
+const lightRobot = {
   id: 'light',
   name: 'Light robot',
   args: ['--sim-seed', '1', '--mode', 'points64', '--max-points', '3000', '--sim-size', '96', '--fps', '10'],
 } satisfies RobotSpec;
 
-/** As {@link lightRobot}, with another name. */
+/** A light robot of this id. */
 export function robotLike(id: string, ...args: string[]) {
   return { id, name: `Robot ${id}`, args: [...lightRobot.args, ...args] } satisfies RobotSpec;
 }

@@ -1,6 +1,6 @@
 /** The real signaling service and robots that the tests of one worker share. */
-import { EmulatedLink, LocalStack, type RobotSpec } from '@farpoint/local-stack';
-import { bridgedRobot, lightRobot, type MediaRobot, mediaRobot } from './robots.ts';
+import { LocalStack, type RobotSpec } from '@farpoint/local-stack';
+import { bridgedRobot, type MediaRobot, mediaRobot } from './robots.ts';
 
 /** Of what the programs say, this many lines are kept. */
 const MOST_LINES = 5000;
@@ -16,7 +16,7 @@ export class SharedStack {
     this.#lines = lines;
   }
 
-  /** Robots start with the first test that asks for them. @param webRoot folder of the built page */
+  /** Its robots start with the first test that asks for them. @param webRoot folder of the built page */
   static async start(webRoot: string): Promise<SharedStack> {
     const lines: string[] = [];
     const onLine = (name: string, line: string): void => {
@@ -29,11 +29,6 @@ export class SharedStack {
   /** What the programs have said last. */
   get log(): string {
     return `${this.#lines.join('\n')}\n`;
-  }
-
-  async light(): Promise<typeof lightRobot> {
-    await this.#start(lightRobot);
-    return lightRobot;
   }
 
   async bridged(): Promise<typeof bridgedRobot> {
@@ -51,16 +46,6 @@ export class SharedStack {
     const text = await (await fetch(`${this.stack.robotAdminUrl(robotId)}/metrics`)).text();
     const line = text.split('\n').find((each) => each.startsWith(`farpoint_robot_${name} `));
     return Number(line?.split(' ').at(-1));
-  }
-
-  /** A robot of which all packets pass through an emulated link. The link ends with {@link EmulatedLink.stop}. */
-  async behindLink(robot: RobotSpec, args: string[]): Promise<EmulatedLink> {
-    const link = await EmulatedLink.start(this.stack, { args });
-    await this.stack.startRobot({
-      ...robot,
-      args: [...(robot.args ?? []), '--signaling', link.signalingUrl],
-    });
-    return link;
   }
 
   async #start(robot: RobotSpec): Promise<void> {

@@ -1,7 +1,13 @@
 /** Tests with the real programs and a real browser: one stack for all tests of a worker. */
 import { existsSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { LocalStack, repositoryRoot, type StackSpec } from '@farpoint/local-stack';
+import {
+  EmulatedLink,
+  LocalStack,
+  type RobotSpec,
+  repositoryRoot,
+  type StackSpec,
+} from '@farpoint/local-stack';
 import { test as base } from '@playwright/test';
 import { SharedStack } from './shared-stack.ts';
 
@@ -9,6 +15,10 @@ import { SharedStack } from './shared-stack.ts';
 const webRoot = join(repositoryRoot, 'apps', 'webxr', 'dist-testing');
 
 export interface SmokeFixtures {
+  /** Starts a robot beside the shared ones that lasts as long as the test: where it drives to is nobody else's matter. */
+  startRobot: <Robot extends RobotSpec>(robot: Robot) => Promise<Robot>;
+  /** Starts one of which all packets pass through an emulated link, with the link's flags. */
+  startBehindLink: (robot: RobotSpec, flags: string[]) => Promise<EmulatedLink>;
   /** Starts a stack that lasts as long as the test, for one that needs a signaling service of its own. */
   startStack: (spec: Partial<StackSpec>) => Promise<LocalStack>;
   /** Keeps what the programs have said, if the test fails. */
@@ -27,6 +37,25 @@ export const test = base.extend<SmokeFixtures, { shared: SharedStack }>({
     },
     { scope: 'worker' },
   ],
+  startRobot: async ({ shared }, use) => {
+    const started: string[] = [];
+    await use(async (robot) => {
+      started.push(robot.id);
+      await shared.stack.startRobot(robot);
+      return robot;
+    });
+    for (const id of started) await shared.stack.robot(id).stop();
+  },
+  startBehindLink: async ({ shared, startRobot }, use) => {
+    const links: EmulatedLink[] = [];
+    await use(async (robot, flags) => {
+      const link = await EmulatedLink.start(shared.stack, { args: flags });
+      links.push(link);
+      await startRobot({ ...robot, args: [...(robot.args ?? []), '--signaling', link.signalingUrl] });
+      return link;
+    });
+    for (const link of links) await link.stop();
+  },
   // biome-ignore lint/correctness/noEmptyPattern: Playwright reads the names of fixtures from the pattern.
   startStack: async ({}, use, testInfo) => {
     const stacks: LocalStack[] = [];
