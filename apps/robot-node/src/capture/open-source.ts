@@ -1,6 +1,6 @@
 import { monotonicMs } from '../clock.ts';
 import { type GraphOptions, openGraph } from '../ros/open-graph.ts';
-import { wallNs } from '../ros/wall-clock.ts';
+import { wallNs } from '../wall-clock.ts';
 import { type CloudShmOptions, CloudShmSource } from './cloud-shm-source.ts';
 import type { FrameSource, Mounted } from './frame-source.ts';
 import { openPcdSource, type PcdSourceOptions } from './pcd-source.ts';

@@ -5,7 +5,7 @@
 import { parentPort, workerData } from 'node:worker_threads';
 import { monotonicMs } from '../clock.ts';
 import { openGraph } from '../ros/open-graph.ts';
-import { wallNs } from '../ros/wall-clock.ts';
+import { wallNs } from '../wall-clock.ts';
 import type { RosDriveReport, RosDriveRequest, RosDriveSetup } from './ros-drive-messages.ts';
 import { RosVelocity } from './ros-velocity.ts';
 import { SinkBeat } from './sink-beat.ts';

@@ -5,7 +5,7 @@ import { PoseTrack } from '@farpoint/safety';
 import { monotonicMs } from '../clock.ts';
 import { SinkBeat } from '../drive/sink-beat.ts';
 import { openGraph } from '../ros/open-graph.ts';
-import { wallNs } from '../ros/wall-clock.ts';
+import { wallNs } from '../wall-clock.ts';
 import { CollisionCells } from './collision-cells.ts';
 import { COLLISION_TYPES, demandedMps } from './collision-message.ts';
 import type { GuardTopicsReport, GuardTopicsRequest, GuardTopicsSetup } from './guard-topics-messages.ts';

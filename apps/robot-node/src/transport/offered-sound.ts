@@ -1,6 +1,7 @@
 import { SOUND_MEDIA, SOUND_STREAM_ID } from '@farpoint/protocol';
 import { MediaStream, type RTCPeerConnection, type RTCRtpTransceiver, RTP_EXTENSION_URI } from 'werift';
 import { monotonicMs } from '../clock.ts';
+import { unixOffsetMs } from '../wall-clock.ts';
 import type { SoundLine } from './sound-line.ts';
 import { RtpTransportError, SrtpTransport } from './srtp-transport.ts';
 import { VoiceReceiver } from './voice-receiver.ts';
@@ -18,9 +19,8 @@ export class OfferedSound {
   connect(): SoundLine {
     const { dtlsTransport, headerExtensions, sender } = this.#transceiver;
     const mid = this.#transceiver.mid ?? '';
-    const unixOffsetMs = performance.timeOrigin + performance.now() - monotonicMs();
     try {
-      const transport = new SrtpTransport(this.#transceiver, { rtcp: false, unixOffsetMs });
+      const transport = new SrtpTransport(this.#transceiver, { rtcp: false, unixOffsetMs: unixOffsetMs() });
       const voice = new VoiceReceiver(dtlsTransport, {
         payloadType: sender.codec?.payloadType ?? -1,
         transportSequenceId:

@@ -1,6 +1,6 @@
 import { VIDEO_CODECS, type VideoCodec, videoStreamId } from '@farpoint/protocol';
 import { MediaStream, type RTCPeerConnection, type RTCRtpTransceiver } from 'werift';
-import { monotonicMs } from '../clock.ts';
+import { unixOffsetMs } from '../wall-clock.ts';
 import { type AnsweredVideo, readVideoAnswers } from './answered-codecs.ts';
 import { videoCodecParameters } from './media-codecs.ts';
 import { RtpTransportError, SrtpTransport } from './srtp-transport.ts';
@@ -48,13 +48,17 @@ export class OfferedVideos {
   /** Opens the lines that the operator accepted. Call it once DTLS has connected. */
   connect(): VideoLine[] {
     // Fixed for the session: a clock that is set meanwhile must not move pictures in time.
-    const unixOffsetMs = performance.timeOrigin + performance.now() - monotonicMs();
+    const offsetMs = unixOffsetMs();
     return this.#transceivers.map((transceiver, video) => {
       const mid = transceiver.mid ?? '';
       const { payloadTypes, refusal } = this.#answered?.[video] ?? REFUSED;
       if (refusal !== null) return { ...REFUSED, mid, transport: null, refusal };
       try {
-        const transport = new SrtpTransport(transceiver, { rtcp: false, unixOffsetMs, payloadTypes });
+        const transport = new SrtpTransport(transceiver, {
+          rtcp: false,
+          unixOffsetMs: offsetMs,
+          payloadTypes,
+        });
         return { mid, transport, payloadTypes, refusal: null };
       } catch (error) {
         if (!(error instanceof RtpTransportError)) throw error;

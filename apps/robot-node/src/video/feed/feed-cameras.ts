@@ -1,5 +1,5 @@
 import { monotonicMs } from '../../clock.ts';
-import { wallNs } from '../../ros/wall-clock.ts';
+import { wallNs } from '../../wall-clock.ts';
 import type { VideoEncoderEvents } from '../video-encoder.ts';
 import type { VideoLog } from '../video-log.ts';
 import { FedEncoder, type OpenFeed } from './fed-encoder.ts';
