@@ -1,17 +1,14 @@
 import { expect, test } from 'vitest';
 import { Scenario } from './scenario.ts';
-import { virtualTime } from './virtual-time.ts';
 
 test('an operator connects and drives', () => {
-  using time = virtualTime();
-  using scenario = new Scenario(time.advance);
+  using scenario = new Scenario();
   scenario.driving();
   expect(scenario.robot.base.state.pose.position.x).toBeGreaterThan(0.3);
 });
 
 test('what fails in a scenario fails its test, and what never ends is given up', async () => {
-  using time = virtualTime();
-  using scenario = new Scenario(time.advance);
+  using scenario = new Scenario();
   const in30Ms = (error: Error | null): Promise<void> => {
     const { promise, resolve, reject } = Promise.withResolvers<void>();
     setTimeout(() => (error === null ? resolve() : reject(error)), 30);

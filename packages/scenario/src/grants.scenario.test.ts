@@ -1,15 +1,13 @@
 /** What a grant lets an operator do, and when it ends. Its signature is verified elsewhere, before a session begins. */
 import { expect, test } from 'vitest';
 import { Scenario } from './scenario.ts';
-import { virtualTime } from './virtual-time.ts';
 
 const WARNING_MS = 60_000;
 /** A tick of the robot, and the way to the operator. */
 const SOON_MS = 31;
 
 test('one that lets its holder watch moves nothing, takes no lease, and still stops the robot', () => {
-  using time = virtualTime();
-  using scenario = new Scenario(time.advance, { args: ['--take-policy', 'always'] });
+  using scenario = new Scenario({ args: ['--take-policy', 'always'] });
   const driver = scenario.driving(0.5, scenario.access('drive', 'Ada'));
   const watcher = scenario.connected('watcher', scenario.access('watch', 'Bob'));
   const fromMs = scenario.nowMs;
@@ -25,8 +23,7 @@ test('one that lets its holder watch moves nothing, takes no lease, and still st
 });
 
 test('a driver is warned a minute before the end, and stands when it comes', () => {
-  using time = virtualTime();
-  using scenario = new Scenario(time.advance);
+  using scenario = new Scenario();
   const lastsMs = 75_000;
   const endsAtMs = scenario.nowMs + lastsMs;
   const driver = scenario.driving(0.5, scenario.access('drive', 'Ada', lastsMs));
@@ -47,8 +44,7 @@ test('a driver is warned a minute before the end, and stands when it comes', () 
 });
 
 test('a supervisor takes the lease of a driver whose robot allows no taking', () => {
-  using time = virtualTime();
-  using scenario = new Scenario(time.advance, { args: ['--take-policy', 'never'] });
+  using scenario = new Scenario({ args: ['--take-policy', 'never'] });
   const driver = scenario.driving(0.5, scenario.access('drive', 'Ada'));
   const other = scenario.connected('other', scenario.access('drive', 'Cyd'));
   const fromMs = scenario.nowMs;
@@ -63,8 +59,7 @@ test('a supervisor takes the lease of a driver whose robot allows no taking', ()
 });
 
 test('a supervisor ends a driver’s session: the robot stands, and the page does not come back by itself', () => {
-  using time = virtualTime();
-  using scenario = new Scenario(time.advance);
+  using scenario = new Scenario();
   const driver = scenario.driving(0.5, scenario.access('drive', 'Ada'));
   const supervisor = scenario.connected('supervisor', scenario.access('supervise', 'Bob'));
   scenario.run(500);

@@ -2,25 +2,21 @@
 import { afterEach, beforeEach, describe, expect, test } from 'vitest';
 import { GuardSight } from './guard-sight.ts';
 import { Scenario } from './scenario.ts';
-import { virtualTime } from './virtual-time.ts';
 import { walledOffice } from './worlds.ts';
 
 const WALL_M = 1.2;
 
 describe('a wall', () => {
   let sight: GuardSight;
-  let time: ReturnType<typeof virtualTime>;
   beforeEach(async () => {
     sight = await GuardSight.open(walledOffice(WALL_M));
-    time = virtualTime();
   });
   afterEach(() => {
-    time[Symbol.dispose]();
     sight[Symbol.dispose]();
   });
 
   function drivenAtWall(): Scenario {
-    const scenario = new Scenario(time.advance, { world: walledOffice(WALL_M), sight });
+    const scenario = new Scenario({ world: walledOffice(WALL_M), sight });
     const driver = scenario.connected();
     scenario.run(500);
     driver.hand.push(1);
@@ -43,7 +39,7 @@ describe('a wall', () => {
   });
 
   test('that appears in a blind camera’s place: the robot does not drive on what it saw before', () => {
-    using scenario = new Scenario(time.advance, { world: walledOffice(WALL_M), sight });
+    using scenario = new Scenario({ world: walledOffice(WALL_M), sight });
     const driver = scenario.connected();
     scenario.run(500);
     driver.hand.push(0.5);
@@ -57,8 +53,7 @@ describe('a wall', () => {
 
 describe('a fence', () => {
   test.each([1, 2, 3])('is not crossed, however long the driver holds on (link %i)', (seed) => {
-    using time = virtualTime();
-    using scenario = new Scenario(time.advance, {
+    using scenario = new Scenario({
       ...{ seed, args: ['--fence-radius-m', '2'] },
       link: { delayMs: 20 * seed, loss: 0.01 * (seed - 1) },
     });

@@ -4,7 +4,6 @@ import { afterEach, beforeEach, describe, expect, test } from 'vitest';
 import { GuardSight } from './guard-sight.ts';
 import type { ScenarioOperator } from './operator.ts';
 import { Scenario } from './scenario.ts';
-import { virtualTime } from './virtual-time.ts';
 import { emptyOffice } from './worlds.ts';
 
 const RETURNS = ['--return', '--return-after-s', '5', '--return-announce-s', '1', '--lease-silence-s', '1'];
@@ -14,21 +13,18 @@ const WAY_M = 0.7;
 const BEGINS_MS = 6000;
 
 let sight: GuardSight;
-let time: ReturnType<typeof virtualTime>;
 let scenario: Scenario;
 
 beforeEach(async () => {
   sight = await GuardSight.open(emptyOffice());
-  time = virtualTime();
 });
 afterEach(() => {
   scenario[Symbol.dispose]();
-  time[Symbol.dispose]();
   sight[Symbol.dispose]();
 });
 
 function start(...args: string[]): void {
-  scenario = new Scenario(time.advance, { args: [...RETURNS, ...args], world: emptyOffice(), sight });
+  scenario = new Scenario({ args: [...RETURNS, ...args], world: emptyOffice(), sight });
 }
 
 const x = () => scenario.robot.base.state.pose.position.x;

@@ -11,6 +11,7 @@ import { ScenarioOperator } from './operator.ts';
 import { ScenarioRobot } from './robot.ts';
 import { Signaling } from './signaling.ts';
 import { TimedEvents } from './timed-events.ts';
+import { virtualTime } from './virtual-time.ts';
 import { plain } from './worlds.ts';
 
 export interface ScenarioOptions {
@@ -30,27 +31,24 @@ const memory = existsSync('/dev/shm') ? '/dev/shm' : tmpdir();
 const LINK: LinkProfile = { ...idealProfile, capacity: constantCapacity(20), delayMs: 5 };
 
 /**
- * Operators, a link for each, a signaling service and a robot, in the virtual time of the caller: it fakes the timers and
- * clocks before, and moves them on with {@link run}.
+ * Operators, a link for each, a signaling service and a robot, in virtual time: from its beginning to its disposal, all timers
+ * and clocks are its own, and {@link run} moves them on.
  */
 export class Scenario implements Disposable {
   /** Called with what happened in each scenario, at its end. */
   static onEnd: ((log: string) => void) | null = null;
+  readonly #time = virtualTime();
   readonly log = new EventLog();
   readonly signaling = new Signaling();
   readonly robot: ScenarioRobot;
   readonly operators: ScenarioOperator[] = [];
-  readonly #advance: (ms: number) => void;
   readonly #events = new TimedEvents();
   readonly #random: Random;
   readonly #seed: number;
   readonly #link: LinkProfile;
   readonly #folder: string;
 
-  /** @param advance lets the fake timers run for this time, ms */
-  constructor(advance: (ms: number) => void, options: ScenarioOptions = {}) {
-    const { seed = 1, link = {}, args = [], world = plain(), sight = null } = options;
-    this.#advance = advance;
+  constructor({ seed = 1, link = {}, args = [], world = plain(), sight = null }: ScenarioOptions = {}) {
     [this.#seed, this.#random, this.#link] = [seed, new Random(seed, 9), { ...LINK, ...link }];
     this.#folder = mkdtempSync(join(memory, 'farpoint-scenario-'));
     const { signaling, log } = this;
@@ -75,7 +73,7 @@ export class Scenario implements Disposable {
 
   /** Lets time pass, ms. */
   run(ms: number): void {
-    this.#advance(ms);
+    this.#time.advance(ms);
   }
 
   /** As {@link run}, for what awaits something: that goes on at each whole millisecond. */
@@ -155,6 +153,7 @@ export class Scenario implements Disposable {
     this.robot.close();
     Scenario.onEnd?.(this.log.text);
     rmSync(this.#folder, { recursive: true, force: true });
+    this.#time[Symbol.dispose]();
   }
 }
 

@@ -4,7 +4,6 @@ import { linkOf } from './faults/run-fault.ts';
 import { SEEDS } from './faults/seeds.ts';
 import type { ScenarioOperator } from './operator.ts';
 import { Scenario } from './scenario.ts';
-import { virtualTime } from './virtual-time.ts';
 
 function cut({ up, down }: ScenarioOperator, active: boolean): void {
   up.blackhole(active);
@@ -16,8 +15,7 @@ describe('an outage', () => {
     for (const seed of [1, ...SEEDS]) {
       // The longest of them all is as long as one in a field test.
       const lastsMs = seed === 1 ? 33_000 : 1200 + 250 * seed;
-      using time = virtualTime();
-      using scenario = new Scenario(time.advance, { seed, link: linkOf(seed) });
+      using scenario = new Scenario({ seed, link: linkOf(seed) });
       const driver = scenario.driving();
       const { robot } = scenario;
       cut(driver, true);
@@ -37,8 +35,7 @@ describe('an outage', () => {
   });
 
   test('of more than a minute ends the session on both sides, and another is opened', () => {
-    using time = virtualTime();
-    using scenario = new Scenario(time.advance);
+    using scenario = new Scenario();
     const driver = scenario.connected();
     cut(driver, true);
     scenario.run(59_000);
@@ -54,8 +51,7 @@ describe('an outage', () => {
   });
 
   test('of signaling alone is nobody’s: the robot goes on', () => {
-    using time = virtualTime();
-    using scenario = new Scenario(time.advance);
+    using scenario = new Scenario();
     const driver = scenario.driving();
     const fromMs = scenario.nowMs;
     scenario.signaling.ready = false;
@@ -65,8 +61,7 @@ describe('an outage', () => {
   });
 
   test('other addresses: the same session goes on over a new path', async () => {
-    using time = virtualTime();
-    using scenario = new Scenario(time.advance);
+    using scenario = new Scenario();
     const driver = scenario.driving();
     driver.link.renumber();
     scenario.run(400);
@@ -80,8 +75,7 @@ describe('an outage', () => {
 
 describe('the lease', () => {
   test('of a silent page is free after its time, not before, and the next one drives', () => {
-    using time = virtualTime();
-    using scenario = new Scenario(time.advance, { args: ['--lease-silence-s', '3'] });
+    using scenario = new Scenario({ args: ['--lease-silence-s', '3'] });
     const first = scenario.driving();
     const second = scenario.connected();
     cut(first, true);
@@ -100,8 +94,7 @@ describe('the lease', () => {
   });
 
   test('is not taken by who only presses the grip', () => {
-    using time = virtualTime();
-    using scenario = new Scenario(time.advance, { args: ['--take-policy', 'always'] });
+    using scenario = new Scenario({ args: ['--take-policy', 'always'] });
     scenario.driving();
     const second = scenario.connected();
     const fromMs = scenario.nowMs;
@@ -115,8 +108,7 @@ describe('the lease', () => {
 describe('STOP', () => {
   test('pressed while the link is away stops the robot when it is back, and says so', () => {
     for (const seed of [1, ...SEEDS]) {
-      using time = virtualTime();
-      using scenario = new Scenario(time.advance, { seed, link: linkOf(seed) });
+      using scenario = new Scenario({ seed, link: linkOf(seed) });
       const operator = scenario.connected();
       cut(operator, true);
       scenario.run(1500);
@@ -134,8 +126,7 @@ describe('STOP', () => {
 
   test('of a watcher stops the driver’s robot within a way of the link', () => {
     for (const seed of SEEDS) {
-      using time = virtualTime();
-      using scenario = new Scenario(time.advance, { seed, link: linkOf(seed) });
+      using scenario = new Scenario({ seed, link: linkOf(seed) });
       const driver = scenario.driving();
       const watcher = scenario.connected();
       watcher.client.estop();
@@ -146,8 +137,7 @@ describe('STOP', () => {
   });
 
   test('is not released by who does not drive, and moves nothing until the hand has let go', () => {
-    using time = virtualTime();
-    using scenario = new Scenario(time.advance);
+    using scenario = new Scenario();
     const driver = scenario.driving();
     const watcher = scenario.connected();
     driver.client.estop();
@@ -173,8 +163,7 @@ describe('a gap in the commands', () => {
     [14, 0.5],
     [16, 0],
   ])('%i of which are missing: the robot brakes, and then drives at %f m/s', (missing, speed) => {
-    using time = virtualTime();
-    using scenario = new Scenario(time.advance);
+    using scenario = new Scenario();
     const driver = scenario.driving();
     const fromMs = scenario.nowMs;
     let left = missing;

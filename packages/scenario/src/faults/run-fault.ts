@@ -3,7 +3,6 @@ import { Random } from '@farpoint/network-sim';
 import type { Driving, Fault } from '@farpoint/robot-node/testing/faults';
 import type { ScenarioOperator } from '../operator.ts';
 import { Scenario } from '../scenario.ts';
-import { virtualTime } from '../virtual-time.ts';
 import { drivingIn } from './scenario-rig.ts';
 
 /** A quarter of full speed. */
@@ -67,8 +66,7 @@ async function afterCause<Outcome>(
   seed: number,
   then: (caused: Caused) => Outcome | Promise<Outcome>,
 ): Promise<Outcome> {
-  using time = virtualTime();
-  using scenario = new Scenario(time.advance, {
+  using scenario = new Scenario({
     seed,
     link: linkOf(seed),
     args: ['--take-policy', 'always'],
