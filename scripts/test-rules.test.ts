@@ -1,18 +1,7 @@
-/**
- * Keeps tests from depending on what nobody controls: real time, the load of the machine, fixed ports. What breaks a rule
- * today is an exception; there may be fewer of them, and no new ones.
- */
+/** Keeps tests from depending on what nobody controls: real time, the load of the machine, fixed ports. */
 import { expect, test } from 'vitest';
 import { layerOf, violationsOf } from './lib/test-rules.ts';
 import { workspaceFiles as files, readWorkspaceFile as read } from './lib/workspace-files.ts';
-
-/** A socket brings a message when the browser does. */
-const POLLING = 'no polling';
-
-/** Rules that these files break. Delete an entry as soon as its file keeps the rule. */
-const EXCEPTIONS: Readonly<Record<string, readonly string[]>> = {
-  'e2e/pages/signaling.page.ts': [POLLING],
-};
 
 const tests = files.flatMap((file) => {
   const layer = layerOf(file);
@@ -32,17 +21,7 @@ test('there are at most 20 smoke tests: what takes ten seconds each, and real ti
 
 test('no test breaks a rule of its layer', () => {
   const broken = tests.flatMap(({ file, violations }) =>
-    violations
-      .filter(({ rule }) => !(EXCEPTIONS[file] ?? []).includes(rule))
-      .map(({ rule, line, text }) => `${file}:${line}: ${rule}: ${text}`),
+    violations.map(({ rule, line, text }) => `${file}:${line}: ${rule}: ${text}`),
   );
   expect(broken).toEqual([]);
-});
-
-test('every exception is needed', () => {
-  const needless = Object.entries(EXCEPTIONS).flatMap(([file, rules]) => {
-    const broken = new Set(tests.find((each) => each.file === file)?.violations.map(({ rule }) => rule));
-    return rules.filter((rule) => !broken.has(rule)).map((rule) => `${file}: ${rule}`);
-  });
-  expect(needless, 'delete these from EXCEPTIONS').toEqual([]);
 });

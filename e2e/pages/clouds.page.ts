@@ -2,9 +2,7 @@
 
 import { POINTS_PER_PACKET } from '@farpoint/protocol';
 import { greyRoom } from '../src/grey-room.ts';
-import { headsetViewport } from '../src/headset.ts';
 import { lidarYard } from '../src/lidar-yard.ts';
-import { enterVr } from '../src/stage/in-headset.ts';
 import { expect, test } from '../src/stage/page-test.ts';
 import { changedShare } from '../src/stage/pictures.ts';
 import { screenPlace } from '../src/stage/places.ts';
@@ -79,12 +77,6 @@ test('a LiDAR over ground that its robot does not know of: the grid lies on it, 
   await page.keyboard.press('c');
   await show(stage, 'lidar-yard');
   expect((await scene()).reachM / reachM).toBeCloseTo(1, 1);
-});
-
-test('in a room whose floor is the robot’s own, grid and zoom are as usual', async ({ stage }) => {
-  await stage.open({ state: 'still' });
-  await show(stage, 'grey-room', {}, 6);
-  expect((await stage.state()).scene).toEqual(USUAL);
 });
 
 test('a depth camera’s cloud is drawn as a surface, and a button changes to points', async ({ stage }) => {
@@ -177,16 +169,4 @@ test('a camera and a LiDAR in one session: both drawn, each switched off and on 
   expect((await stage.sent('sensors')).at(-1)?.sensors).toEqual([1]);
   await camera.click();
   expect(await drawn()).toEqual([true, true]);
-});
-
-test.describe('in the headset', () => {
-  test.use({ viewport: headsetViewport });
-
-  test('both eyes see the surface', async ({ stage }) => {
-    await enterVr(stage, { state: 'still', canvas: '320x180', query: { surface: '1', every: '1' } });
-    await show(stage, 'depth-room');
-    expect((await stage.probe()).surface).toBe(true);
-    for (const x of [0.15, 0.65])
-      expect(await stage.share(BACKGROUND, { x, y: 0.4, width: 0.2, height: 0.2 }, 4)).toBeLessThan(0.05);
-  });
 });

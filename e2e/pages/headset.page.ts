@@ -69,19 +69,6 @@ test('set to turn with the robot: the view does, and its edge is dark meanwhile'
   expect((await shownIn(stage)).darkness).toBe(0);
 });
 
-test('set to turn steadily: the other stick turns the view, with a dark edge', async ({ stage }) => {
-  const headset = await enterVr(stage, {}, { turn: 'smooth', vignette: 0.8 });
-  const { yaw } = await shownIn(stage);
-  await headset.thumbstick('left', -1, 0);
-  await stage.run(800);
-  const turning = await shownIn(stage);
-  expect(turning.yaw - yaw).toBeGreaterThan(0.5);
-  expect(turning.darkness).toBeGreaterThan(0.4);
-  await headset.thumbstick('left', 0, 0);
-  await stage.run(1500);
-  expect((await shownIn(stage)).darkness).toBe(0);
-});
-
 test('recentring puts the eyes at the robot’s camera and looks along its heading', async ({ stage }) => {
   const headset = await enterVr(stage);
   expect(await away(stage)).toBeLessThan(EYE_M);

@@ -34,33 +34,3 @@ test('sound is asked for while it is on, and the page says what becomes of it', 
   expect((await stage.sent('listen')).at(-1)).toEqual({ type: 'listen', on: false });
   await expect(panel).toContainText('Off');
 });
-
-test('each video is asked for while its panel is shown, and one that the robot cannot send says why', async ({
-  stage,
-}) => {
-  const page = await stage.open();
-  await stage.tell({
-    type: 'videos',
-    videos: [
-      { name: 'Front', mid: 'v0', codec: 'VP8' },
-      { name: 'Arm', mid: 'v1', codec: 'VP8', fault: 'there is no /dev/no-such-camera' },
-    ],
-  });
-  await stage.run(600);
-  const panel = (name: string) => page.locator('#pictures').getByRole('figure', { name, exact: true });
-  const asked = async () => (await stage.sent('videos')).at(-1)?.videos;
-  expect(await asked()).toEqual([0, 1]);
-  await expect(panel('Front')).toHaveAttribute('data-state', 'waiting');
-  await expect(panel('Arm')).toHaveAttribute('data-state', 'fault');
-  await expect(panel('Arm').locator('.age')).toHaveText('no picture');
-  await expect(panel('Arm').locator('.fault')).toContainText('/dev/no-such-camera');
-  await page.getByRole('button', { name: 'Hide Front' }).click();
-  await stage.run(400);
-  await expect(panel('Front')).toHaveAttribute('data-state', 'off');
-  await expect(panel('Front').locator('.age')).toHaveText('hidden');
-  expect(await asked()).toEqual([1]);
-  await page.getByRole('button', { name: 'Show Front' }).click();
-  await stage.run(400);
-  expect(await asked()).toEqual([0, 1]);
-  await expect(panel('Front')).toHaveAttribute('data-state', 'waiting');
-});

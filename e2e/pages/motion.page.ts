@@ -85,29 +85,6 @@ test('a robot that is held before something says so, in words, at the speed and 
   await expect(edge).toBeHidden();
 });
 
-const SAID: readonly (readonly [Partial<MotionState>, string])[] = [
-  [{ factor: 0, reasons: ['view-unknown'] }, 'The robot waits until you see it'],
-  [{ factor: 0.5, reasons: ['view-late'], viewAgeMs: 400 }, 'Slower: what you see is 400 ms old'],
-  [{ factor: 0, reasons: ['drop-off', 'obstacle-near'] }, 'Held: the floor ahead is missing'],
-  [
-    { factor: 0.4, reasons: ['blind-travel'], mostLinear: 0.2, viewAgeMs: 350 },
-    'At most 0.20 m/s: what you see is 350 ms old',
-  ],
-  [
-    { return: { phase: 'ended', metres: 1.23, end: 'service-back' } },
-    'The link was lost; it came back 1.2 m: until somebody was heard again',
-  ],
-];
-
-test('each reason has its words, the strictest first', async ({ stage }) => {
-  const page = await stage.open({ state: 'driving' });
-  for (const [motion, words] of SAID) {
-    await bound(stage, motion);
-    await stage.run(400);
-    await expect(page.locator('#motion-state')).toHaveText(words);
-  }
-});
-
 test('a robot that does not look, or cannot, says so all the time', async ({ stage }) => {
   const page = await stage.open({ state: 'guard-off' });
   const guard = page.locator('#obstacle-guard');
@@ -181,20 +158,4 @@ test.describe('in the headset', () => {
       [1, 400],
     ]);
   });
-});
-
-test('a robot that came back while its link was away says how far and why, until it has nothing to say of it', async ({
-  stage,
-}) => {
-  const page = await stage.open({ state: 'came-back' });
-  await stage.run(300);
-  const words = page
-    .getByText('The link was lost; it came back 2.3 m: until somebody was heard again')
-    .first();
-  await expect(words).toBeVisible();
-  await stage.script(({ robot }) => {
-    robot.telemetry = {};
-  });
-  await stage.run(300);
-  await expect(words).toBeHidden();
 });

@@ -1,7 +1,5 @@
 /** What the robot's own navigator has planned and its map are on the floor, while they hold. */
 import { MAP_TILE, tileCount, tileRuns } from '@farpoint/protocol';
-import { headsetViewport } from '../src/headset.ts';
-import { enterVr } from '../src/stage/in-headset.ts';
 import { expect, test } from '../src/stage/page-test.ts';
 import { changedShare } from '../src/stage/pictures.ts';
 import type { Stage } from '../src/stage/stage.ts';
@@ -75,39 +73,4 @@ test('path and map are on the floor, can be hidden, and their sizes are told', a
   await button.click();
   await stage.run(300);
   expect((await shown(stage)).mapCells).toBe(KNOWN);
-});
-
-test('a path that is not repeated for five seconds is not drawn, and its age is told; the map holds longer', async ({
-  stage,
-}) => {
-  const page = await stage.open();
-  await tellNavigation(stage);
-  await stage.freeze();
-  await stage.run(4300);
-  expect((await shown(stage)).pathPoints).toBeGreaterThan(3);
-  await stage.run(600);
-  expect((await shown(stage)).pathPoints).toBe(0);
-  expect((await shown(stage)).mapCells).toBe(KNOWN);
-  await expect(page.locator('#facts')).toContainText(/Path\s*5\.5 m, \d+ s old: not drawn/);
-  await stage.run(9500);
-  expect((await shown(stage)).mapCells).toBe(KNOWN);
-  await stage.run(1000);
-  expect(await shown(stage)).toEqual(NOTHING);
-  await tellNavigation(stage);
-  expect((await shown(stage)).pathPoints).toBeGreaterThan(3);
-});
-
-test.describe('in the headset', () => {
-  test.use({ viewport: headsetViewport });
-
-  test('path and map are on the floor that the headset shows', async ({ stage }) => {
-    await enterVr(stage, { canvas: '320x180' });
-    await stage.script((stage) => stage.stream(null));
-    await stage.frames(5);
-    const without = await stage.pixels();
-    expect(changedShare(without, await stage.pixels())).toBe(0);
-    await tellNavigation(stage);
-    expect((await shown(stage)).mapCells).toBe(KNOWN);
-    expect(changedShare(without, await stage.pixels())).toBeGreaterThan(0.01);
-  });
 });

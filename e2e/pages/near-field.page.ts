@@ -22,14 +22,6 @@ function surroundings(metres: number): string {
   );
 }
 
-/** The robot says this once. */
-async function tellNear(stage: Stage, sectors: string): Promise<void> {
-  await stage.script(
-    (stage, sectors) => stage.tell({ type: 'nearField', timeMs: stage.robot.nowMs, sectors }),
-    sectors,
-  );
-}
-
 /** The robot says this ten times a second. */
 async function goOnTelling(stage: Stage, sectors: string): Promise<void> {
   await stage.script((stage, sectors) => {
@@ -70,39 +62,6 @@ test('a thing 0.3 m before the robot is named in metres, and is red where it is,
   expect(await redAt(FRONT_M + 0.3 + 0.04)).toBeGreaterThan(60);
   expect(await redAt(FRONT_M + 0.15)).toBeLessThan(20);
   expect(await redAt(-(FRONT_M + 0.34))).toBeLessThan(20);
-});
-
-test('what is older than a second is shown as old, and after three seconds no longer', async ({ stage }) => {
-  const page = await stage.open();
-  const line = page.locator('#near-line');
-  await tellNear(stage, surroundings(0.5));
-  await stage.run(900);
-  await expect(line).toHaveText('0.5 m ahead');
-  expect((await near(stage)).ring?.stale).toBe(false);
-  await stage.run(400);
-  await expect(line).toHaveText('1 s old: 0.5 m ahead');
-  expect((await near(stage)).ring?.stale).toBe(true);
-  await stage.run(1600);
-  await expect(line).toHaveText('3 s old: 0.5 m ahead');
-  await stage.run(400);
-  await expect(line).toHaveText('No near-field data');
-  expect((await near(stage)).ring).toBe(null);
-  await tellNear(stage, surroundings(0.5));
-  await stage.run(300);
-  await expect(line).toHaveText('0.5 m ahead');
-});
-
-test('a drop is called so, and other directions are named after the nearest', async ({ stage }) => {
-  const page = await stage.open();
-  const sectors = Array.from({ length: NEAR_SECTORS }, (_, i): NearSector => {
-    if (i === 18) return { hit: { kind: 'drop', metres: 0.2 }, unseen: null };
-    if (i === 54) return { hit: { kind: 'thing', metres: 0.6 }, unseen: null };
-    return NOTHING;
-  });
-  await tellNear(stage, nearFieldText(sectors));
-  await stage.run(300);
-  await expect(page.locator('#near-line')).toHaveText('Drop 0.2 m left');
-  await expect(page.locator('#near-more')).toHaveText('0.6 m right');
 });
 
 test('the frusta of the robot’s sensors are drawn when asked for', async ({ stage }) => {

@@ -17,21 +17,6 @@ async function letGo(stage: Stage): Promise<void> {
   await stage.run(200);
 }
 
-test('the page says that a robot is full and how many it accepts, and connects once there is room', async ({
-  stage,
-}) => {
-  const page = await stage.open({ state: 'robot-full' });
-  await expect(page.locator('#notice')).toContainText('full: it accepts 4 operators at most');
-  await expect(page.locator('#link')).toContainText('full: it accepts 4 operators at most');
-  expect((await stage.state()).lastLoss).toBe('robot-full');
-  await stage.script((stage) => {
-    const { prototype } = stage.robot.constructor as { prototype: { onRequest(): void } };
-    stage.robot.onRequest = prototype.onRequest;
-  });
-  await stage.run(6000);
-  expect((await stage.state()).session).toBe('live');
-});
-
 test('a second robot: the first one stops before the page leaves it, and the other waits until the grip is let go', async ({
   stage,
 }) => {
@@ -110,29 +95,6 @@ test('a path that is away for a while: the grip is lost, the session stays, and 
   });
   await letGo(stage);
   await drive(stage);
-});
-
-test('a path that is away for a minute: another session, at rest, as soon as there is one', async ({
-  stage,
-}) => {
-  await stage.open();
-  await drive(stage);
-  await stage.script((stage) => stage.cut());
-  await stage.freeze();
-  await stage.run(59_000);
-  expect(await stage.state()).toMatchObject({ session: 'live', sessionsOpened: 1 });
-  await stage.script((stage) => {
-    stage.robot.admits = false;
-  });
-  await stage.run(2000);
-  expect(await stage.state()).toMatchObject({ lastLoss: 'silent' });
-  await stage.script((stage) => {
-    stage.restore();
-    stage.robot.admits = true;
-  });
-  await stage.thaw();
-  await stage.run(20_000);
-  expect(await stage.state()).toMatchObject({ session: 'live', sessionsOpened: 2, driving: false });
 });
 
 test('a robot that was killed and comes back: the page says so, reconnects, and its stop stays until it is released', async ({

@@ -34,36 +34,3 @@ test('STOP that is pressed while the network is away arrives at its return, and 
   await stage.run(300);
   await expect(state).toHaveText('STOP confirmed');
 });
-
-test('STOP is repeated every 50 ms until the robot acknowledges it, and no longer', async ({ stage }) => {
-  const page = await stage.open();
-  await stage.script(({ robot }) => {
-    robot.obeys = false;
-  });
-  await page.keyboard.press('KeyX');
-  await stage.run(500);
-  const repeats = (await stage.sent('estop')).filter((message) => !('latch' in message));
-  expect(repeats).toHaveLength(11);
-  expect(new Set(repeats.map(({ press }) => press))).toEqual(new Set([1]));
-  await stage.script(({ robot }) => {
-    robot.obeys = true;
-  });
-  await stage.run(100);
-  await stage.forget();
-  await stage.run(1000);
-  expect(await stage.sent('estop')).toEqual([]);
-});
-
-test('STOP that never arrives within a minute is given up, and the page says so', async ({ stage }) => {
-  const page = await stage.open();
-  await stage.script((stage) => {
-    stage.stream(null);
-    stage.robot.obeys = false;
-  });
-  await page.locator('#estop').click();
-  await stage.freeze();
-  await stage.run(59_000);
-  await expect(page.locator('#stop-state')).toHaveText(NOT_YET);
-  await stage.run(1500);
-  await expect(page.locator('#stop-state')).toHaveText('STOP never arrived');
-});

@@ -12,11 +12,3 @@ const LARGE = { width: 3840, height: 2160 };
  * seconds for each of its pictures, and no test looks at its pixels.
  */
 export const screenSizes = savesPictures ? [PHONE, LAPTOP, LARGE] : [PHONE, LAPTOP];
-
-/** In the page: two display frames from now, or a while if the page gets none. */
-export function shownOrLate(): Promise<void> {
-  return new Promise((resolve) => {
-    setTimeout(resolve, 300);
-    requestAnimationFrame(() => requestAnimationFrame(() => resolve()));
-  });
-}

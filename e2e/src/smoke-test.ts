@@ -37,40 +37,37 @@ export const test = base.extend<SmokeFixtures, { shared: SharedStack }>({
     },
     { scope: 'worker' },
   ],
-  startRobot: async ({ shared }, use) => {
-    const started: string[] = [];
-    await use(async (robot) => {
-      started.push(robot.id);
-      await shared.stack.startRobot(robot);
-      return robot;
-    });
-    for (const id of started) await shared.stack.robot(id).stop();
-  },
-  startBehindLink: async ({ shared, startRobot }, use) => {
-    const links: EmulatedLink[] = [];
-    await use(async (robot, flags) => {
-      const link = await EmulatedLink.start(shared.stack, { args: flags });
-      links.push(link);
-      await startRobot({ ...robot, args: [...(robot.args ?? []), '--signaling', link.signalingUrl] });
-      return link;
-    });
-    for (const link of links) await link.stop();
-  },
+  startRobot: ({ shared }, use) =>
+    stoppingAfter((later) =>
+      use(async (robot) => {
+        later(() => shared.stack.robot(robot.id).stop());
+        await shared.stack.startRobot(robot);
+        return robot;
+      }),
+    ),
+  startBehindLink: ({ shared, startRobot }, use) =>
+    stoppingAfter((later) =>
+      use(async (robot, flags) => {
+        const link = await EmulatedLink.start(shared.stack, { args: flags });
+        later(() => link.stop());
+        await startRobot({ ...robot, args: [...(robot.args ?? []), '--signaling', link.signalingUrl] });
+        return link;
+      }),
+    ),
   // biome-ignore lint/correctness/noEmptyPattern: Playwright reads the names of fixtures from the pattern.
-  startStack: async ({}, use, testInfo) => {
-    const stacks: LocalStack[] = [];
-    const lines: string[] = [];
-    await use(async (spec) => {
-      const onLine = (name: string, line: string) => lines.push(`${name} ${line}`);
-      const stack = await LocalStack.start({ webRoot, robots: [], onLine, ...spec });
-      stacks.push(stack);
-      return stack;
-    });
-    // Before the programs are stopped: what they say of that explains no failure.
-    if (testInfo.status !== testInfo.expectedStatus && lines.length > 0)
-      keep(`${lines.join('\n')}\n`, testInfo.outputPath('own-programs.log'), testInfo);
-    for (const stack of stacks) await stack.stop();
-  },
+  startStack: ({}, use, testInfo) =>
+    stoppingAfter(async (later) => {
+      const lines: string[] = [];
+      await use(async (spec) => {
+        const onLine = (name: string, line: string) => lines.push(`${name} ${line}`);
+        const stack = await LocalStack.start({ webRoot, robots: [], onLine, ...spec });
+        later(() => stack.stop());
+        return stack;
+      });
+      // Before the programs are stopped: what they say of that explains no failure.
+      if (testInfo.status !== testInfo.expectedStatus && lines.length > 0)
+        keep(`${lines.join('\n')}\n`, testInfo.outputPath('own-programs.log'), testInfo);
+    }),
   programLogs: [
     async ({ shared }, use, testInfo) => {
       await use(undefined);
@@ -80,6 +77,13 @@ export const test = base.extend<SmokeFixtures, { shared: SharedStack }>({
     { auto: true },
   ],
 });
+
+/** Stops what a test has started, when it is over. @param use is given what notes how to stop something then */
+async function stoppingAfter(use: (later: (stop: () => Promise<unknown>) => void) => Promise<void>) {
+  const stops: (() => Promise<unknown>)[] = [];
+  await use((stop) => stops.push(stop));
+  for (const stop of stops) await stop();
+}
 
 function keep(text: string, path: string, { attachments }: ReturnType<typeof test.info>): void {
   writeFileSync(path, text);

@@ -26,8 +26,9 @@ const LOOPS = /\bwhile \(/;
 const RETRIES = /\bretr(?:y|ies):\s*[1-9]|\.configure\(\{[^}]*retries/;
 /** A test may ask what this machine has: `test.skip(!hasVideo, …)`. */
 const CHOSEN = /\b(?:test|it|describe)\.(?:(?:only|fixme)\(|skip\(\s*(?:['"`)]|true\b|$))/;
+/** Where somebody listens, another program may do so. An address that nobody listens at may look like a real one. */
 const PORT =
-  /(?:127\.0\.0\.1|localhost|\[::1\]):[1-9]\d{3,4}\b|\b(?:\w*P|p)ort['"]?\s*[:=,]\s*['"]?[1-9]\d{3,4}\b/;
+  /\.listen\(\s*[1-9]|(?<!\baddress\b.*)\b(?:\w*P|p)ort: [1-9]|--[\w-]*port['"]?[,=\s]\s*['"]?[1-9]/;
 
 /** A rule that looks at one line. */
 type LineRule = [rule: string, pattern: RegExp];

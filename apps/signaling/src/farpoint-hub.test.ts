@@ -59,6 +59,8 @@ function setup(
   return { hub, clock, observer, robot, operator, session };
 }
 
+const closed = (session: string, reason: string) => ({ type: 'session.closed', session, reason });
+
 describe('hello', () => {
   test('welcomes and lists a robot; welcomes an operator with the list', () => {
     const { robot, operator } = setup();
@@ -161,7 +163,7 @@ describe('robot ids', () => {
     const newer = robot('r1');
     expect(newer.types()).toEqual(['robot.welcome']);
     expect(r.peer.closed?.code).toBe(1008);
-    expect(o.take()).toEqual([{ type: 'session.closed', session: handle, reason: 'robot-left' }]);
+    expect(o.take()).toEqual([closed(handle, 'robot-left')]);
     // The end of the older socket no longer changes anything.
     r.connection.closed();
     clock.advance(1000);
@@ -242,13 +244,8 @@ describe('sessions', () => {
     ]);
     r.send(offer); // a re-offer
     expect(o.take()).toEqual([offer]);
-    expect(observer.relays).toEqual([
-      'session.offer',
-      'session.candidate',
-      'session.answer',
-      'session.candidate',
-      'session.offer',
-    ]);
+    const relayed = ['offer', 'candidate', 'answer', 'candidate', 'offer'];
+    expect(observer.relays).toEqual(relayed.map((what) => `session.${what}`));
   });
 
   test('refuse the wrong direction', () => {
@@ -268,20 +265,16 @@ describe('sessions', () => {
     otherRobot.take();
     otherOperator.take();
     o.take();
-    for (const type of ['session.offer', 'session.candidate', 'session.close']) {
-      otherRobot.send({ type, session: handle, ...(type === 'session.close' ? {} : payload(type)) });
+    const refusal = { type: 'error', code: 'unknown-session', message: 'you have no such session' };
+    for (const [stranger, says] of [
+      [otherRobot, 'session.offer'],
+      [otherOperator, 'session.answer'],
+    ] as const) {
+      stranger.send({ type: says, session: handle, sdp: 'v=0' });
+      stranger.send({ type: 'session.candidate', session: handle, candidate: { candidate: 'c' } });
+      stranger.send({ type: 'session.close', session: handle });
+      expect(stranger.take()).toEqual(Array(3).fill({ ...refusal, session: handle }));
     }
-    for (const type of ['session.answer', 'session.candidate', 'session.close']) {
-      otherOperator.send({ type, session: handle, ...(type === 'session.close' ? {} : payload(type)) });
-    }
-    const refusal = {
-      type: 'error',
-      code: 'unknown-session',
-      message: 'you have no such session',
-      session: handle,
-    };
-    expect(otherRobot.take()).toEqual([refusal, refusal, refusal]);
-    expect(otherOperator.take()).toEqual([refusal, refusal, refusal]);
     expect([r.take(), o.take()]).toEqual([[], []]);
   });
 
@@ -289,41 +282,30 @@ describe('sessions', () => {
     const { session, observer } = setup();
     const first = session('r1');
     first.o.send({ type: 'session.close', session: first.handle });
-    expect(first.r.take()).toEqual([
-      { type: 'session.closed', session: first.handle, reason: 'closed-by-operator' },
-    ]);
+    expect(first.r.take()).toEqual([closed(first.handle, 'closed-by-operator')]);
     expect(first.o.take()).toEqual([]);
     const second = session('r2');
     second.r.send({ type: 'session.close', session: second.handle });
-    expect(second.o.take()).toEqual([
-      { type: 'session.closed', session: second.handle, reason: 'closed-by-robot' },
-    ]);
+    expect(second.o.take()).toEqual([closed(second.handle, 'closed-by-robot')]);
     second.o.send({ type: 'session.close', session: second.handle });
     expect(second.o.types()).toEqual(['unknown-session']);
-    expect(observer.sessionEnds).toEqual(['closed-by-operator', 'closed-by-robot']);
-  });
-
-  test('when closed by the robot, report its reason to the operator', () => {
-    const { session, observer } = setup();
-    const { r, o, handle } = session();
+    const full = session('r3');
     const reason = { reason: 'robot-full', maxOperators: 4 };
-    r.send({ type: 'session.close', session: handle, ...reason });
-    expect(o.take()).toEqual([{ type: 'session.closed', session: handle, ...reason }]);
-    expect(observer.sessionEnds).toEqual(['robot-full']);
+    full.r.send({ type: 'session.close', session: full.handle, ...reason });
+    expect(full.o.take()).toEqual([{ type: 'session.closed', session: full.handle, ...reason }]);
+    expect(observer.sessionEnds).toEqual(['closed-by-operator', 'closed-by-robot', 'robot-full']);
   });
 
   test('end when either side leaves', () => {
     const { session, clock } = setup();
     const first = session('r1');
     first.o.connection.closed();
-    expect(first.r.take()).toEqual([
-      { type: 'session.closed', session: first.handle, reason: 'operator-left' },
-    ]);
+    expect(first.r.take()).toEqual([closed(first.handle, 'operator-left')]);
     const second = session('r2');
     second.r.connection.closed();
     clock.advance(0);
     expect(second.o.take()).toEqual([
-      { type: 'session.closed', session: second.handle, reason: 'robot-left' },
+      closed(second.handle, 'robot-left'),
       { type: 'robots.changed', here: [], gone: ['r2'] },
     ]);
   });
@@ -368,7 +350,7 @@ describe('sessions', () => {
       // And a newer socket of the robot.
       const r2 = robot('r1');
       r2.take();
-      expect(o2.take()).toEqual([{ type: 'session.closed', session: handle, reason: 'robot-left' }]);
+      expect(o2.take()).toEqual([closed(handle, 'robot-left')]);
       o2.send(resume(handle));
       expect(o2.take()).toEqual([resuming]);
       r2.send(offer(handle, claimOf(r2, handle)));
@@ -434,11 +416,7 @@ describe('sessions', () => {
         asker.send(resume(handle));
         const claim = claimOf(r, handle);
         r.send({ type: 'session.refuse', session: handle, claim, code: 'unknown-session' });
-        expect(asker.take().at(-1)).toEqual({
-          type: 'session.closed',
-          session: handle,
-          reason: 'unknown-session',
-        });
+        expect(asker.take().at(-1)).toEqual(closed(handle, 'unknown-session'));
       }
       expect([r.take(), hub.counts.sessions]).toEqual([[], 0]);
     });
@@ -604,7 +582,3 @@ test('at shutdown, tells everybody to reconnect, and closes with 1012', () => {
     expect(client.peer.closed?.code).toBe(1012);
   }
 });
-
-function payload(type: string): Json {
-  return type === 'session.candidate' ? { candidate: { candidate: 'c' } } : { sdp: 'v=0' };
-}

@@ -90,12 +90,6 @@ describe('the message sequence', () => {
     ]);
   });
 
-  test('getRobots with no robots', () => {
-    const c = setup().client();
-    c.send({ type: 'getRobots' });
-    expect(c.take()).toEqual([{ type: 'robots', robots: [] }]);
-  });
-
   test('a new offer counts as unanswered', () => {
     const { client, robot } = setup();
     const r = robot();

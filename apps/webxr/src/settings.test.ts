@@ -113,7 +113,6 @@ describe('a token is sent only to the service that it was given for', () => {
     ['signaling=wss://elsewhere.org', undefined],
     ['signaling=wss://x.org', undefined],
     ['signaling=wss://x.org.elsewhere.org:8443', undefined],
-    ['signaling=wss://x.org.elsewhere.org:8443', undefined],
     ['signaling=wss://stored.org', 'stored'],
     // The token belongs to the service that comes with it.
     ['signaling=wss://elsewhere.org&token=theirs', 'theirs'],

@@ -207,6 +207,8 @@ describe('decodePcd', () => {
     expect(decodePcd(text(...grid)).points[4]).toBe(4);
   });
 
+  const one = (encoding: string, ...lines: string[]) =>
+    text(...good, 'POINTS 1', `DATA ${encoding}`, ...lines);
   it.each<[string, Uint8Array, string, string]>([
     ['no header', text('hello world', ''), 'not-pcd', 'line 1'],
     ['nothing at all', new Uint8Array(0), 'not-pcd', 'line 1'],
@@ -219,18 +221,13 @@ describe('decodePcd', () => {
     ['a line twice', text(...good, 'WIDTH 1', ''), 'bad-header', 'line 8'],
     ['no FIELDS', text('VERSION 0.7', 'DATA ascii', ''), 'bad-header', 'header'],
     ['points that contradict the grid', text(...good, 'POINTS 2', 'DATA ascii', ''), 'bad-header', 'line 8'],
-    ['an unknown encoding', text(...good, 'POINTS 1', 'DATA zip', ''), 'unsupported', 'line 9'],
-    ['a value too few', text(...good, 'POINTS 1', 'DATA ascii', '1 2'), 'bad-data', 'line 10'],
-    ['a word for a number', text(...good, 'POINTS 1', 'DATA ascii', '', '1 two 3'), 'bad-data', 'line 11'],
-    ['a point too many', text(...good, 'POINTS 1', 'DATA ascii', '1 2 3', '1 2 3'), 'bad-data', 'line 11'],
-    ['a point too few', text(...good, 'POINTS 1', 'DATA ascii', '', '', '', '', ''), 'truncated', 'line 14'],
-    ['binary data cut off', text(...good, 'POINTS 1', 'DATA binary', '12345678901'), 'truncated', 'byte 108'],
-    [
-      'no compressed sizes',
-      text(...good, 'POINTS 1', 'DATA binary_compressed', '1234'),
-      'truncated',
-      'byte 112',
-    ],
+    ['an unknown encoding', one('zip', ''), 'unsupported', 'line 9'],
+    ['a value too few', one('ascii', '1 2'), 'bad-data', 'line 10'],
+    ['a word for a number', one('ascii', '', '1 two 3'), 'bad-data', 'line 11'],
+    ['a point too many', one('ascii', '1 2 3', '1 2 3'), 'bad-data', 'line 11'],
+    ['a point too few', one('ascii', '', '', '', '', ''), 'truncated', 'line 14'],
+    ['binary data cut off', one('binary', '12345678901'), 'truncated', 'byte 108'],
+    ['no compressed sizes', one('binary_compressed', '1234'), 'truncated', 'byte 112'],
     [
       'more points than a frame may have',
       text(...good.slice(0, 5), 'WIDTH 4194305', 'HEIGHT 1', 'POINTS 4194305', 'DATA binary', ''),

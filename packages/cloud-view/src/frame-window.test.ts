@@ -62,58 +62,6 @@ describe('FrameWindow', () => {
     expect(ring.window.endedFrame).toBe(9);
   });
 
-  test('a frame that arrives bit by bit replaces the previous one place by place', () => {
-    const ring = new Ring(64);
-    for (let i = 0; i < 4; i++) ring.take(0, 4, i);
-    ring.take(1, 4, 0);
-    expect(ring.names()).toEqual(['0:1', '0:2', '0:3', '1:0']);
-    ring.take(1, 4, 1);
-    expect(ring.names()).toEqual(['0:2', '0:3', '1:0', '1:1']);
-    ring.take(1, 4, 2);
-    ring.take(1, 4, 3);
-    expect(ring.names()).toEqual(['1:0', '1:1', '1:2', '1:3']);
-  });
-
-  test('a lost packet leaves a hole for one frame', () => {
-    const ring = new Ring(64);
-    for (const i of [0, 1, 2, 3]) ring.take(0, 4, i);
-    for (const i of [0, 2, 3]) ring.take(1, 4, i);
-    expect(ring.names()).toEqual(['1:0', '1:2', '1:3']);
-    for (const i of [0, 1]) ring.take(2, 4, i);
-    expect(ring.names()).toEqual(['1:2', '1:3', '2:0', '2:1']);
-  });
-
-  test('points left over because of a lost tail disappear when the next frame begins', () => {
-    const ring = new Ring(64);
-    for (const i of [0, 1, 2, 3]) ring.take(0, 4, i);
-    for (const i of [0, 1]) ring.take(1, 4, i);
-    expect(ring.names()).toEqual(['0:2', '0:3', '1:0', '1:1']);
-    ring.take(2, 4, 0);
-    expect(ring.names()).toEqual(['1:1', '2:0']);
-  });
-
-  test('late packets: drawn unless their place has been replaced, else dropped by reason', () => {
-    const ring = new Ring(64);
-    for (const i of [0, 1]) ring.take(0, 4, i);
-    ring.take(1, 4, 0);
-    expect(ring.take(0, 4, 2)).toBe(null);
-    expect(ring.names()).toEqual(['0:1', '1:0', '0:2']);
-    expect(ring.take(1, 4, 1)).toBe(null);
-    expect(ring.names()).toEqual(['1:0', '0:2', '1:1']);
-    expect(ring.take(1, 4, 2)).toBe(null);
-    expect(ring.names()).toEqual(['1:0', '1:1', '1:2']);
-    expect(ring.take(0, 4, 2)).toBe('superseded');
-    ring.take(2, 4, 0);
-    expect(ring.take(0, 4, 3)).toBe('late');
-  });
-
-  test('frames of different sizes replace each other by place', () => {
-    const ring = new Ring(64);
-    for (let i = 0; i < 8; i++) ring.take(0, 8, i);
-    ring.take(1, 2, 0);
-    expect(ring.names()).toEqual(['0:4', '0:5', '0:6', '0:7', '1:0']);
-  });
-
   test('frame numbers wrap', () => {
     const ring = new Ring(64);
     ring.take(0xffffffff, 1, 0);

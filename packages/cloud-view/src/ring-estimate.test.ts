@@ -1,3 +1,4 @@
+import { longProperty } from '@farpoint/network-sim/cases';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { RingEstimator } from './ring-estimate.ts';
@@ -77,7 +78,7 @@ describe('RingEstimator', () => {
           expectRings(scan(rings, shares, 20_000, 0.08 * DEGREE, seed).elevations, rings);
         },
       ),
-      { numRuns: 40 },
+      longProperty(8, 40),
     );
   });
 
@@ -96,7 +97,7 @@ describe('RingEstimator', () => {
         }
         expect(estimator.elevations).toBeNull();
       }),
-      { numRuns: 40 },
+      longProperty(9, 40),
     );
   });
 

@@ -1,3 +1,4 @@
+import { longProperty } from '@farpoint/network-sim/cases';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { RosFault } from './fault.ts';
@@ -89,7 +90,7 @@ describe('images', () => {
           expect(error).toBeInstanceOf(RosFault);
         }
       }),
-      { numRuns: 2000 },
+      longProperty(2, 2000),
     );
     expect(read).toBeGreaterThan(0);
   });

@@ -58,57 +58,34 @@ describe('topic table', () => {
     expect(joints).toMatchObject({ type: 'sensor_msgs/msg/JointState', most: 20 });
   });
 
+  const as = (role: string, topic: string, more = {}) => ({ topic, as: role, ...more });
   it.each([
     [
-      'compressed depth as a picture',
-      [{ topic: '/depth/image/compressedDepth', as: 'picture' }],
+      [as('picture', '/d/compressedDepth')],
       '0.topic: cannot be shown as compressedDepth: name the topic of the raw depth image',
     ],
-    ['no list', {}, ': must be a list of topics'],
-    ['no mapping', ['/points'], '0: must be a mapping with topic and as'],
-    ['an unknown key', [{ topic: '/a', as: 'cloud', rate: 3 }], '0: has unknown keys: rate'],
-    ['no role', [{ topic: '/a' }], /^0.as: must be one of cloud, depth/],
-    ['a relative name', [{ topic: 'points', as: 'cloud' }], /^0.topic: must be a complete topic name/],
-    ['a wildcard', [{ topic: '/camera/*', as: 'cloud' }], /^0.topic: must be a complete topic name/],
-    ['text of no type', [{ topic: '/a', as: 'text' }], '0.type: is needed for as: text'],
+    [{}, ': must be a list of topics'],
+    [['/points'], '0: must be a mapping with topic and as'],
+    [[as('cloud', '/a', { rate: 3 })], '0: has unknown keys: rate'],
+    [[{ topic: '/a' }], /^0.as: must be one of cloud, depth/],
+    [[as('cloud', 'points')], /^0.topic: must be a complete topic name/],
+    [[as('cloud', '/camera/*')], /^0.topic: must be a complete topic name/],
+    [[as('text', '/a')], '0.type: is needed for as: text'],
     [
-      'a type that the role does not allow',
-      [{ topic: '/a', type: 'sensor_msgs/LaserScan', as: 'cloud' }],
+      [as('cloud', '/a', { type: 'sensor_msgs/LaserScan' })],
       '0.type: must be sensor_msgs/msg/PointCloud2 for cloud',
     ],
-    ['too fast', [{ topic: '/a', as: 'fix', most: 1e9 }], '0.most: must be at most 1000 messages a second'],
+    [[as('fix', '/a', { most: 1e9 })], '0.most: must be at most 1000 messages a second'],
     [
-      'an unknown QoS',
-      [{ topic: '/a', as: 'cloud', qos: { reliability: 'maybe' } }],
+      [as('cloud', '/a', { qos: { reliability: 'maybe' } })],
       '0.qos.reliability: must be reliable or best-effort',
     ],
-    [
-      'two clouds',
-      [
-        { topic: '/a', as: 'cloud' },
-        { topic: '/b', as: 'cloud' },
-      ],
-      '1.as: there can be only one cloud',
-    ],
-    [
-      'a duplicated topic',
-      [
-        { topic: '/a', as: 'fix' },
-        { topic: '/a', as: 'fix' },
-      ],
-      '1.topic: /a is listed twice',
-    ],
-    [
-      'two maps',
-      [
-        { topic: '/map', as: 'map' },
-        { topic: '/costmap', as: 'map' },
-      ],
-      '1.as: there can be only one map',
-    ],
-    ['depth without a camera', [{ topic: '/d', as: 'depth' }], '0.as: depth needs an entry cameraInfo'],
-    ['colour alone', [{ topic: '/c', as: 'colour' }], '0.as: colour needs an entry depth'],
-  ])('refuses %s, naming the key', (_, table, fault) => {
+    [[as('cloud', '/a'), as('cloud', '/b')], '1.as: there can be only one cloud'],
+    [[as('fix', '/a'), as('fix', '/a')], '1.topic: /a is listed twice'],
+    [[as('map', '/map'), as('map', '/costmap')], '1.as: there can be only one map'],
+    [[as('depth', '/d')], '0.as: depth needs an entry cameraInfo'],
+    [[as('colour', '/c')], '0.as: colour needs an entry depth'],
+  ])('refuses %j, naming the key', (table, fault) => {
     const [first] = faults(table);
     if (typeof fault === 'string') expect(first).toBe(fault);
     else expect(first).toMatch(fault);

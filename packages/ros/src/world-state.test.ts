@@ -57,23 +57,6 @@ describe('pose, velocity and time', () => {
     });
     expect(world.base).toMatchObject({ pose: { position: { x: 2 } }, twist: null, timeMs: 1000 });
   });
-
-  test('of a robot that nothing moves have no time', () => {
-    const world = new WorldState();
-    world.take(
-      STATIC,
-      tf(transform(0, 'base_link', 'lidar', 0.2), transform(0, 'base_footprint', 'base_link', 0)),
-    );
-    expect(world.base.timeMs).toBeNull();
-  });
-
-  test('that step back begin anew', () => {
-    const world = new WorldState();
-    world.take(ODOM, odometry(100_000, 1));
-    world.take(ODOM, odometry(40_000, 2));
-    world.take(ODOM, odometry(40_100, 3));
-    expect(world.base).toMatchObject({ pose: { position: { x: 3 } }, timeMs: 40_100 });
-  });
 });
 
 test('a velocity that is none does not cost the pose, nor a pose that is none what came before', () => {
@@ -305,12 +288,5 @@ describe('the base’s frame', () => {
       pose: { position: { x: 2, y: 0, z: 0 }, orientation: NO_TURN },
     });
     expect(x(posed)).toBe(2);
-  });
-
-  test('carries the sensors of a robot that nobody places', () => {
-    const world = new WorldState(undefined, 'body');
-    world.take(STATIC, tf(transform(0, 'body', 'lidar', 0.2)));
-    const { base, mount } = world.place('lidar', 1000, 'body');
-    expect([base, mount?.position.x]).toEqual([null, 0.2]);
   });
 });

@@ -15,14 +15,6 @@ test('does not find what was never sent', () => {
   expect(new SentPacketHistory(16).take(0, 0)).toBeNull();
 });
 
-test('a newer packet replaces the one `capacity` numbers before', () => {
-  const history = new SentPacketHistory(16);
-  history.add(1, 100, 0);
-  history.add(17, 200, 1);
-  expect(history.take(1, 2)).toBeNull();
-  expect(history.take(17, 2)).toEqual({ bytes: 200, sentMs: 1 });
-});
-
 test('does not find a packet from before the numbers wrapped', () => {
   const history = new SentPacketHistory(16, 5000);
   history.add(3, 100, 0);

@@ -48,81 +48,41 @@ describe('the version', () => {
 });
 
 describe('a release is refused', () => {
-  test.each<[string, Partial<RepositoryState>, string | undefined, string]>([
+  test.each<[message: string, over: Partial<RepositoryState>, wanted?: string]>([
+    ['releases are made from main, and this is topic: run git switch main first', { branch: 'topic' }],
     [
-      'from another branch',
-      { branch: 'topic' },
-      undefined,
-      'releases are made from main, and this is topic: run git switch main first',
-    ],
-    [
-      'from no branch',
-      { branch: null },
-      undefined,
       'releases are made from main, and no branch is checked out: run git switch main first',
+      { branch: null },
     ],
+    ['the working tree has changes (README.md): commit or stash them first', { changedFiles: ['README.md'] }],
     [
-      'with a changed file',
-      { changedFiles: ['README.md'] },
-      undefined,
-      'the working tree has changes (README.md): commit or stash them first',
-    ],
-    [
-      'with changed files',
-      { changedFiles: ['README.md', 'a.ts', 'b.ts'] },
-      undefined,
       'the working tree has changes (README.md and 2 more): commit or stash them first',
+      { changedFiles: ['README.md', 'a.ts', 'b.ts'] },
     ],
     [
-      'without entries',
-      { changelog: `## [Unreleased]\n${RELEASED}` },
-      undefined,
       'CHANGELOG.md has no entry under [Unreleased]: there is nothing to release',
+      { changelog: `## [Unreleased]\n${RELEASED}` },
     ],
     [
-      'with a changelog of another form',
-      { changelog: '## [Unreleased]\n### News\n' },
-      undefined,
       'CHANGELOG.md:2: “### News” is none of ' +
         'Breaking changes, Added, Changed, Deprecated, Removed, Fixed, Security',
+      { changelog: '## [Unreleased]\n### News\n' },
     ],
+    ['“next” is no version: say major, minor, patch or one such as 1.2.3', {}, 'next'],
+    ['package.json has the version “0.1”, which is none such as 1.2.3', { version: '0.1' }],
     [
-      'for what is no version',
-      {},
-      'next',
-      '“next” is no version: say major, minor, patch or one such as 1.2.3',
-    ],
-    [
-      'where the manifests have none',
-      { version: '0.1' },
-      undefined,
-      'package.json has the version “0.1”, which is none such as 1.2.3',
-    ],
-    [
-      'for too small a step',
+      '0.1.1 is too low after 0.1.0: what CHANGELOG.md has under [Unreleased] asks for a minor release, 0.2.0',
       { changelog: ADDED + RELEASED },
       'patch',
-      '0.1.1 is too low after 0.1.0: what CHANGELOG.md has under [Unreleased] asks for a minor release, 0.2.0',
     ],
     [
-      'for the version of the last release',
+      '0.1.0 is too low after 0.1.0: what CHANGELOG.md has under [Unreleased] asks for a patch release, 0.1.1',
       {},
       '0.1.0',
-      '0.1.0 is too low after 0.1.0: what CHANGELOG.md has under [Unreleased] asks for a patch release, 0.1.1',
     ],
-    [
-      'for a first version below that of the manifests',
-      { changelog: ADDED, tags: [] },
-      '0.0.9',
-      '0.0.9 is too low: every package.json has 0.1.0 already',
-    ],
-    [
-      'where the tag is there',
-      { tags: ['v0.1.0', 'v0.1.1'] },
-      undefined,
-      'the tag v0.1.1 is there already: choose a later version',
-    ],
-  ])('%s', (_, over, wanted, message) => {
+    ['0.0.9 is too low: every package.json has 0.1.0 already', { changelog: ADDED, tags: [] }, '0.0.9'],
+    ['the tag v0.1.1 is there already: choose a later version', { tags: ['v0.1.0', 'v0.1.1'] }],
+  ])('%s', (message, over, wanted) => {
     expect(() => planRelease(state(over), request(wanted))).toThrow(new ReleaseRefusal(message));
   });
 });

@@ -35,6 +35,12 @@ async function run(args: string[], nowMs = NOW) {
 
 const files = () => ({ key: join(folder, 'key.json'), keys: join(folder, 'keys.json') });
 const flagsOf = ({ key, keys }: ReturnType<typeof files>) => ['--key', key, '--keys', keys];
+/** Makes a key. @returns where it and the public one are */
+async function keygen() {
+  const made = files();
+  await run(['keygen', ...flagsOf(made)]);
+  return made;
+}
 const ada = ['--name', 'Ada', '--role', 'drive', '--robots', 'kitchen-*, hall-1'];
 
 it('makes a key that only its owner reads, and never overwrites one', async () => {
@@ -61,8 +67,7 @@ it('adds the second key to the public ones, so that grants of both are valid', a
 });
 
 it('issues a grant for a thumbprint and for a public key in a file', async () => {
-  const { key, keys } = files();
-  await run(['keygen', ...flagsOf({ key, keys })]);
+  const { key, keys } = await keygen();
   const { publicJwk } = await makeOperatorKey();
   const file = join(folder, 'operator.json');
   writeFileSync(file, JSON.stringify({ ...publicJwk, kid: 'mine', ext: true }));
@@ -77,8 +82,7 @@ it('issues a grant for a thumbprint and for a public key in a file', async () =>
 });
 
 it('issues and revokes grants for a thumbprint and an id that begin with a dash', async () => {
-  const { key, keys } = files();
-  await run(['keygen', ...flagsOf({ key, keys })]);
+  const { key } = await keygen();
   const dashed = `-${'a'.repeat(42)}`;
   const { out, status } = await run(['issue', ...ada, '--for', dashed, '--key', key]);
   expect(status).toBe(0);
@@ -88,8 +92,7 @@ it('issues and revokes grants for a thumbprint and an id that begin with a dash'
 });
 
 it('names robots’ keys for the operator', async () => {
-  const { key, keys } = files();
-  await run(['keygen', ...flagsOf({ key, keys })]);
+  const { key } = await keygen();
   const thumbprint = 'A'.repeat(43);
   const issue = (...robotKeys: string[]) =>
     run([
@@ -108,8 +111,7 @@ it('names robots’ keys for the operator', async () => {
 });
 
 it('a ticket holds the key that its grant names', async () => {
-  const { key, keys } = files();
-  await run(['keygen', ...flagsOf({ key, keys })]);
+  const { key, keys } = await keygen();
   const { out } = await run(['issue', ...ada, '--with-key', '--key', key]);
   expect(decodeTicket(out.trim())).not.toBeNull();
   const file = join(folder, 'ticket');
@@ -121,8 +123,7 @@ it('a ticket holds the key that its grant names', async () => {
 });
 
 it('says why a grant is not valid', async () => {
-  const { key, keys } = files();
-  await run(['keygen', ...flagsOf({ key, keys })]);
+  const { key, keys } = await keygen();
   const grant = (await run(['issue', ...ada, '--with-key', '--key', key])).out.trim();
   const later = NOW + 40 * 86_400_000;
   expect((await run(['show', grant, '--keys', keys], later)).out).toContain('not valid: grant-expired');
@@ -229,8 +230,7 @@ it('a list belongs to one key, and to nothing else', async () => {
 });
 
 it('refuses a private key where the public one is asked for', async () => {
-  const { key, keys } = files();
-  await run(['keygen', ...flagsOf({ key, keys })]);
+  const { key, keys } = await keygen();
   expect(await run(['issue', ...ada, '--for', key])).toMatchObject({
     status: 2,
     err: expect.stringContaining('is a private key'),

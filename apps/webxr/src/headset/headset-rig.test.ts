@@ -136,6 +136,13 @@ describe('HeadsetRig', () => {
     bench.frames(5, -1);
     expect(bench.facing).toBeCloseTo(facing, 9);
     expectNear(bench.eyes(), before);
+    // Recentring undoes the steps.
+    bench.frames(1);
+    bench.frames(1, 1);
+    bench.recentre();
+    bench.frames(1);
+    expect(bench.facing).toBeCloseTo(facing, 9);
+    expectNear(bench.eyes(), [3, -2, 0.4]);
   });
 
   test('standing: the eyes are as high above the robot’s floor as above one’s own', () => {
@@ -187,5 +194,8 @@ describe('HeadsetRig', () => {
     expect(model.scale).toBeCloseTo(0.1, 9);
     expectNear(onTable(), [model.x, model.y, model.z]);
     expect(bench.headset.darkness).toBe(0);
+    bench.headset.show('first-person');
+    bench.frames(1);
+    expect(bench.rig.scale.x).toBe(1);
   });
 });

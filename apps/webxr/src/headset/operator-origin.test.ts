@@ -25,21 +25,6 @@ describe('headYaw', () => {
 });
 
 describe('OperatorOrigin', () => {
-  test('recentred at the head: the head is at the origin, and what it looks at is ahead', () => {
-    fc.assert(
-      fc.property(number, number, number, number, number, (x, y, z, yaw, distance) => {
-        const origin = new OperatorOrigin();
-        origin.recentre({ x, y, z }, head(-0.3, yaw));
-        const away = Math.hypot(origin.rightOf(x, z), origin.above(y), origin.behind(x, z));
-        expect(away).toBe(0);
-        const seen = new Vector3(0, 0, -distance).applyAxisAngle(new Vector3(0, 1, 0), yaw);
-        expect(origin.rightOf(x + seen.x, z + seen.z)).toBeCloseTo(0, 9);
-        expect(origin.behind(x + seen.x, z + seen.z)).toBeCloseTo(-distance, 9);
-      }),
-      { seed: 13 },
-    );
-  });
-
   test('converts places as a group at the origin does', () => {
     const origin = new OperatorOrigin();
     origin.recentre({ x: 0.4, y: 1.5, z: -0.2 }, head(0, 1.1));

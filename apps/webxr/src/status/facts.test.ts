@@ -114,9 +114,10 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
   const facts = {
     ...{ link: words, driving: words, telemetry, estopLatched: false, figures, estopAtRobot: false },
     ...{ stop: null, driveHand: 'right' as const, view: null },
-    ...{ speed: null, near: null, hazards: null },
+    ...{ speed: null, near: null, hazards: null, alarm: null, nextRobot: null },
   };
-  const lines = wristLines({ ...facts, alarm: null, nextRobot: { id: 'b', name: 'B' } });
+  const wrist = (more: Partial<Parameters<typeof wristLines>[0]> = {}) => wristLines({ ...facts, ...more });
+  const lines = wrist({ nextRobot: { id: 'b', name: 'B' } });
   expect(lines.map(({ text }) => text)).toEqual([
     'Live',
     'Stationary',
@@ -127,32 +128,26 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
   ]);
   const speed = { text: '0.50 m/s, at most 1.00', tone: 'neutral' } as const;
   const near = { text: '0.3 m ahead left', tone: 'bad' } as const;
-  const aware = wristLines({ ...facts, speed, near, alarm: null, nextRobot: null });
+  const aware = wrist({ speed, near });
   expect(aware.slice(1, 4).map(({ text }) => text)).toEqual(['Stationary', speed.text, near.text]);
   expect(aware).toHaveLength(8);
-  const tinted = wristLines({ ...facts, hazards: 'Red: would hit', alarm: null, nextRobot: null });
+  const tinted = wrist({ hazards: 'Red: would hit' });
   expect(tinted.at(-1)?.text).toBe('Red: would hit  Battery 20 %');
-  const atRobot = wristLines({
-    ...facts,
-    alarm: null,
-    nextRobot: null,
-    estopLatched: true,
-    estopAtRobot: true,
-  });
+  const atRobot = wrist({ estopLatched: true, estopAtRobot: true });
   expect(atRobot.at(-1)).toEqual({ text: 'Released at the robot only', tone: 'bad' });
-  const stopped = wristLines({ ...facts, alarm: null, nextRobot: null, estopLatched: true });
+  const stopped = wrist({ estopLatched: true });
   expect(stopped.at(-1)?.tone).toBe('bad');
   const alarm = { text: 'The battery is low', tone: 'bad' } as const;
-  const alarmed = wristLines({ ...facts, alarm, nextRobot: null, estopLatched: true });
+  const alarmed = wrist({ alarm, estopLatched: true });
   expect(alarmed).toHaveLength(6);
   expect(alarmed).toContainEqual(alarm);
   expect(alarmed.at(-1)).toEqual(stopped.at(-1));
   // That STOP has not arrived matters more than any alarm.
   const stop = { text: 'STOP not yet confirmed', tone: 'warning' } as const;
-  const unconfirmed = wristLines({ ...facts, alarm, stop, nextRobot: null });
+  const unconfirmed = wrist({ alarm, stop });
   expect(unconfirmed).toHaveLength(6);
   expect(unconfirmed).toContainEqual(stop);
   const confirmed = { text: 'STOP confirmed', tone: 'good' } as const;
-  expect(wristLines({ ...facts, alarm, stop: confirmed, nextRobot: null })).toContainEqual(alarm);
-  expect(wristLines({ ...facts, alarm: null, stop: confirmed, nextRobot: null })).toContainEqual(confirmed);
+  expect(wrist({ alarm, stop: confirmed })).toContainEqual(alarm);
+  expect(wrist({ stop: confirmed })).toContainEqual(confirmed);
 });

@@ -86,7 +86,6 @@ export interface DrawnProbe {
   bounds: { min: [number, number, number]; max: [number, number, number] } | null;
   /** Pose of the camera for the newest frame: metres, radians. */
   camera: { x: number; y: number; z: number; yaw: number } | null;
-  newestFrame: number | null;
 }
 
 /** A camera's panel. */
@@ -181,8 +180,6 @@ export interface FarpointTestApi {
   drive(wish: { forward: number; left: number }, ms: number): Promise<void>;
   /** Holds the grip and the stick, as {@link drive} does, until it is called with `null`, but for a minute at most. */
   hold(wish: { forward: number; left: number } | null): void;
-  /** Limits the stream, bit/s (the `bandwidth` channel). */
-  limitBandwidth(bitsPerSecond: number): void;
   /** Divides the link by these weights, until the page does so again. */
   shareLink(shares: { cloud: number; videos: readonly number[] }): void;
   probe(): DrawnProbe;
@@ -223,8 +220,6 @@ export interface FarpointTestApi {
   /** Starts recording anew how the robot obeys; `false` stops it. */
   recordDrive(on: boolean): void;
   recordedDrive(): DriveRecording | null;
-  /** Colour of one pixel after the next display frame. x and y are shares of the canvas, from the top left. */
-  pixel(x: number, y: number): Promise<[number, number, number]>;
 }
 
 declare global {

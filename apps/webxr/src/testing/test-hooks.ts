@@ -107,7 +107,6 @@ export function installTestApi(app: App): void {
       }
       driver.tick(performance.now());
     },
-    limitBandwidth: (bitsPerSecond) => link.limitBandwidth(bitsPerSecond),
     shareLink: ({ cloud, videos }) => client.shareLink(cloud, videos),
     probe: () => probe(app),
     wrist: () => app.wrist?.shown?.map(({ text, tone }) => ({ text, tone })) ?? null,
@@ -172,17 +171,6 @@ export function installTestApi(app: App): void {
     },
     recordedDrive: () =>
       drive === null ? null : { rows: drive.rows, gripsLost: drive.gripsLost, refusals: drive.refusals },
-    pixel: (x, y) =>
-      new Promise((resolve) => {
-        app.frames.afterNextFrame(() => {
-          const { gl } = stage;
-          const bytes = new Uint8Array(4);
-          const column = Math.min(Math.floor(x * gl.drawingBufferWidth), gl.drawingBufferWidth - 1);
-          const row = Math.min(Math.floor((1 - y) * gl.drawingBufferHeight), gl.drawingBufferHeight - 1);
-          gl.readPixels(column, row, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-          resolve([bytes[0] as number, bytes[1] as number, bytes[2] as number]);
-        });
-      }),
   };
   window.farpoint = api;
 }
@@ -229,7 +217,6 @@ function probe({ cloud }: App): DrawnProbe {
     green,
     bounds: count === 0 ? null : { min: min.toArray(), max: max.toArray() },
     camera: cloud.hasPoints ? { x, y, z, yaw: opticalYaw(cloud.cameraOrientation, 0) } : null,
-    newestFrame: cloud.newestFrame,
   };
 }
 

@@ -26,8 +26,9 @@ function shownOf(path: DrivePath) {
   };
   const corners = points(lines).slice(0, lines.geometry.drawRange.count);
   const segments = Array.from({ length: corners.length / 2 }, (_, i) => corners.slice(2 * i, 2 * i + 2));
+  const words = segments.map((ends) => ends.map((corner) => corner.join(' ')).join(' to '));
   const strengths = Array.from(lines.geometry.getAttribute('color').array).filter((_, i) => i % 4 === 3);
-  return { ribbons: ribbons.visible ? points(ribbons) : null, segments, strengths };
+  return { ribbons: ribbons.visible ? points(ribbons) : null, segments, words, strengths };
 }
 
 function pathWith(driven: DrivenPath | null): DrivePath {
@@ -40,23 +41,8 @@ function pathWith(driven: DrivenPath | null): DrivePath {
 describe('what a robot takes of the floor', () => {
   test('its outline is closed, and nothing more is shown while it is not driven', () => {
     const path = pathWith(null);
-    expect(shownOf(path).segments).toEqual([
-      [
-        [0.4, 0.2],
-        [-0.2, 0.2],
-      ],
-      [
-        [-0.2, 0.2],
-        [-0.2, -0.2],
-      ],
-      [
-        [-0.2, -0.2],
-        [0.4, -0.2],
-      ],
-      [
-        [0.4, -0.2],
-        [0.4, 0.2],
-      ],
+    expect(shownOf(path).words).toEqual([
+      ...['0.4 0.2 to -0.2 0.2', '-0.2 0.2 to -0.2 -0.2', '-0.2 -0.2 to 0.4 -0.2', '0.4 -0.2 to 0.4 0.2'],
     ]);
     expect(shownOf(path).ribbons).toBeNull();
     expect(path.shown).toBeNull();
@@ -79,28 +65,10 @@ describe('what a robot takes of the floor', () => {
   test('where it would stand, and a line in front of that', () => {
     const path = pathWith(AHEAD);
     expect(path.shown).toEqual({ stopM: expect.closeTo(STOP_M), tone: 'free' });
-    const { segments, strengths } = shownOf(path);
-    expect(segments.slice(4)).toEqual([
-      [
-        [1, 0.2],
-        [0.4, 0.2],
-      ],
-      [
-        [0.4, 0.2],
-        [0.4, -0.2],
-      ],
-      [
-        [0.4, -0.2],
-        [1, -0.2],
-      ],
-      [
-        [1, -0.2],
-        [1, 0.2],
-      ],
-      [
-        [1, 0.2],
-        [1, -0.2],
-      ],
+    const { words, strengths } = shownOf(path);
+    expect(words.slice(4)).toEqual([
+      ...['1 0.2 to 0.4 0.2', '0.4 0.2 to 0.4 -0.2', '0.4 -0.2 to 1 -0.2', '1 -0.2 to 1 0.2'],
+      '1 0.2 to 1 -0.2',
     ]);
     expect(new Set(strengths.slice(0, 8))).toEqual(new Set([1]));
     expect(strengths[8]).toBeCloseTo(0.8);

@@ -27,30 +27,6 @@ function bench(resumeWithinMs = 0) {
 }
 
 describe('Grips', () => {
-  test('a grip holds while its device is read', () => {
-    const { device, grips, update } = bench();
-    for (let nowMs = 0; nowMs <= 1000; nowMs += READING_HOLDS_MS) {
-      device.read(true, nowMs);
-      expect(update(nowMs)).toBe(null);
-      expect(grips.holds(device)).toBe(true);
-    }
-  });
-
-  test('a grip that is not read for a moment is held, but moves nothing until it is read again', () => {
-    for (const reads of [true, false]) {
-      const { device, grips, update } = bench(RESUME_MS);
-      device.read(true, 0);
-      update(0);
-      expect([update(READING_HOLDS_MS), grips.isUnread(device)]).toEqual([null, false]);
-      // The page hangs, or only the device is silent.
-      if (!reads)
-        for (let t = READING_HOLDS_MS + 1; t < RESUME_MS; t += 25)
-          expect([update(t), grips.holds(device), grips.isUnread(device)]).toEqual([null, true, true]);
-      device.read(true, RESUME_MS);
-      expect([update(RESUME_MS), grips.holds(device), grips.isUnread(device)]).toEqual([null, true, false]);
-    }
-  });
-
   test('longer than the robot allows, it is lost until it has been opened', () => {
     for (const reads of [true, false]) {
       const { device, grips, update } = bench(RESUME_MS);
@@ -66,16 +42,6 @@ describe('Grips', () => {
       device.read(true, RESUME_MS + 60);
       expect([update(RESUME_MS + 60), grips.holds(device)]).toEqual([null, true]);
     }
-  });
-
-  test('a hand that lets go while it is not read has let go', () => {
-    const { device, grips, update } = bench(RESUME_MS);
-    device.read(true, 0);
-    update(0);
-    update(200);
-    device.read(false, 210);
-    update(210);
-    expect([grips.holds(device), grips.isUnread(device)]).toEqual([false, false]);
   });
 
   test('hands that are away, and a path that is lost, need no gap', () => {
@@ -102,36 +68,6 @@ describe('Grips', () => {
     update(210);
     device.read(true, 220);
     expect([update(220), grips.holds(device)]).toEqual([null, true]);
-  });
-
-  test('an open grip that was not read proves nothing', () => {
-    const { device, grips, update } = bench();
-    device.read(true, 0);
-    update(0);
-    update(500);
-    device.held = false;
-    update(525);
-    device.held = true;
-    device.readMs = 550;
-    update(550);
-    expect(grips.holds(device)).toBe(false);
-  });
-
-  test('a reading after a hang is fresh, but the hand was not watched meanwhile', () => {
-    const { device, grips, update } = bench();
-    device.read(true, 0);
-    update(0);
-    device.read(true, READING_HOLDS_MS + 1);
-    expect(update(READING_HOLDS_MS + 1)).toBe('late-reading');
-    expect(grips.holds(device)).toBe(false);
-  });
-
-  test('a grip pressed during a hang holds: it is a new one', () => {
-    const { device, grips, update } = bench();
-    device.read(false, 0);
-    update(0);
-    device.read(true, 5000);
-    expect([update(5000), grips.holds(device)]).toEqual([null, true]);
   });
 
   test('a grip that is held while the hands are away does not drive when they return', () => {

@@ -44,12 +44,12 @@ describe('sealed packets', () => {
         remoteMasterSalt: MASTER_SALT,
       },
     });
-    for (let i = 0; i < 0x1_0000; i++) {
+    for (let i = 0; i < 0x8100; i++) {
       const payload = Buffer.from(`packet ${i}`);
       const head = header(sealer.nextSequence);
       const sealed = Buffer.concat(sealer.seal(head, payload));
       // Every one would take seconds.
-      if (i % 97 !== 0 && i % 0x1_0000 < 0xfff0) continue;
+      if (i % 97 !== 0 && i < 0x8000) continue;
       expect(opener.decrypt(sealed).subarray(12)).toEqual(payload);
     }
   });

@@ -60,9 +60,9 @@ describe('SrtpSealer and RtpHeaderTemplate', () => {
   it('continue past the wrap of the sequence number', () => {
     const { receiver, send } = session(0x7fff);
     const payload = Uint8Array.of(1, 2, 3);
-    for (let i = 0; i < 0x1_8001; i++) {
+    for (let i = 0; i < 0x8100; i++) {
       const packet = send(payload, false, 0, 0);
-      // Decrypting each of 98,000 packets takes seconds; a sample, and those around the wraps, are enough.
+      // Decrypting each of 33,000 packets takes seconds; a sample, and those around the wrap, are enough.
       const sequence = packet.readUInt16BE(2);
       if (sequence > 16 && sequence < 0xfff0 && i % 4096 !== 0) continue;
       const opened = RtpPacket.deSerialize(receiver.decrypt(packet));

@@ -82,12 +82,6 @@ describe('dropOverdue', () => {
 });
 
 describe('abandonMessage', () => {
-  it('leaves an older message alone', () => {
-    const { sent, waiting } = queues([1, 1, 1], 3);
-    abandonMessage(sent[1]!, { sent, waiting });
-    expect(sent.map(({ abandoned }) => abandoned)).toEqual([false, true, false]);
-  });
-
   it('gives up all fragments of the message, also those that were not sent, and no other', () => {
     fc.assert(
       fc.property(
