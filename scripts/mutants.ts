@@ -43,6 +43,8 @@ const must = async (program: string, ...args: string[]): Promise<void> => {
   if (code !== 0) throw new Error(`${program} ${args.join(' ')}:\n${output.slice(-2000)}`);
 };
 const chosen = mutants.filter(({ name }) => names.length === 0 || names.includes(name));
+// Now, as the last commit is: somebody may go on to work in the workspace meanwhile.
+const pureTests = pureTestsOf(chosen.map(({ file }) => file));
 let isGreen = false;
 try {
   console.log('copying the last commit');
@@ -76,7 +78,7 @@ async function isFound(mutant: Mutant): Promise<boolean> {
   writeFileSync(file, mutate(mutant, text));
   try {
     for (const tests of mutant.foundBy) {
-      const failed = await failuresOf(tests, pureTestsOf(mutant.file));
+      const failed = await failuresOf(tests, pureTests.get(mutant.file));
       if (failed.length === 0) continue;
       const took = durationWords(performance.now() - began);
       console.log(`✓ ${mutant.name}: found by ${tests} (${took}): ${failed[0]}`);

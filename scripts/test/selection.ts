@@ -18,13 +18,16 @@ function exportingPackages(): ExportingPackage[] {
     .map((file) => ({ folder: dirname(file), ...manifestSchema.parse(JSON.parse(readWorkspaceFile(file))) }));
 }
 
-/** The pure tests that import a file, themselves or through others: those that a fault in it can reach. */
-export function pureTestsOf(file: string): string[] {
+/** The pure tests that import each file, themselves or through others: those that a fault in it can reach. */
+export function pureTestsOf(files: Iterable<string>): Map<string, readonly string[]> {
   const graph = new ImportGraph(workspaceFiles, exportingPackages(), readWorkspaceFile);
   const pure = LAYERS.find(({ step }) => step === 'pure');
-  return workspaceFiles
+  const closures = workspaceFiles
     .filter((each) => pure?.tests.test(each))
-    .filter((each) => graph.closureOf(each).includes(file));
+    .map((each) => [each, new Set(graph.closureOf(each))] as const);
+  const reaching = (file: string) =>
+    closures.filter(([, closure]) => closure.has(file)).map(([test]) => test);
+  return new Map([...new Set(files)].map((file) => [file, reaching(file)]));
 }
 
 function readTests(): TestFile[] {
