@@ -1,17 +1,15 @@
 /** Every command in README and documents that can run where tests run does: as written, and as the table says. */
 import { spawn } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
-import { afterAll, expect, test } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { expect, test } from 'vitest';
 import type { Treatment } from './lib/document-command-table.ts';
 import { shellWords } from './lib/document-commands.ts';
 import { known, type Program, programOf } from './lib/document-programs.ts';
 import { root } from './lib/run.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-documents-'));
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 
 type Running = Extract<Treatment, { up: unknown }> | Extract<Treatment, { refused: unknown }>;
 

@@ -1,15 +1,13 @@
 /** The help of each program that README and documents start names the options that they give it; each is started once. */
 import { spawnSync } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { afterAll, describe, expect, test } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, test } from 'vitest';
 import { shellWords } from './lib/document-commands.ts';
 import { benchOf, known, names, optionsIn, type Program, programOf } from './lib/document-programs.ts';
 import { root } from './lib/run.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-documents-'));
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 
 const ROBOT = 'apps/robot-node/src/main.ts';
 /** Those whose commands have a help of their own. */

@@ -1,14 +1,12 @@
 /** A third party's page in a real browser, with the packages from their tarballs. */
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+
 import { CHROMIUM_REMEDY, findChromium, LocalStack, launchChromium } from '@farpoint/local-stack';
-import { describe, expect, onTestFinished, test, vi } from 'vitest';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { testFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, onTestFinished, test } from 'vitest';
 import { installOwnPage, serveFolder, typeFaults } from './lib/own-page.ts';
 
 const MOST_MS = 120_000;
-/** What is waited for comes within seconds; on a busy machine, later. */
-const until = { timeout: 30_000, interval: 50 };
 const robot = {
   id: 'own-1',
   name: 'Own robot',
@@ -52,8 +50,7 @@ describe.skipIf(findChromium() === null)(`needs Chromium: ${CHROMIUM_REMEDY}`, (
   test(
     'a page of somebody else’s shows a robot’s world, drives it and stops it',
     async () => {
-      const folder = mkdtempSync(join(tmpdir(), 'farpoint-own-page-'));
-      onTestFinished(() => rmSync(folder, { recursive: true, force: true }));
+      const folder = testFolder();
       await installOwnPage(folder);
       expect(await typeFaults(folder, TYPED)).toBe('');
       const server = await serveFolder(folder);
@@ -75,9 +72,9 @@ describe.skipIf(findChromium() === null)(`needs Chromium: ${CHROMIUM_REMEDY}`, (
           const { drawn, frames } = (globalThis as unknown as OwnPage).view;
           return { drawn, frames };
         });
-      await vi.waitUntil(async () => (await view()).drawn > 1000, until);
+      await eventually(async () => (await view()).drawn > 1000);
       const { frames } = await view();
-      await vi.waitUntil(async () => (await view()).frames > frames, until);
+      await eventually(async () => (await view()).frames > frames);
 
       const telemetry = () =>
         page.evaluate(() => {
@@ -85,25 +82,24 @@ describe.skipIf(findChromium() === null)(`needs Chromium: ${CHROMIUM_REMEDY}`, (
           if (newest === null) return null;
           return { ...newest.pose.position, speed: newest.twist.linear.x, drive: newest.drive };
         });
-      const start = await vi.waitUntil(telemetry, until);
+      const start = await eventually(telemetry);
       await page.keyboard.down('KeyW');
-      await vi.waitUntil(async () => {
+      await eventually(async () => {
         const now = await telemetry();
         // After a gap, as a busy machine makes them, the robot waits for the hand to let go.
         if (now?.drive === 'watchdog') {
           await page.keyboard.up('KeyW');
-          await vi.waitUntil(async () => (await telemetry())?.drive !== 'watchdog', until);
+          await eventually(async () => (await telemetry())?.drive !== 'watchdog');
           await page.keyboard.down('KeyW');
         }
         return Math.hypot((now?.x ?? 0) - start.x, (now?.y ?? 0) - start.y) > 0.2;
-      }, until);
+      });
       await page.keyboard.up('KeyW');
-      await vi.waitUntil(async () => (await telemetry())?.speed === 0, until);
+      await eventually(async () => (await telemetry())?.speed === 0);
 
       await page.locator('#stop').click();
-      await vi.waitUntil(
-        () => page.evaluate(() => (globalThis as unknown as OwnPage).robot.link.session.estop.latched),
-        until,
+      await eventually(() =>
+        page.evaluate(() => (globalThis as unknown as OwnPage).robot.link.session.estop.latched),
       );
       expect(faults).toEqual([]);
     },

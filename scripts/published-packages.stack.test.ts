@@ -1,17 +1,8 @@
 /** What `pnpm pack` puts in the tarballs: whatever is missing there, users miss. Nothing is fetched. */
-import {
-  existsSync,
-  globSync,
-  mkdirSync,
-  mkdtempSync,
-  readFileSync,
-  rmSync,
-  symlinkSync,
-  writeFileSync,
-} from 'node:fs';
-import { tmpdir } from 'node:os';
+import { existsSync, globSync, mkdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { beforeAll, describe, expect, test } from 'vitest';
 import * as z from 'zod';
 import { packPackage, publishedPackages } from './lib/published-packages.ts';
 import { root, run } from './lib/run.ts';
@@ -31,7 +22,7 @@ const manifestSchema = z.object({
 });
 
 const names = publishedPackages.map(({ name }) => name);
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-published-'));
+const folder = useFolder();
 const installed = (name: string) => join(folder, 'node_modules', name);
 const manifests = new Map<string, z.infer<typeof manifestSchema>>();
 const manifestOf = (name: string) => manifests.get(name)!;
@@ -52,7 +43,6 @@ beforeAll(async () => {
   for (const name of ['three', '@types/three']) symlinkSync(join(workspace, name), installed(name));
   writeFileSync(join(folder, 'package.json'), JSON.stringify({ type: 'module' }));
 }, 120_000);
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
 test('the operator and the cloud view are published, and nothing else', () => {
   expect([...names].sort()).toEqual(['@farpoint/cloud-view', '@farpoint/operator']);

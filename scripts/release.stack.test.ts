@@ -1,9 +1,9 @@
 /** `pnpm release` in a small workspace: with real git and pnpm, without a network. */
 import { execFileSync, spawnSync } from 'node:child_process';
-import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { cpSync, existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
-import { afterEach, beforeEach, expect, test } from 'vitest';
+import { testFolder } from '@farpoint/service/testing/folder';
+import { beforeEach, expect, test } from 'vitest';
 import { root } from './lib/run.ts';
 
 const LONG_MS = 120_000;
@@ -19,7 +19,7 @@ function write(file: string, text: string | object): void {
 const git = (...args: string[]) => execFileSync('git', args, { cwd: folder, encoding: 'utf8' }).trim();
 
 beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-release-test-'));
+  folder = testFolder();
   for (const file of ['scripts/release.ts', 'scripts/lib', '.gitignore'])
     cpSync(join(root, file), at(file), { recursive: true });
   write('package.json', { name: 'all', version: '0.1.0', private: true, type: 'module' });
@@ -38,7 +38,6 @@ beforeEach(() => {
   git('add', '.');
   git('commit', '--quiet', '--message', 'All of it');
 });
-afterEach(() => rmSync(folder, { recursive: true, force: true }));
 
 function release(...args: string[]) {
   const program = at('scripts/release.ts');

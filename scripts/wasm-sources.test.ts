@@ -1,8 +1,8 @@
-import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
+import { testFolder } from '@farpoint/service/testing/folder';
 import fc from 'fast-check';
-import { afterEach, beforeEach, describe, expect, test } from 'vitest';
+import { beforeEach, describe, expect, test } from 'vitest';
 import { checkFresh } from './build-wasm.ts';
 import { hashSources, type SourceFile, sourcesOf } from './wasm-sources.ts';
 import { WASM_CRATES } from './wasm-table.ts';
@@ -44,7 +44,7 @@ describe('checkFresh', () => {
   let root = '';
 
   beforeEach(() => {
-    root = mkdtempSync(join(tmpdir(), 'farpoint-fresh-'));
+    root = testFolder();
     for (const { path, bytes } of sourcesOf(repository, crate)) {
       mkdirSync(join(root, 'wasm-codec', path, '..'), { recursive: true });
       writeFileSync(join(root, 'wasm-codec', path), bytes);
@@ -56,7 +56,6 @@ describe('checkFresh', () => {
     record.sources = hashSources(sourcesOf(root, crate));
     writeFileSync(join(folder, 'sources.json'), JSON.stringify(record));
   });
-  afterEach(() => rmSync(root, { recursive: true }));
 
   test('accepts a module that was built from its sources', () => {
     expect(checkFresh(root, [crate])).toEqual([]);

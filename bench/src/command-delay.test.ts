@@ -1,11 +1,11 @@
-import { mkdtempSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { testFolder } from '@farpoint/service/testing/folder';
 import { expect, it } from 'vitest';
 import { commandDelays } from './command-delay.ts';
 
 function logOf(...rows: number[][]): string {
-  const path = join(mkdtempSync(join(tmpdir(), 'farpoint-commands-')), 'commands.csv');
+  const path = join(testFolder(), 'commands.csv');
   const lines = rows.map((row) => row.join(','));
   writeFileSync(path, ['sequence,sentMs,receivedMs,accepted', ...lines, ''].join('\n'));
   return path;

@@ -1,5 +1,5 @@
 /** The simulated robots of the tests with real programs. */
-import { existsSync, mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { RobotSpec } from '@farpoint/local-stack';
@@ -56,6 +56,7 @@ export interface MediaRobot {
 /** A robot with two cameras, of which one is H.264 only, a microphone that hears a tone of 600 Hz, and a loudspeaker. */
 export function mediaRobot(): MediaRobot {
   const folder = mkdtempSync(join(tmpdir(), 'farpoint-media-'));
+  process.once('exit', () => rmSync(folder, { recursive: true, force: true }));
   const file = join(folder, 'heard.raw');
   const played = `audio/x-raw,format=S16LE,rate=${AUDIO_RATE},channels=1`;
   const pipeline = `${played} ! filesink location=${file} buffer-mode=unbuffered`;

@@ -1,5 +1,5 @@
 /** What the browser's microphone hears in tests. */
-import { mkdtempSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
@@ -33,7 +33,9 @@ export function voiceFlags(): string[] {
   header.writeUInt16LE(16, 34);
   header.write('data', 36);
   header.writeUInt32LE(samples.byteLength, 40);
-  const file = join(mkdtempSync(join(tmpdir(), 'farpoint-voice-')), 'voice.wav');
+  const folder = mkdtempSync(join(tmpdir(), 'farpoint-voice-'));
+  process.once('exit', () => rmSync(folder, { recursive: true, force: true }));
+  const file = join(folder, 'voice.wav');
   writeFileSync(file, Buffer.concat([header, Buffer.from(samples.buffer)]));
   return [
     '--use-fake-ui-for-media-stream',

@@ -1,14 +1,13 @@
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { afterEach, beforeEach, expect, test } from 'vitest';
+import { testFolder } from '@farpoint/service/testing/folder';
+import { beforeEach, expect, test } from 'vitest';
 import { bundledPackages, licenceTexts } from './bundled-licences.ts';
 
 let root: string;
 beforeEach(() => {
-  root = mkdtempSync(join(tmpdir(), 'farpoint-licences-'));
+  root = testFolder();
 });
-afterEach(() => rmSync(root, { recursive: true }));
 
 test('packages are found in any store, each once; own files are none', () => {
   const files = [

@@ -1,11 +1,10 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { afterAll, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { expect, it } from 'vitest';
 import { ProvenFiles } from './proven-files.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-proven-'));
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 
 it('remembers what has passed, and forgets the oldest', () => {
   const file = join(folder, 'new', 'files.json');

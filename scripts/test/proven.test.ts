@@ -1,14 +1,13 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { testFolder } from '@farpoint/service/testing/folder';
+import { beforeEach, describe, expect, it } from 'vitest';
 import { cacheFolder, ProvenGroups } from './proven.ts';
 
 let folder: string;
 beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-proven-'));
+  folder = testFolder();
 });
-afterEach(() => rmSync(folder, { recursive: true, force: true }));
 const proof = (inputs: string, tools = 'gcc 12') => ({ inputs, tools, at: '2026-11-28T00:00:00.000Z' });
 
 describe('what has passed', () => {

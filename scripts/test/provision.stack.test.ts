@@ -1,7 +1,7 @@
 /** Installing what is missing, with an apt-get and a pip that only write down what they are asked. */
-import { chmodSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { chmodSync, existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { testFolder } from '@farpoint/service/testing/folder';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { rootCommand } from '../lib/root-command.ts';
 import type { Need } from './needs.ts';
@@ -10,12 +10,11 @@ import { provision } from './provision.ts';
 let folder: string;
 const path = process.env.PATH;
 beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-provision-'));
+  folder = testFolder();
   process.env.PATH = `${folder}:${path}`;
 });
 afterEach(() => {
   process.env.PATH = path;
-  rmSync(folder, { recursive: true, force: true });
 });
 
 const log = () => readFileSync(join(folder, 'log'), 'utf8').trim().split('\n');

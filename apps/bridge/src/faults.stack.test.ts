@@ -9,6 +9,7 @@ import {
 import { readCandidate, standIn, UdpLink } from '@farpoint/link-emulator';
 import { LocalStack } from '@farpoint/local-stack';
 import { idealProfile } from '@farpoint/network-sim';
+import { eventually } from '@farpoint/service/testing/eventually';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import type { Bridge } from './bridge.ts';
 import { openBridge } from './testing/open-bridge.ts';
@@ -41,15 +42,12 @@ async function robot(
   return made;
 }
 
-async function bridge(): Promise<{ made: Bridge; streaming: SocketPeer; control: SocketPeer }> {
+async function bridge(): Promise<{ made: Bridge; streaming: SocketPeer }> {
   const made = await openBridge(stack.ports.referenceClient);
   cleanups.push(() => made.close());
-  const open = async (port: number) => {
-    const peer = await SocketPeer.open(`ws://127.0.0.1:${port}/`);
-    cleanups.push(() => peer.close());
-    return peer;
-  };
-  return { made, streaming: await open(made.ports.streaming), control: await open(made.ports.control) };
+  const streaming = await SocketPeer.open(`ws://127.0.0.1:${made.ports.streaming}/`);
+  cleanups.push(() => streaming.close());
+  return { made, streaming };
 }
 
 /** Sends frames numbered from `from`, 50 a second, until the returned function is called. */
@@ -138,11 +136,10 @@ describe('bridge', { timeout: 30_000 }, () => {
 
   it('removes a robot when its registration and its points have both ended', async () => {
     const shown = await robot('shown');
-    const { made, control } = await bridge();
+    const { made } = await bridge();
     await shown.heard('start');
     await shown.close();
-    await control.message({ type: 'updateRobots', robots: null });
-    expect(made.roster.size).toBe(0);
+    await eventually(() => made.roster.size === 0);
   });
 
   it('accepts a new connection that its robot offers under the same id', async () => {

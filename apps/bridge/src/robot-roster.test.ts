@@ -1,13 +1,8 @@
 import { EventEmitter, once } from 'node:events';
 import type { ReferenceClientToService, ReferenceRobot } from '@farpoint/protocol';
-import { afterEach, expect, it } from 'vitest';
+import { expect, it, onTestFinished } from 'vitest';
 import { monotonicMs } from './clock.ts';
 import { RobotRoster } from './robot-roster.ts';
-
-const cleanups: (() => void)[] = [];
-afterEach(() => {
-  for (const cleanup of cleanups.splice(0)) cleanup();
-});
 
 function roster() {
   const sent: ReferenceClientToService[] = [];
@@ -29,7 +24,7 @@ function roster() {
       onRobotFailed: () => failures.emit('failed'),
     },
   );
-  cleanups.push(() => made.close());
+  onTestFinished(() => made.close());
   /** Waits until this many connections have failed. */
   const failed = async (count: number) => {
     while (made.failed < count) await once(failures, 'failed');

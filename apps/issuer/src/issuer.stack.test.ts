@@ -1,10 +1,10 @@
 /** The running issuer against a real OpenID Connect provider. */
-import { generateKeyPairSync, randomUUID } from 'node:crypto';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { generateKeyPairSync, type KeyObject, randomUUID } from 'node:crypto';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { type Grant, parseGrantKeys, verifyGrant } from '@farpoint/grants';
 import { parseSignInAnswer, signInAddress } from '@farpoint/protocol';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import {
   type Forger,
@@ -15,7 +15,7 @@ import {
   WebBrowser,
 } from './testing/index.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-issuer-'));
+const folder = useFolder();
 const PAGE = 'http://localhost:9/teleop/';
 const KEY = 'k'.repeat(43);
 const lines: string[] = [];
@@ -46,7 +46,6 @@ afterEach(() => {
 });
 afterAll(async () => {
   await signOn.stop();
-  rmSync(folder, { recursive: true });
 }, 30_000);
 
 const address = (at = signOn, change: { key?: string; return?: string } = {}) =>
@@ -123,18 +122,9 @@ describe('a link that somebody else made', () => {
     expect(forged.status).toBe(403);
     expect((await grantOf(await own.allow(again))).name).toBe('Ada Lovelace');
   });
-
-  it('is answered nowhere below a page, only at its exact address', async () => {
-    const below = address(signOn, { return: `${PAGE}redirect?to=evil` });
-    expect(await new WebBrowser([PAGE]).open(below)).toMatchObject({ status: 400 });
-  });
 });
 
 describe('who is refused', () => {
-  it('whom no rule permits', async () => {
-    expect(answerOf(await signIn('wim'))).toEqual({ error: 'not-permitted', state: 'mine' });
-  });
-
   it('who cancels at the provider', async () => {
     const browser = new WebBrowser([PAGE]);
     const { url } = await browser.open(address());
@@ -160,41 +150,25 @@ describe('who is refused', () => {
     expect((await grantOf(await browser.allow(await browser.open(callback)))).name).toBe('Ada Lovelace');
   });
 
-  it('who brings a code a second time', async () => {
-    const { browser, callback } = await upToCallback('ada');
-    browser.stopAt = [PAGE];
-    await grantOf(await browser.allow(await browser.open(callback)));
-    expect(await browser.open(callback)).toMatchObject({ status: 400 });
-  });
-
   const stranger = generateKeyPairSync('rsa', { modulusLength: 2048 }).privateKey;
-  it.each<[string, (claims: Record<string, unknown>, provider: Parameters<Forger>[1]) => string]>([
-    [
-      'signed by another key',
-      (claims, { keyId }) => signedJwt({ alg: 'RS256', kid: keyId }, claims, stranger),
-    ],
-    ['of an unknown key', (claims) => signedJwt({ alg: 'RS256', kid: 'other' }, claims, stranger)],
+  type Made = (claims: Record<string, unknown>, provider: Parameters<Forger>[1]) => string;
+  const signed =
+    (change: object, by: { key?: KeyObject; keyId?: string } = {}): Made =>
+    (claims, provider) => {
+      const { key, keyId } = { ...provider, ...by };
+      return signedJwt({ alg: 'RS256', kid: keyId }, { ...claims, ...change }, key);
+    };
+  it.each<[string, Made]>([
+    ['signed by another key', signed({}, { key: stranger })],
+    ['of an unknown key', signed({}, { key: stranger, keyId: 'other' })],
     [
       'not signed',
       (claims) => `${signedJwt({ alg: 'none' }, claims, stranger).split('.').slice(0, 2).join('.')}.`,
     ],
-    [
-      'for another client',
-      (claims, { key, keyId }) => signedJwt({ alg: 'RS256', kid: keyId }, { ...claims, aud: 'x' }, key),
-    ],
-    [
-      'of another provider',
-      (claims, { key, keyId }) =>
-        signedJwt({ alg: 'RS256', kid: keyId }, { ...claims, iss: 'https://x.example' }, key),
-    ],
-    [
-      'of another sign-in',
-      (claims, { key, keyId }) => signedJwt({ alg: 'RS256', kid: keyId }, { ...claims, nonce: 'x' }, key),
-    ],
-    [
-      'that has expired',
-      (claims, { key, keyId }) => signedJwt({ alg: 'RS256', kid: keyId }, { ...claims, exp: 1 }, key),
-    ],
+    ['for another client', signed({ aud: 'x' })],
+    ['of another provider', signed({ iss: 'https://x.example' })],
+    ['of another sign-in', signed({ nonce: 'x' })],
+    ['that has expired', signed({ exp: 1 })],
     ['that is no token', () => 'rubbish'],
   ])('an ID token %s', async (_, made) => {
     forge = (tokens, provider) => {

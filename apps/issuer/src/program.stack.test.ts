@@ -1,13 +1,13 @@
 /** The program as it is deployed: one file, and what it says about its options. */
 import { spawnSync } from 'node:child_process';
-import { mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readdirSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { makeSigningKey } from '@farpoint/grants';
 import { LoggingProcess } from '@farpoint/service/testing';
-import { afterAll, beforeAll, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { beforeAll, expect, it } from 'vitest';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-issuer-bundle-'));
+const folder = useFolder();
 const bundle = join(folder, 'issuer.mjs');
 
 beforeAll(async () => {
@@ -17,7 +17,6 @@ beforeAll(async () => {
     mode: 0o644,
   });
 }, 60_000);
-afterAll(() => rmSync(folder, { recursive: true }));
 
 const start = (args: readonly string[]) =>
   new LoggingProcess(bundle, [...args], { cwd: folder, env: { PATH: process.env.PATH } });

@@ -1,17 +1,13 @@
 import { monotonicMs, UdpLink } from '@farpoint/link-emulator';
 import { constantCapacity, idealProfile } from '@farpoint/network-sim';
-import { afterEach, expect, test } from 'vitest';
+import { expect, onTestFinished, test } from 'vitest';
 import { ZodError } from 'zod';
 import { control } from './control.ts';
 
 const initial = { up: idealProfile, down: idealProfile };
-const links: UdpLink[] = [];
-afterEach(() => {
-  for (const link of links.splice(0)) link.close();
-});
 function open(): UdpLink {
   const link = new UdpLink({ up: { profile: idealProfile }, down: { profile: idealProfile }, seed: 1 });
-  links.push(link);
+  onTestFinished(() => link.close());
   return link;
 }
 

@@ -1,14 +1,13 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { OptionsError, resolveOptions } from '@farpoint/service';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { uselessFiles } from '@farpoint/service/testing/useless-files';
-import { afterAll, expect, test } from 'vitest';
+import { expect, test } from 'vitest';
 import { directionOf } from './directions.ts';
 import { program } from './options.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-link-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 const trace = join(folder, 'trace.csv');
 writeFileSync(trace, 'time_s,capacity_mbps\n0,5\n0.1,0\n');
 

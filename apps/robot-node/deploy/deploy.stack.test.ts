@@ -1,20 +1,11 @@
 /** Tests what installs the robot on a machine: unit, install script and image, as far as this machine allows. */
 import { execFileSync, spawn, spawnSync } from 'node:child_process';
-import {
-  cpSync,
-  existsSync,
-  mkdirSync,
-  mkdtempSync,
-  readFileSync,
-  rmSync,
-  statSync,
-  writeFileSync,
-} from 'node:fs';
+import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import type { AddressInfo } from 'node:net';
-import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it } from 'vitest';
 import manifest from '../package.json' with { type: 'json' };
 import { judgeUnitDevices, unitDevices } from '../src/doctor/check-unit.ts';
 import { baseImageOf } from './debian-base.ts';
@@ -28,11 +19,7 @@ const compiler = has('cc', '--version') && has('make', '--version') && has('pyth
 const LONG_MS = 300_000;
 const versionLine = `farpoint-robot ${manifest.version}\n`;
 
-let folder: string;
-beforeAll(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-deploy-'));
-});
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 
 /** Runs a program. @returns its exit code and all its output */
 function run(program: string, args: string[], options: { cwd?: string; env?: Record<string, string> } = {}) {

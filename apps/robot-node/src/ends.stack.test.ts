@@ -1,11 +1,11 @@
 /** How the robot program ends, and what it leaves for its next start: only an end that was asked for is one. */
-import { type ChildProcess, spawn } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { spawn } from 'node:child_process';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
-import { afterEach, beforeEach, expect, it } from 'vitest';
+import { testFolder } from '@farpoint/service/testing/folder';
+import { expect, it, onTestFinished } from 'vitest';
 
 const program = fileURLToPath(new URL('./main.ts', import.meta.url));
 const ID = 'ending';
@@ -14,18 +14,9 @@ const FAULTS = `data:text/javascript,${encodeURIComponent(
   "process.on('SIGUSR2',()=>{throw new Error('a fault')});process.on('SIGWINCH',()=>{Promise.reject(new Error('a fault'))})",
 )}`;
 
-let folder: string;
-const children: ChildProcess[] = [];
-beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-ends-'));
-});
-afterEach(() => {
-  for (const child of children.splice(0)) child.kill('SIGKILL');
-  rmSync(folder, { recursive: true, force: true });
-});
-
 /** Ends by a signal. @returns the exit code, and why it says that it is latched at its next start */
 async function endsBy(signal: NodeJS.Signals): Promise<{ code: number | null; leaves: unknown }> {
+  const folder = testFolder();
   const robot = spawn(
     process.execPath,
     [
@@ -34,7 +25,7 @@ async function endsBy(signal: NodeJS.Signals): Promise<{ code: number | null; le
     ],
     { stdio: ['ignore', 'pipe', 'inherit'] },
   );
-  children.push(robot);
+  onTestFinished(() => void robot.kill('SIGKILL'));
   const ended = new Promise<number | null>((resolve) => robot.once('exit', resolve));
   for await (const line of createInterface({ input: robot.stdout }))
     if (line.includes('health and metrics')) break;

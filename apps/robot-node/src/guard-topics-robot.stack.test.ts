@@ -1,13 +1,13 @@
 /** Laser scans and a collision topic of a ROS 2 graph, at the real robot program. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { DdsGraph, isAvailable } from '@farpoint/dds';
 import { testDomain } from '@farpoint/dds/testing';
 import { LocalStack } from '@farpoint/local-stack';
 import type { Intervention } from '@farpoint/protocol';
 import { messageBytes } from '@farpoint/ros/testing';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { testFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it, onTestFinished } from 'vitest';
 import { monotonicMs } from './clock.ts';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 
@@ -15,16 +15,6 @@ const ID = 'sim-1';
 const SCAN = 'sensor_msgs/msg/LaserScan';
 const BOOL = 'std_msgs/msg/Bool';
 const RAYS = 360;
-
-let folder: string;
-const ending: (() => unknown)[] = [];
-beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-guard-'));
-});
-afterEach(async () => {
-  for (const end of ending.splice(0).reverse()) await end();
-  rmSync(folder, { recursive: true, force: true });
-});
 
 /** Not stamped: the arrival counts. */
 function scanOf(range: number) {
@@ -42,7 +32,7 @@ describe('a robot with a laser scanner and a collision topic', {
 }, () => {
   it('stops for either, says which, and moves on when it is free', async () => {
     const graph = new DdsGraph({ domain: testDomain(), localhostOnly: true, now: monotonicMs });
-    ending.push(() => graph.close());
+    onTestFinished(() => graph.close());
     const scans = graph.advertise({ topic: '/scan', type: SCAN });
     const demands = graph.advertise({ topic: '/collision', type: BOOL });
     graph.subscribe({ topic: '/cmd_vel', type: 'geometry_msgs/msg/Twist', queue: 4 }, () => undefined);
@@ -52,7 +42,8 @@ describe('a robot with a laser scanner and a collision topic', {
       scans.publish(messageBytes(2, SCAN, scanOf(range)));
       if (stop !== null) demands.publish(messageBytes(2, BOOL, { data: stop }));
     }, 50);
-    ending.push(() => clearInterval(publishing));
+    onTestFinished(() => clearInterval(publishing));
+    const folder = testFolder();
     const config = join(folder, 'farpoint.yaml');
     writeFileSync(
       config,
@@ -67,15 +58,15 @@ describe('a robot with a laser scanner and a collision topic', {
     );
     const args = ['--rate-control', 'fixed', '--sim-size', '64', '--max-points', '600', '--config', config];
     const stack = await LocalStack.start({ robots: [{ id: ID, name: 'Robot', args }] });
-    ending.push(() => stack.stop());
+    onTestFinished(() => stack.stop());
     const { client } = await SignaledOperator.connect(stack.signalingUrl, ID).then((operator) => {
-      ending.push(() => operator.close());
+      onTestFinished(() => operator.close());
       return operator;
     });
     const lease = await client.takeLease();
     client.drive(lease, 0);
     const driving = setInterval(() => client.drive(lease, 0.1), 20);
-    ending.push(() => clearInterval(driving));
+    onTestFinished(() => clearInterval(driving));
     const until = (reason: Intervention | null) =>
       client.until(() => {
         const { motion, drive } = client.telemetry ?? {};

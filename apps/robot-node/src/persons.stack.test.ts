@@ -1,4 +1,5 @@
 /** What the running robot knows of persons by their grants: their places, and who of them pressed STOP. */
+import { eventually } from '@farpoint/service/testing/eventually';
 import { afterEach, expect, it } from 'vitest';
 import { metricOf } from './testing/metric-of.ts';
 import type { SignaledOperator } from './testing/signaled-operator.ts';
@@ -9,7 +10,7 @@ const ROBOT = 'sim-1';
 // Hooks run in reverse order: this one after the operators of the test have closed.
 afterEach(async () => {
   const operators = () => metricOf(robot.robot.stack.robotAdminUrl(ROBOT), 'farpoint_robot_operators');
-  while ((await operators()) > 0) await new Promise((resolve) => setTimeout(resolve, 20));
+  await eventually(async () => (await operators()) === 0);
 });
 const robot = await useGrantingRobot(ROBOT, ['--estop-release', 'latcher']);
 

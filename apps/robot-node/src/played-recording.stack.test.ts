@@ -2,22 +2,21 @@
  * The robot program plays a recording: clouds at the recorded poses, pictures and readings as configured, and what the
  * robot told about itself, marked as recorded.
  */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { openRecording } from '@farpoint/recording';
 import { foxgloveCompressedImageSchema } from '@farpoint/ros';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { beforeAll, describe, expect, it } from 'vitest';
 import { makeRecording, SIDE, SPEED, valueOfSample } from './testing/made-recording.ts';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 import { useRobot } from './testing/use-robot.ts';
 
 const ROBOT = 'played-1';
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-played-'));
+const folder = useFolder();
 const path = join(folder, 'drive.mcap');
 const config = join(folder, 'farpoint.yaml');
 const PICTURES = '/farpoint/pictures/Camera';
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
 /** The files of the recording, base64. */
 async function recordedPictures(): Promise<Set<string>> {
   const recording = await openRecording(path);

@@ -1,7 +1,6 @@
 /** The robot program records a drive with video, and plays it: its videos are cameras again, in step with the clouds. */
 import { spawnSync } from 'node:child_process';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { LocalStack } from '@farpoint/local-stack';
 import {
@@ -13,21 +12,17 @@ import {
 } from '@farpoint/protocol';
 import { openRecording } from '@farpoint/recording';
 import { foxgloveCompressedVideoSchema } from '@farpoint/ros';
-import { availableEncoders } from '@farpoint/video';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { BUILD_REMEDY } from '@farpoint/video/build';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { beforeAll, describe, expect, it } from 'vitest';
 import * as z from 'zod';
 import { monotonicMs } from './clock.ts';
 import { SignaledOperator } from './testing/signaled-operator.ts';
+import { hasVideo } from './testing/watched-camera.ts';
 
-const isBuilt = await availableEncoders().then(
-  () => true,
-  () => false,
-);
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-played-videos-'));
+const folder = useFolder();
 const path = join(folder, 'drive.mcap');
 const config = join(folder, 'farpoint.yaml');
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
 const size = { width: 320, height: 240 };
 const videos = [
   { name: 'Front', source: { kind: 'test' }, encoder: 'x264enc', kbitPerS: 2000, ...size },
@@ -75,7 +70,7 @@ const tfSchema = z.object({
   ),
 });
 
-describe.skipIf(!isBuilt)(`videos of a recording (needs: ${BUILD_REMEDY})`, { timeout: 90_000 }, () => {
+describe.skipIf(!hasVideo)(`videos of a recording (needs: ${BUILD_REMEDY})`, { timeout: 90_000 }, () => {
   /** Of the recording: where the camera was, by time, ms on the recorded robot's clock. */
   const poses: { x: number; ms: number }[] = [];
 

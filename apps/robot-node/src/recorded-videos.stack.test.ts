@@ -1,25 +1,20 @@
 /** The robot program recording its cameras' video, with GStreamer, while nobody watches. */
 import { spawnSync } from 'node:child_process';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { LocalStack } from '@farpoint/local-stack';
 import { openRecording } from '@farpoint/recording';
 import { foxgloveCompressedVideoSchema, stampNs } from '@farpoint/ros';
-import { availableEncoders } from '@farpoint/video';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { BUILD_REMEDY } from '@farpoint/video/build';
-import { afterAll, describe, expect, it, vi } from 'vitest';
+import { describe, expect, it, vi } from 'vitest';
 import { metricOf } from './testing/metric-of.ts';
+import { hasVideo } from './testing/watched-camera.ts';
 
-const isBuilt = await availableEncoders().then(
-  () => true,
-  () => false,
-);
 const ROBOT = 'recorded-videos';
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-recorded-videos-'));
+const folder = useFolder();
 const path = join(folder, 'drive.mcap');
 const config = join(folder, 'farpoint.yaml');
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
 const size = { width: 320, height: 240 };
 const videos = [
   { name: 'Front', source: { kind: 'test' }, encoder: 'x264enc', kbitPerS: 800, ...size },
@@ -46,7 +41,7 @@ function decodedPictures(stream: Uint8Array): number {
   return stdout.length / (size.width * size.height * 1.5);
 }
 
-describe.skipIf(!isBuilt)(`cameras in a recording (needs: ${BUILD_REMEDY})`, { timeout: 60_000 }, () => {
+describe.skipIf(!hasVideo)(`cameras in a recording (needs: ${BUILD_REMEDY})`, { timeout: 60_000 }, () => {
   it('are recorded whole, one access unit a message, although nobody watches', async () => {
     const args = ['--config', config, '--sim-size', '64', '--record', path];
     const stack = await LocalStack.start({ robots: [{ id: ROBOT, name: 'Robot', args }] });

@@ -1,18 +1,16 @@
 /** The robot program recording: processes, signaling, WebRTC. How it plays: played-recording.stack.test.ts. */
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { LocalStack } from '@farpoint/local-stack';
 import { ALARM_TYPES, openRecording, SAMPLE_TYPES } from '@farpoint/recording';
 import { DIAGNOSTIC_TYPES, foxgloveCompressedImageSchema } from '@farpoint/ros';
-import { afterAll, describe, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it } from 'vitest';
 import * as z from 'zod';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 
 const RECORDED = 'recorded-1';
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-recording-robot-'));
+const folder = useFolder();
 const path = join(folder, 'drive.mcap');
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
 const PICTURES = '/farpoint/pictures/Camera';
 const cloudSchema = z.object({

@@ -1,10 +1,11 @@
 /** A robot that comes back without operators, in a ROS 2 graph in which people stand in its way. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { isAvailable } from '@farpoint/dds';
 import { testDomain } from '@farpoint/dds/testing';
 import { LocalStack } from '@farpoint/local-stack';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { testFolder } from '@farpoint/service/testing/folder';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { metricOf } from './testing/metric-of.ts';
 import { Ros2Base } from './testing/ros2-base.ts';
@@ -28,10 +29,6 @@ robot:
 /** Half the robot, m. */
 const RADIUS = 0.25;
 
-const until = async (is: () => boolean | Promise<boolean>) => {
-  while (!(await is())) await new Promise((resolve) => setTimeout(resolve, 5));
-};
-
 describe('a robot in a ROS 2 graph', { skip: !isAvailable(), timeout: 120_000 }, () => {
   let folder: string;
   let base: Ros2Base;
@@ -40,7 +37,7 @@ describe('a robot in a ROS 2 graph', { skip: !isAvailable(), timeout: 120_000 },
   const said: boolean[] = [];
 
   beforeEach(async () => {
-    folder = mkdtempSync(join(tmpdir(), 'farpoint-return-ros2-'));
+    folder = testFolder();
     base = new Ros2Base(testDomain());
     const to = { topic: '/returning', type: 'std_msgs/msg/Bool', queue: 16 };
     base.graph.subscribe(to, (bytes) => void said.push(bytes[4] === 1));
@@ -53,7 +50,6 @@ describe('a robot in a ROS 2 graph', { skip: !isAvailable(), timeout: 120_000 },
     await operator?.close().catch(() => undefined);
     await stack.stop();
     await base.close();
-    rmSync(folder, { recursive: true, force: true });
   }, 30_000);
 
   it('says so on a topic, stands before somebody in its way, and comes back when the way is free', async () => {
@@ -62,24 +58,24 @@ describe('a robot in a ROS 2 graph', { skip: !isAvailable(), timeout: 120_000 },
     const lease = await client.takeLease();
     client.drive(lease, 0);
     const timer = setInterval(() => client.drive(lease, 0.5), 20);
-    await until(() => base.x > 2);
+    await eventually(() => base.x > 2);
     clearInterval(timer);
     client.drive(lease, 0);
-    await until(() => base.speed === 0);
+    await eventually(() => base.speed === 0);
     expect(said).not.toContain(true);
     await operator.vanish();
     base.person = [0.6, 1];
-    await until(() => said.at(-1) === true);
-    await until(() => base.speed < 0);
-    await until(() => base.speed === 0 && base.x < 1.6);
+    await eventually(() => said.at(-1) === true);
+    await eventually(() => base.speed < 0);
+    await eventually(() => base.speed === 0 && base.x < 1.6);
     const stood = base.x;
     expect(stood - RADIUS).toBeGreaterThan(1.03);
     const seen = base.clouds;
-    await until(() => base.clouds > seen + 20);
+    await eventually(() => base.clouds > seen + 20);
     expect(base.x).toBeCloseTo(stood, 2);
     expect(said.at(-1)).toBe(true);
     base.person = null;
-    await until(() => said.at(-1) === false && base.speed === 0);
+    await eventually(() => said.at(-1) === false && base.speed === 0);
     expect(Math.abs(base.x)).toBeLessThan(0.15);
     expect(base.lowest).toBeGreaterThanOrEqual(-0.2);
     const ended = 'farpoint_robot_return_ended_total{reason="track-end"}';

@@ -2,12 +2,13 @@
  * A robot that has lost its operators, at the real robot program: it comes back along its track, under guard. When it does
  * not, and what ends it, is asked in virtual time (packages/scenario).
  */
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { LocalStack } from '@farpoint/local-stack';
 import type { ReturnState } from '@farpoint/protocol';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { testFolder } from '@farpoint/service/testing/folder';
+import { afterEach, describe, expect, it } from 'vitest';
 import { metricOf } from './testing/metric-of.ts';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 
@@ -17,17 +18,11 @@ const RETURNS = ['--return', '--return-after-s', '5', '--return-announce-s', '1'
 /** How far the robot is driven, m: there is furniture farther ahead. */
 const WAY_M = 0.7;
 
-let folder: string;
 let stack: LocalStack;
 const operators: SignaledOperator[] = [];
-
-beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-return-'));
-});
 afterEach(async () => {
   for (const operator of operators.splice(0)) await operator.close().catch(() => undefined);
   await stack.stop();
-  rmSync(folder, { recursive: true, force: true });
 });
 
 async function start(...args: string[]): Promise<void> {
@@ -42,10 +37,8 @@ async function connect(): Promise<SignaledOperator> {
 }
 
 const metric = (name: string) => metricOf(stack.robotAdminUrl(ID), `farpoint_robot_${name}`);
-const until = async (is: () => Promise<boolean>) => {
-  while (!(await is())) await new Promise((resolve) => setTimeout(resolve, 10));
-};
-const ended = (end: string) => until(async () => (await metric(`return_ended_total{reason="${end}"}`)) === 1);
+const ended = (end: string) =>
+  eventually(async () => (await metric(`return_ended_total{reason="${end}"}`)) === 1);
 
 type Client = SignaledOperator['client'];
 const xOf = ({ telemetry }: Client) => telemetry?.pose.position.x ?? Number.NaN;
@@ -72,6 +65,7 @@ async function drive(client: Client, metres = WAY_M): Promise<number> {
 
 describe('a robot that has lost its operators', { timeout: 90_000 }, () => {
   it('comes back to where it was first driven, and says so to who comes then', async () => {
+    const folder = testFolder();
     const auditLog = join(folder, 'audit.jsonl');
     await start('--return-unseen', 'slow', '--audit-log', auditLog);
     const driver = await connect();
@@ -107,10 +101,10 @@ describe('a robot that has lost its operators', { timeout: 90_000 }, () => {
       };
       return { uptimeSeconds: told.uptimeSeconds, phase: told.checks.return.detail.phase };
     };
-    await until(async () => (await health()).phase === 'standby' && (await metric('operators')) === 0);
+    await eventually(async () => (await health()).phase === 'standby' && (await metric('operators')) === 0);
     // One that is lost waits from the first second on.
     const { uptimeSeconds } = await health();
-    await until(async () => (await health()).uptimeSeconds >= uptimeSeconds + 3);
+    await eventually(async () => (await health()).uptimeSeconds >= uptimeSeconds + 3);
     expect((await health()).phase).toBe('standby');
     expect(await metric('return_begun_total')).toBe(0);
   });

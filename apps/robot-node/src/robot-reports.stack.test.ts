@@ -2,6 +2,7 @@
  * What the real robot program tells its operators, and by what it goes: its sensors and their streams, quantities,
  * components, alarms, and the feedback of the operator's WebRTC stack.
  */
+import { eventually } from '@farpoint/service/testing/eventually';
 import { describe, expect, it } from 'vitest';
 import { metricOf } from './testing/metric-of.ts';
 import { SignaledOperator } from './testing/signaled-operator.ts';
@@ -91,7 +92,7 @@ describe('an operator whose WebRTC stack gives no transport-wide feedback', { ti
     expect(without.malformedPackets).toBe(0);
     const reports = () =>
       metricOf(robot.stack.robotAdminUrl(id), 'farpoint_robot_rate_state{state="reports"}');
-    while ((await reports()) !== 1) await new Promise((resolve) => setTimeout(resolve, 20));
+    await eventually(async () => (await reports()) === 1);
     const usual = await connectTo(true);
     await usual.until(() => (usual.telemetry?.stream.targetBitsPerSecond ?? 0) > 0);
     expect(usual.telemetry?.stream.feedback).toBeUndefined();

@@ -1,6 +1,7 @@
 /** A stop at the robot itself, in shared memory, at the real robot program. */
 import { rmSync } from 'node:fs';
 import { join } from 'node:path';
+import { eventually } from '@farpoint/service/testing/eventually';
 import { isAvailable, StopBlockWriter } from '@farpoint/shared-memory';
 import { describe, expect, it } from 'vitest';
 import {
@@ -14,10 +15,6 @@ import {
 } from './testing/use-stopped-robot.ts';
 
 const robot = useStoppedRobot();
-
-const until = async (is: () => boolean | Promise<boolean>) => {
-  while (!(await is())) await new Promise((resolve) => setTimeout(resolve, 5));
-};
 
 describe('a stop byte in shared memory', { skip: !isAvailable(), timeout: 40_000 }, () => {
   it('stops a driving robot, whoever asks for release; a counter that stands still does, too', async () => {
@@ -54,7 +51,7 @@ describe('a stop byte in shared memory', { skip: !isAvailable(), timeout: 40_000
     end();
     await untilReading(client, 'shm', 'error');
     const health = async () => (await fetch(`${stack.robotAdminUrl(ID)}/healthz`)).json();
-    await until(async () => JSON.stringify(await health()).includes('"shm":"silent"'));
+    await eventually(async () => JSON.stringify(await health()).includes('"shm":"silent"'));
     const metrics = await (await fetch(`${stack.robotAdminUrl(ID)}/metrics`)).text();
     // More of them where a busy machine kept the counter waiting.
     const [, stops] = /robot_stops[^\n]*stop="shm"[^\n]* (\d+)\n/.exec(metrics) ?? [];

@@ -1,13 +1,15 @@
 /** The real robot program in a ROS 1 graph: a real master, rospy nodes, signaling, WebRTC. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { LocalStack } from '@farpoint/local-stack';
 import { PictureCodec } from '@farpoint/pictures';
 import { type WholePicture, writeTile } from '@farpoint/protocol';
 import { type Ros1Node, Ros1Peers } from '@farpoint/ros/testing/ros1';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { SignaledOperator } from './testing/signaled-operator.ts';
+import { driveUntil } from './testing/steady-hand.ts';
 
 const ROBOT = 'ros-1';
 /** What the node's front camera sees, from the left. */
@@ -63,9 +65,8 @@ describe.skipIf(python === null)(
     timeout: 60_000,
   },
   () => {
-    const folder = mkdtempSync(join(tmpdir(), 'farpoint-ros1-robot-'));
+    const folder = useFolder();
     let peers: Ros1Peers;
-    let camera: Ros1Node;
     let base: Ros1Node;
     let stack: LocalStack;
     let operator: SignaledOperator;
@@ -73,7 +74,7 @@ describe.skipIf(python === null)(
     beforeAll(async () => {
       peers = await Ros1Peers.open(python ?? '');
       await peers.startCore();
-      camera = await peers.startNode('cloud,state,diagnostics,navigator', 'camera');
+      await peers.startNode('cloud,state,diagnostics,navigator', 'camera');
       base = await peers.startNode('velocity', 'base');
       const config = join(folder, 'farpoint.yaml');
       writeFileSync(config, configuration(peers.masterUrl));
@@ -85,24 +86,13 @@ describe.skipIf(python === null)(
       await operator?.close();
       await stack?.stop();
       await peers?.close();
-      rmSync(folder, { recursive: true, force: true });
     }, 30_000);
 
-    const until = async (is: () => boolean) => {
-      while (!is()) await new Promise((resolve) => setTimeout(resolve, 2));
-    };
     const silentFor = () => performance.now() - (base.heard.at(-1)?.atMs ?? 0);
-    /** Sends commands at 50 Hz, as a page does, until `is` holds. */
-    async function driveUntil(lease: string, linear: number, is: () => boolean): Promise<void> {
-      const timer = setInterval(() => operator.client.drive(lease, linear), 20);
-      await until(is);
-      clearInterval(timer);
-    }
-
     /** Drives with a grip that was released first. */
     async function drive(lease: string): Promise<void> {
       operator.client.drive(lease, 0);
-      await driveUntil(lease, 0.25, () => base.heard.at(-1)?.x === 0.25 && silentFor() < 50);
+      await driveUntil(operator.client, lease, 0.25, () => base.heard.at(-1)?.x === 0.25 && silentFor() < 50);
     }
 
     it('streams the clouds, placed by odometry, and reports its velocity and battery', async () => {
@@ -210,59 +200,11 @@ describe.skipIf(python === null)(
       await stack.robot('ros-3').stop();
     });
 
-    it('publishes steadily while commanded, zero on silence, then nothing, so that others can drive', async () => {
-      const lease = await operator.client.takeLease();
-      operator.client.drive(lease, 0);
-      const from = base.heard.length;
-      await driveUntil(lease, 0.25, () => base.heard.slice(from).filter(({ x }) => x === 0.25).length >= 25);
-      const lastWishMs = performance.now();
-      await until(() => base.heard.at(-1)?.x === 0);
-      // After how many ms, and how many zeros: watchdog.test.ts, ros-velocity.test.ts.
-      await until(() => silentFor() > 500);
-      const zeros = base.heard.filter(({ x, atMs }) => x === 0 && atMs >= lastWishMs);
-      // A node that misses one hears another.
-      expect(zeros.length).toBeGreaterThan(1);
-    });
-
-    it('continues when the camera’s node comes back', async () => {
-      await camera.kill();
-      const { client } = operator;
-      camera = await peers.startNode('cloud,state', 'camera');
-      const before = client.frames.size;
-      await client.until(() => client.frames.size > before + 5);
-    });
-
-    it('refuses motion while no node subscribes to the velocity, and says so', async () => {
-      const { client } = operator;
-      const wheels = () => client.readings.get('/cmd_vel');
-      await client.until(() => wheels()?.level === 'ok');
-      expect(wheels()).toMatchObject({ label: 'Wheels', values: [['', '/cmd_vel: 1 listening']] });
-      await base.kill();
-      await client.until(() => wheels()?.level === 'warn');
-      expect(wheels()?.values).toEqual([['', '/cmd_vel: nobody listens to the velocities']]);
-      const health = async () =>
-        (await fetch(`${stack.robotAdminUrl(ROBOT)}/healthz`)).json() as Promise<unknown>;
-      const lease = await client.takeLease();
-      client.drive(lease, 0.25);
-      await client.message('rejected', ({ reason }) => reason === 'no-wheels');
-      expect(await health()).toMatchObject({
-        status: 'failing',
-        checks: { wheels: { ok: false, detail: { fault: 'no-listener' } } },
-      });
-      base = await peers.startNode('velocity', 'base');
-      await client.until(() => wheels()?.level === 'ok');
-      expect(await health()).toMatchObject({ status: 'ok' });
-      // The hand that held on must let go before the wheels move.
-      client.drive(lease, 0.25);
-      await client.message('rejected', ({ reason }) => reason === 'let-go-first');
-      expect(base.heard).toEqual([]);
-    });
-
     it('publishes zero when it is asked to end, and nothing more when it is killed: then the base’s own timeout applies', async () => {
       const lease = await operator.client.takeLease();
       await drive(lease);
       await stack.robot(ROBOT).stop();
-      await until(() => base.heard.at(-1)?.x === 0);
+      await eventually(() => base.heard.at(-1)?.x === 0);
       await operator.close();
       await stack.restartRobot(ROBOT);
       operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
@@ -270,7 +212,7 @@ describe.skipIf(python === null)(
       await client.until(() => client.readings.get('/cmd_vel')?.level === 'ok');
       await drive(await operator.client.takeLease());
       await stack.robot(ROBOT).kill();
-      await until(() => silentFor() > 500);
+      await eventually(() => silentFor() > 500);
       expect(base.heard.at(-1)?.x).toBe(0.25);
     });
   },

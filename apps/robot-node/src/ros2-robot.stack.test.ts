@@ -2,17 +2,20 @@
  * The real robot program between a ROS 2 graph of another implementation and an operator: processes, signaling,
  * WebRTC.
  */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { DdsGraph, isAvailable } from '@farpoint/dds';
 import { findPeer, PEER_REMEDY, Peer, type PeerKind, testDomain } from '@farpoint/dds/testing';
 import { LocalStack } from '@farpoint/local-stack';
 import { readPictureFile } from '@farpoint/protocol';
 import { messageBytes } from '@farpoint/ros/testing';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { monotonicMs } from './clock.ts';
 import { SignaledOperator } from './testing/signaled-operator.ts';
+import { driveUntil } from './testing/steady-hand.ts';
 
 const ROBOT = 'ros2-1';
 const SIDE = 48;
@@ -34,13 +37,12 @@ for (const kind of kinds) {
   const command = isAvailable() ? findPeer(kind) : null;
   const note = isAvailable() ? PEER_REMEDY[kind] : 'apt-get install cyclonedds-dev; pnpm build:native dds';
   describe(`robot process in a ROS 2 graph with ${kind} (needs ${note})`, { skip: command === null }, () => {
-    let folder: string;
+    const folder = useFolder();
     let peer: Peer;
     let stack: LocalStack;
     let operator: SignaledOperator;
 
     beforeAll(async () => {
-      folder = mkdtempSync(join(tmpdir(), 'farpoint-ros2-robot-'));
       const config = join(folder, 'farpoint.yaml');
       writeFileSync(config, CONFIGURATION);
       peer = await Peer.start(command as string[], {
@@ -56,20 +58,9 @@ for (const kind of kinds) {
       await operator?.close();
       await stack?.stop();
       await peer?.kill();
-      rmSync(folder, { recursive: true, force: true });
     }, 30_000);
 
-    const until = async (is: () => boolean) => {
-      while (!is()) await new Promise((resolve) => setTimeout(resolve, 2));
-    };
     const speed = () => peer.twists.at(-1)?.x ?? null;
-
-    /** Sends commands at 50 Hz, as a page does, until `is` holds. */
-    async function driveUntil(lease: string, linear: number, is: () => boolean): Promise<void> {
-      const timer = setInterval(() => operator.client.drive(lease, linear), 20);
-      await until(is);
-      clearInterval(timer);
-    }
 
     it('streams the topic’s clouds', { timeout: 30_000 }, async () => {
       const { client } = operator;
@@ -101,7 +92,7 @@ for (const kind of kinds) {
         expect(width).toBeLessThanOrEqual(640);
         expect(readPictureFile(bytes)).toEqual({ format: 'jpeg', width, height });
         client.sendSession({ type: 'pictures', cameras: [] });
-        await until(() => camera.subscribers === 0);
+        await eventually(() => camera.subscribers === 0);
       } finally {
         clearInterval(timer);
         await graph.close();
@@ -113,12 +104,12 @@ for (const kind of kinds) {
     }, async () => {
       const lease = await operator.client.takeLease();
       // After how many ms: watchdog.test.ts, ros-velocity.test.ts.
-      await driveUntil(lease, 0.25, () => speed() === 0.25);
-      await until(() => speed() === 0);
+      await driveUntil(operator.client, lease, 0.25, () => speed() === 0.25);
+      await eventually(() => speed() === 0);
       // The robot is alive: it obeys the next command.
-      await driveUntil(lease, 0.125, () => speed() === 0.125);
+      await driveUntil(operator.client, lease, 0.125, () => speed() === 0.125);
       expect(await stack.robot(ROBOT).stop()).toMatchObject({ code: 0 });
-      await until(() => speed() === 0);
+      await eventually(() => speed() === 0);
     });
   });
 }

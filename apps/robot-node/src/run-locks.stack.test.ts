@@ -1,20 +1,19 @@
 /** Two robot programs that would write the same files. */
 import { once } from 'node:events';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { createLogger } from '@farpoint/service';
 import { LoggingProcess } from '@farpoint/service/testing';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { isAvailable } from '@farpoint/shared-memory';
-import { afterAll, afterEach, describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it } from 'vitest';
 import type { RobotOptions } from './robot-configuration.ts';
 import { lockRun } from './run-locks.ts';
 
 const program = fileURLToPath(new URL('./main.ts', import.meta.url));
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-locks-'));
+const folder = useFolder();
 const log = createLogger({ name: 'test', level: 'silent', format: 'json' });
-afterAll(() => rmSync(folder, { recursive: true }));
 
 describe.skipIf(!isAvailable())('two robots (needs the addon: pnpm build:native)', () => {
   const robots: LoggingProcess[] = [];

@@ -1,10 +1,9 @@
 /** The robot program under systemd: a stand-in for systemd's socket receives its messages. */
+
 import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
-import { mkdtempSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
+import { testFolder } from '@farpoint/service/testing/folder';
 import { loadSend } from '@farpoint/systemd';
 import { afterEach, describe, expect, it } from 'vitest';
 
@@ -37,7 +36,7 @@ describe.skipIf(!available())('under systemd (needs the addon, pnpm build:native
       [
         program,
         ...['--sim-size', '16', '--admin-port', '0', '--signaling', 'ws://127.0.0.1:9'],
-        ...['--state-dir', mkdtempSync(join(tmpdir(), 'farpoint-run-'))],
+        ...['--state-dir', testFolder()],
       ],
       { env: { ...process.env, NOTIFY_SOCKET: SOCKET, WATCHDOG_USEC: '200000' }, stdio: 'ignore' },
     );

@@ -1,17 +1,18 @@
 /** The real robot program with a camera and wheels in shared memory: processes, signaling, WebRTC. */
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+
 import { LocalStack } from '@farpoint/local-stack';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { CloudProducer, isAvailable, ReferenceControlReader } from '@farpoint/shared-memory';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { SignaledOperator } from './testing/signaled-operator.ts';
+import { driveUntil } from './testing/steady-hand.ts';
 
 const ROBOT = 'shm-1';
 const POINTS = 1500;
 
 describe.skipIf(!isAvailable())('robot process in shared memory (needs the addon: pnpm build:native)', () => {
-  let folder: string;
+  const folder = useFolder();
   let stack: LocalStack;
   let producing: NodeJS.Timeout;
   let producer: CloudProducer;
@@ -19,7 +20,6 @@ describe.skipIf(!isAvailable())('robot process in shared memory (needs the addon
   let wheels: ReferenceControlReader;
 
   beforeAll(async () => {
-    folder = mkdtempSync(join(tmpdir(), 'farpoint-shm-robot-'));
     producer = new CloudProducer({ folder, format: 'points', maxPoints: POINTS });
     const points = Float32Array.from({ length: POINTS * 4 }, (_, i) => (i % 4 === 2 ? 2 : 0.5));
     const header = { capturedAtMs: null, width: 50, height: 30, pose: null, lens: null, latencyTest: false };
@@ -36,21 +36,9 @@ describe.skipIf(!isAvailable())('robot process in shared memory (needs the addon
     producer?.close();
     await operator?.close();
     await stack?.stop();
-    rmSync(folder, { recursive: true, force: true });
   }, 30_000);
 
   const speed = () => wheels.read()?.twist.linear.x ?? null;
-  const until = async (is: () => boolean) => {
-    while (!is()) await new Promise((resolve) => setTimeout(resolve, 2));
-  };
-
-  /** Sends commands at 50 Hz, as a page does, until `is` holds. */
-  async function driveUntil(lease: string, linear: number, is: () => boolean): Promise<void> {
-    const timer = setInterval(() => operator.client.drive(lease, linear), 20);
-    await until(is);
-    clearInterval(timer);
-  }
-
   it('streams the camera’s clouds', { timeout: 30_000 }, async () => {
     const { client } = operator;
     await client.until(() => client.completeFrames.some((frame) => frame.points === POINTS));
@@ -62,12 +50,12 @@ describe.skipIf(!isAvailable())('robot process in shared memory (needs the addon
   }, async () => {
     const lease = await operator.client.takeLease();
     expect(speed()).toBe(0);
-    await driveUntil(lease, 0.25, () => speed() === 0.25);
-    await until(() => speed() === 0);
+    await driveUntil(operator.client, lease, 0.25, () => speed() === 0.25);
+    await eventually(() => speed() === 0);
     // The robot is alive: the counter advances, and the next command is obeyed.
     const counter = wheels.read()?.counter ?? 0;
-    await until(() => (wheels.read()?.counter ?? 0) > counter + 2);
-    await driveUntil(lease, 0.25, () => speed() === 0.25);
+    await eventually(() => (wheels.read()?.counter ?? 0) > counter + 2);
+    await driveUntil(operator.client, lease, 0.25, () => speed() === 0.25);
     await stack.robot(ROBOT).stop();
     expect(speed()).toBe(0);
   });
@@ -87,14 +75,14 @@ describe.skipIf(!isAvailable())('robot process in shared memory (needs the addon
     }, 20);
     const healthy = async () => (await fetch(`${stack.robotAdminUrl(ROBOT)}/healthz`)).ok;
     client.drive(lease, 0);
-    await driveUntil(lease, 0.25, () => speed() === 0.25);
+    await driveUntil(operator.client, lease, 0.25, () => speed() === 0.25);
     expect(await healthy()).toBe(true);
     const driving = setInterval(() => client.drive(lease, 0.25), 20);
-    await until(() => speed() === 0.25);
+    await eventually(() => speed() === 0.25);
     // Whatever moves the wheels is killed.
     clearInterval(answering);
     await client.message('rejected', ({ reason }) => reason === 'no-wheels');
-    await until(() => speed() === 0);
+    await eventually(() => speed() === 0);
     expect(await healthy()).toBe(false);
     await client.until(() => client.readings.get('shared_control')?.level === 'error');
     clearInterval(driving);
@@ -108,7 +96,7 @@ describe.skipIf(!isAvailable())('robot process in shared memory (needs the addon
     operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
     const lease = await operator.client.takeLease();
     operator.client.drive(lease, 0);
-    await driveUntil(lease, 0.25, () => speed() === 0.25);
+    await driveUntil(operator.client, lease, 0.25, () => speed() === 0.25);
     const robot = stack.robot(ROBOT);
     robot.signal('SIGHUP');
     expect(await robot.exited).toMatchObject({ code: 0 });

@@ -3,18 +3,17 @@
  * fault is called: doctor/start-failure.test.ts.
  */
 import { spawnSync } from 'node:child_process';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { LoggingProcess } from '@farpoint/service/testing';
-import { afterAll, describe, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it } from 'vitest';
 
 const program = fileURLToPath(new URL('./main.ts', import.meta.url));
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-start-'));
+const folder = useFolder();
 const words = join(folder, 'words.txt');
 writeFileSync(words, 'no cloud, no recording\n');
-afterAll(() => rmSync(folder, { recursive: true }));
 
 const missing = join(folder, 'missing');
 /** A folder of their own: no other robot of this machine is in the way. */

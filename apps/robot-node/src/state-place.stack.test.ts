@@ -1,8 +1,9 @@
 /** The robot program whose state is in memory: it says so, and what to do. */
-import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { LoggingProcess } from '@farpoint/service/testing';
+import { testFolder } from '@farpoint/service/testing/folder';
 import { expect, it } from 'vitest';
 import { checkState } from './doctor/check-state.ts';
 
@@ -12,7 +13,7 @@ it.skipIf(!existsSync('/dev/shm'))(
   'warns at its start, and so does the doctor',
   { timeout: 30_000 },
   async () => {
-    const stateFolder = mkdtempSync('/dev/shm/farpoint-state-');
+    const stateFolder = testFolder('/dev/shm');
     const args = ['--state-dir', stateFolder, '--sim-size', '16', '--admin-port', '0'];
     const robot = new LoggingProcess(program, [...args, '--signaling', 'ws://127.0.0.1:9']);
     try {
@@ -26,7 +27,6 @@ it.skipIf(!existsSync('/dev/shm'))(
     } finally {
       robot.child.kill('SIGKILL');
       await robot.exited;
-      rmSync(stateFolder, { recursive: true });
     }
   },
 );

@@ -1,14 +1,13 @@
 /** What the running service writes to its audit log, and what it does not write to any log. */
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { auditCommand } from '@farpoint/audit';
 import { LoggingProcess } from '@farpoint/service/testing';
-import { afterAll, expect, test } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { expect, test } from 'vitest';
 import { TestSocket } from './test-sockets.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-signaling-audit-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 const file = join(folder, 'audit.jsonl');
 const [robotTokens, operatorTokens] = [join(folder, 'robots.yaml'), join(folder, 'operators.txt')];
 writeFileSync(robotTokens, 'r1: token-of-r1\n');

@@ -1,19 +1,18 @@
 import { spawnSync } from 'node:child_process';
-import { mkdtempSync, readdirSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readdirSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { LoggingProcess } from '@farpoint/service/testing';
-import { afterAll, beforeAll, expect, test } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { beforeAll, expect, test } from 'vitest';
 import { TestSocket } from './test-sockets.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-bundle-'));
+const folder = useFolder();
 const bundle = join(folder, 'signaling.mjs');
 
 beforeAll(() => {
   const built = spawnSync(process.execPath, [resolve(import.meta.dirname, '../build.ts'), bundle]);
   if (built.status !== 0) throw new Error(built.stderr.toString());
 }, 60_000);
-afterAll(() => rmSync(folder, { recursive: true }));
 
 const start = (args: string[]) =>
   new LoggingProcess(bundle, args, { cwd: folder, env: { PATH: process.env.PATH } });

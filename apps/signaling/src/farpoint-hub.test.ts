@@ -17,7 +17,13 @@ const limits = {
 };
 
 function setup(
-  options: { robots?: AccessList; operators?: AccessList; revocations?: string[]; signInUrl?: string } = {},
+  options: {
+    robots?: AccessList;
+    operators?: AccessList;
+    revocations?: string[];
+    signInUrl?: string;
+    more?: Partial<typeof limits>;
+  } = {},
 ) {
   const clock = new FakeClock();
   const observer = new RecordingObserver();
@@ -25,7 +31,7 @@ function setup(
   const hub = new FarpointHub({
     clock,
     observer,
-    limits,
+    limits: { ...limits, ...options.more },
     listIntervalMs: 100,
     listBytesPerSecond: 1e9,
     access: () => ({
@@ -570,6 +576,20 @@ test('surplus messages are dropped and reported once, and accepted again after a
   clock.advance(100); // a tenth of a second at 10 per second
   r.send({ type: 'session.offer', session: handle, sdp: 'v=0' });
   expect(o.types()).toEqual(['session.offer']);
+});
+
+test('ten operators send a robot no more than its budget', () => {
+  const { robot, operator } = setup({ more: { relayMessagesPerSecond: 2, maxSessionsPerRobot: 10 } });
+  const r = robot('r1');
+  const flood = Array.from({ length: 10 }, () => operator());
+  for (const o of flood) o.send({ type: 'session.open', robotId: 'r1' });
+  r.take();
+  for (const o of flood) {
+    const { session } = o.take().find(({ type }) => type === 'session.opened') ?? {};
+    for (let i = 0; i < 5; i++) o.send({ type: 'session.answer', session, sdp: 'v=0' });
+  }
+  expect(r.types().length).toBeLessThan(10);
+  expect(flood.flatMap((o) => o.take().map(({ code }) => code))).toContain('rate-limited');
 });
 
 test('at shutdown, tells everybody to reconnect, and closes with 1012', () => {

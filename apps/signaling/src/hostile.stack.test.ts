@@ -82,23 +82,13 @@ const mutated = fc.oneof(
     }),
 );
 
-test('random bytes and text', async () => {
-  const messages = fc.array(fc.oneof(fc.uint8Array({ maxLength: 300 }), fc.string({ maxLength: 300 })), {
-    maxLength: 8,
-  });
-  await fc.assert(
-    fc.asyncProperty(messages, fc.boolean(), async (list, hello) => attack(list, hello)),
-    { seed: 11, numRuns: 40 },
-  );
-  await expectBystandersWell();
-});
-
-test('damaged messages of the protocol', async () => {
-  const messages = fc.array(mutated, { minLength: 1, maxLength: 8 });
-  await fc.assert(
-    fc.asyncProperty(messages, fc.boolean(), async (list, hello) => attack(list, hello)),
-    { seed: 12, numRuns: 60 },
-  );
+test('random bytes and text, and damaged messages of the protocol', async () => {
+  const rubbish = fc.oneof(fc.uint8Array({ maxLength: 300 }), fc.string({ maxLength: 300 }));
+  for (const [kind, seed, numRuns] of [[rubbish, 11, 40] as const, [mutated, 12, 60] as const])
+    await fc.assert(
+      fc.asyncProperty(fc.array<string | Uint8Array>(kind, { maxLength: 8 }), fc.boolean(), attack),
+      { seed, numRuns },
+    );
   await expectBystandersWell();
 });
 
@@ -169,20 +159,5 @@ test('a flood of pings whose answers are not read is cut off', async () => {
   const socket = await service.operator();
   for (let i = 0; i < 60; i++) socket.socket.ping();
   await socket.closed;
-  await expectBystandersWell();
-});
-
-test('another robot can be neither impersonated nor taken over', async () => {
-  const evil = await service.referenceRobot('Eve');
-  const { robotId } = await evil.until('registered');
-  expect(robotId).toBe(1);
-  await client.until('register');
-  evil.send({ type: 'offer', robotId: 0, sdpOffer: 'evil' });
-  evil.send({ type: 'candidate', robotId: 0, candidate: 'evil' });
-  evil.send({ type: 'candidate', robotId: 1, candidate: 'own' });
-  expect(await client.next()).toEqual({ type: 'candidate', robotId: 1, candidate: 'own' });
-  client.send({ type: 'getRobots' });
-  const { robots } = (await client.until('robots')) as unknown as { robots: { sdpOffer: string }[] };
-  expect(robots[0]!.sdpOffer).toBe('v=0');
   await expectBystandersWell();
 });

@@ -1,14 +1,14 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { signRevocations } from '@farpoint/grants';
 import { makeIssuer } from '@farpoint/grants/testing';
 import { silentLogger } from '@farpoint/service';
+import { testFolder } from '@farpoint/service/testing/folder';
 import { expect, it, vi } from 'vitest';
 import { RevocationFiles } from './revocation-files.ts';
 
 it('a file that leaves out what is revoked still does not keep it from robots that come later', async () => {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-lists-'));
+  const folder = testFolder();
   const path = join(folder, 'revoked.jws');
   const { signingKey } = await makeIssuer('k1');
   let nowS = 1000;
@@ -49,6 +49,5 @@ it('a file that leaves out what is revoked still does not keep it from robots th
     expect([...files.lists]).toEqual([second]);
   } finally {
     files.close();
-    rmSync(folder, { recursive: true });
   }
 });

@@ -1,17 +1,16 @@
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdirSync, writeFileSync } from 'node:fs';
 import { request } from 'node:http';
 import { connect } from 'node:net';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { createMetrics, Health, Secret } from '@farpoint/service';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { selfSigned } from '@farpoint/service/testing/self-signed';
-import { afterAll, afterEach, describe, expect, test } from 'vitest';
+import { afterEach, describe, expect, test } from 'vitest';
 import type { SignalingOptions } from './options.ts';
 import type { SignalingRim } from './server.ts';
 import { TestService } from './test-sockets.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-signaling-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 
 let service: TestService;
 afterEach(async () => {
@@ -45,27 +44,6 @@ describe('Farpoint over real sockets', () => {
     expect(await operator.next()).toEqual({ type: 'robots.changed', here: [], gone: ['r1'] });
   });
 
-  test('lets a returning robot with its key take over from its older socket', async () => {
-    await start();
-    const operator = await service.operator();
-    const older = await service.robot('r1');
-    operator.send({ type: 'session.open', robotId: 'r1' });
-    await operator.until('session.opened');
-    const newer = await service.robot('r1');
-    expect(await operator.until('session.closed')).toMatchObject({ reason: 'robot-left' });
-    expect((await older.closed).code).toBe(1008);
-    await service.expectSession(newer, 'r1', operator);
-  });
-
-  test('refuses and closes a robot with another key', async () => {
-    await start();
-    await service.robot('r1');
-    const thief = await service.open(service.url('/robot'));
-    thief.send({ type: 'robot.hello', protocol: 1, id: 'r1', name: 'x', key: 'stolen' });
-    expect(await thief.next()).toMatchObject({ type: 'error', code: 'robot-id-taken' });
-    expect((await thief.closed).code).toBe(1008);
-  });
-
   test('closes a socket that sends nothing', async () => {
     await start({ helloTimeoutMs: 20 });
     const mute = await service.open(service.url('/operator'));
@@ -86,43 +64,6 @@ describe('Farpoint over real sockets', () => {
       here: [],
       gone: ['r1'],
     });
-  });
-
-  test('ten operators cannot flood a robot', async () => {
-    await start();
-    const robot = await service.robot('r1');
-    const flood = await Promise.all(
-      Array.from({ length: 10 }, async () => {
-        const operator = await service.operator();
-        operator.send({ type: 'session.open', robotId: 'r1' });
-        return { operator, session: (await operator.until('session.opened')).session };
-      }),
-    );
-    let bytes = 0;
-    robot.socket.on('message', (data: Buffer) => {
-      bytes += data.length;
-    });
-    for (let i = 0; i < 40; i++)
-      for (const { operator, session } of flood)
-        operator.send({ type: 'session.answer', session, sdp: 'x'.repeat(50_000) });
-    const begun = performance.now();
-    for (const { operator } of flood) operator.send({ type: 'session.open', robotId: 'nobody' });
-    const codes = await Promise.all(
-      flood.map(async ({ operator }) => {
-        const seen: unknown[] = [];
-        // The last message has been judged when this has been.
-        while (seen.at(-1) !== 'unknown-robot') seen.push((await operator.until('error')).code);
-        return seen;
-      }),
-    );
-    expect(codes.every((each) => each.includes('rate-limited'))).toBe(true);
-    const [first] = flood;
-    first?.operator.send({ type: 'session.close', session: first.session });
-    // All that was relayed before has arrived by then.
-    await robot.until('session.closed');
-    const seconds = (performance.now() - begun) / 1000;
-    // 20 MB were sent.
-    expect(bytes).toBeLessThan(1_100_000 + 260_000 * (seconds + 1));
   });
 
   test('disconnects a peer that does not read, and only that one', async () => {
@@ -153,7 +94,7 @@ describe('Farpoint over real sockets', () => {
 });
 
 describe('the reference protocol over real sockets', () => {
-  test('robot 0, on any path: register, trickle, answer, re-offer, deregister', async () => {
+  test('robot 0, on any path: register, trickle, answer, re-offer, leave', async () => {
     await start();
     const client = await service.referenceClient();
     client.send({ type: 'getRobots' });
@@ -172,16 +113,6 @@ describe('the reference protocol over real sockets', () => {
     expect(await robot.next()).toEqual({ type: 'candidate', candidate: 'candidate:2' });
     robot.send({ type: 'offer', robotId: 0, sdpOffer: 'again' });
     expect(await client.next()).toEqual({ type: 'offer', robotId: 0, sdpOffer: 'again' });
-    robot.send({ type: 'deregister', robotId: 0 });
-    expect(await client.next()).toEqual({ type: 'deregister', robotId: 0 });
-    expect(await client.next()).toEqual({ type: 'deregistered', robotId: 0 });
-  });
-
-  test('deregisters a robot whose socket closes', async () => {
-    await start();
-    const client = await service.referenceClient();
-    const robot = await service.referenceRobot();
-    await client.until('register');
     robot.socket.close();
     expect(await client.next()).toEqual({ type: 'deregistered', robotId: 0 });
   });
@@ -200,16 +131,6 @@ describe('tokens', () => {
     await start({ robotTokens, operatorTokens });
     const robot = await service.robot('r1', { token: 'token-of-r1' });
     await service.expectSession(robot, 'r1', await service.operator({ token: 'operator-token' }));
-    for (const [path, hello] of [
-      ['/robot', { type: 'robot.hello', protocol: 1, id: 'r2', name: 'x', key: 'k', token: 'token-of-r1' }],
-      ['/robot', { type: 'robot.hello', protocol: 1, id: 'r2', name: 'x', key: 'k' }],
-      ['/operator', { type: 'operator.hello', protocol: 1, name: 'x', token: 'token-of-r1' }],
-    ] as const) {
-      const socket = await service.open(service.url(path));
-      socket.send(hello);
-      expect(await socket.next()).toMatchObject({ code: 'unauthorized' });
-      expect((await socket.closed).code).toBe(1008);
-    }
     for (const port of ['referenceRobot', 'referenceClient'] as const) {
       await expect(service.open(service.url('/', port))).rejects.toThrow('401');
       await expect(service.open(service.url('/?token=wrong', port))).rejects.toThrow('401');
@@ -235,12 +156,6 @@ describe('tokens', () => {
     file('changing.txt', '');
     expect(() => service.service.reload()).toThrow('--operator-tokens names a file that is empty: ');
     await service.operator({ token: 'second-token' });
-  });
-
-  test('give a clear error if their file is missing', async () => {
-    await expect(TestService.start({ robotTokens: join(folder, 'nix') })).rejects.toThrow(
-      /^--robot-tokens cannot be read: .*nix does not exist/,
-    );
   });
 });
 
@@ -310,16 +225,9 @@ describe('admission', () => {
     await service.open(service.url('/robot'), { headers: { host: 'evil.example' } });
   });
 
-  test('does not start open to the network, and stays as it was if a reload would open it', async () => {
+  test('does not start open to the network by mistake', async () => {
     await expect(TestService.start({ host: '0.0.0.0' })).rejects.toThrow(
       /^--host lets everybody in .*--robot-tokens and --operator-tokens, or --open/,
-    );
-    const [robotTokens, operatorTokens] = [
-      file('r.json', '["robot-token-1"]'),
-      file('o.json', '["operator-token-1"]'),
-    ];
-    await expect(TestService.start({ host: '0.0.0.0', robotTokens, operatorTokens })).rejects.toThrow(
-      '--tls-cert',
     );
     await start({ host: '0.0.0.0', open: true });
     await service.operator();
@@ -412,27 +320,22 @@ describe('HTTP', () => {
     expect(await status({ 'x-forwarded-for': '203.0.113.9' })).toBe(200);
   });
 
-  test('lets the page connect to this service, to bridges beside the browser, and to named servers', async () => {
-    const root = join(folder, 'web-connect');
-    mkdirSync(root, { recursive: true });
-    writeFileSync(join(root, 'index.html'), '');
-    await start({ webRoot: root, connectOrigins: ['wss://janus.example:8989'] });
-    const policy = (await fetch(service.http('/'))).headers.get('content-security-policy');
-    const connect = policy?.split('; ').find((each) => each.startsWith('connect-src'));
-    expect(connect).toBe(
-      "connect-src 'self' blob: data: ws://localhost:* ws://127.0.0.1:* wss://janus.example:8989",
-    );
-  });
-
   test('serves the web app with its headers, and nothing outside it', async () => {
     const root = join(folder, 'web');
     mkdirSync(join(root, 'assets'), { recursive: true });
     writeFileSync(join(root, 'index.html'), '<title>Farpoint</title>');
     writeFileSync(join(root, 'assets/codec-abc.wasm'), '');
     file('secret.txt', 'secret');
-    await start({ webRoot: root });
+    const named = { connectOrigins: ['wss://janus.example:8989'], mapOrigins: ['https://tiles.example'] };
+    await start({ webRoot: root, ...named });
     const page = await fetch(service.http('/'));
     expect(await page.text()).toContain('Farpoint');
+    const policy = page.headers.get('content-security-policy')?.split('; ');
+    expect(policy).toContain("img-src 'self' data: blob: https://tiles.example");
+    // This service, bridges beside the browser, and named servers.
+    expect(policy).toContain(
+      "connect-src 'self' blob: data: ws://localhost:* ws://127.0.0.1:* wss://janus.example:8989",
+    );
     expect(Object.fromEntries(page.headers)).toMatchObject({
       'content-type': 'text/html;charset=utf-8',
       'cache-control': 'no-cache',
@@ -447,15 +350,6 @@ describe('HTTP', () => {
       expect((await fetch(service.http(path))).status).toBe(404);
     }
     expect((await fetch(service.http('/healthz'))).status).toBe(200);
-  });
-
-  test('lets the page fetch images from the named servers only', async () => {
-    const root = join(folder, 'web');
-    mkdirSync(root, { recursive: true });
-    writeFileSync(join(root, 'index.html'), '<title>Farpoint</title>');
-    await start({ webRoot: root, mapOrigins: ['https://tiles.example'] });
-    const policy = (await fetch(service.http('/'))).headers.get('content-security-policy');
-    expect(policy).toContain("; img-src 'self' data: blob: https://tiles.example; ");
   });
 
   test('gives a clear error for a web root without a page', async () => {

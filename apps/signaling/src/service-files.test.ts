@@ -1,8 +1,8 @@
 /** Every option of the service, and of its commands, that names a file to read. */
-import { mkdtempSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { OptionsError } from '@farpoint/service';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { uselessFiles } from '@farpoint/service/testing/useless-files';
 import { describe, expect, it } from 'vitest';
 import { grantCommand } from './grant/grant-command.ts';
@@ -10,7 +10,7 @@ import { defaultOptions, type SignalingOptions } from './options.ts';
 import { RevocationFiles } from './revocation-files.ts';
 import { readFiles } from './service-files.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-files-'));
+const folder = useFolder();
 const useless = uselessFiles();
 
 function file(name: string, text: string): string {

@@ -1,13 +1,10 @@
-import { mkdtempSync, rmSync } from 'node:fs';
 import { request } from 'node:https';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { selfSigned } from '@farpoint/service/testing/self-signed';
-import { afterAll, expect, test } from 'vitest';
+import { expect, test } from 'vitest';
 import { TestService } from './test-sockets.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-hsts-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 
 test('with TLS, browsers are told to use HTTPS only; not for localhost, nor without TLS', async () => {
   const { key: tlsKey, cert: tlsCert } = selfSigned(folder, 'hsts');

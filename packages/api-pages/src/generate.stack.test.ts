@@ -1,7 +1,7 @@
-import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { afterEach, beforeEach, expect, test } from 'vitest';
+import { testFolder } from '@farpoint/service/testing/folder';
+import { expect, test } from 'vitest';
 import { apiPages } from './generate.ts';
 
 /** TypeDoc compiles everything that the packages use. */
@@ -18,14 +18,9 @@ test(
   LONG_MS,
 );
 
-let folder: string;
-beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-api-pages-'));
-});
-afterEach(() => rmSync(folder, { recursive: true }));
-
 /** The page of a package of one module. */
 async function pageOf(module: string): Promise<string> {
+  const folder = testFolder();
   mkdirSync(join(folder, 'src'));
   writeFileSync(
     join(folder, 'package.json'),

@@ -2,7 +2,6 @@ import {
   appendFileSync,
   chmodSync,
   mkdirSync,
-  mkdtempSync,
   readdirSync,
   readFileSync,
   renameSync,
@@ -12,9 +11,9 @@ import {
   writeFileSync,
 } from 'node:fs';
 import { type FileHandle, open as openFile } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { afterEach, beforeEach, expect, it, vi } from 'vitest';
+import { testFolder } from '@farpoint/service/testing/folder';
+import { beforeEach, expect, it, vi } from 'vitest';
 import { auditCommand } from './audit-command.ts';
 import { AuditFile } from './audit-file.ts';
 import { AuditLog, type AuditLogOptions } from './audit-log.ts';
@@ -24,10 +23,9 @@ import { verifyFiles } from './verify-files.ts';
 let folder: string;
 let path: string;
 beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-audit-'));
+  folder = testFolder();
   path = join(folder, 'audit.jsonl');
 });
-afterEach(() => rmSync(folder, { recursive: true, force: true }));
 
 const setUp = (given: Partial<AuditLogOptions> = {}) => {
   const onFault = vi.fn();

@@ -4,23 +4,20 @@ import { once } from 'node:events';
 import { createServer, type Server } from 'node:http';
 import { type AddressInfo, createServer as createTcpServer } from 'node:net';
 import { fileURLToPath } from 'node:url';
-import { afterEach, describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it, onTestFinished } from 'vitest';
 import { ReferenceOperator } from './peers/reference-operator.ts';
 import { SocketPeer } from './peers/socket-peer.ts';
 import { findUnreachable } from './reach.ts';
 import { signalingSuite } from './suites/signaling-suite.ts';
 import { type CaseResult, runSuite, whyUnfinished } from './suites/suite.ts';
 import { ReleasedSignaling } from './testing/index.ts';
-import { closePlainServer, openPlainServer, plainServerUrl } from './testing/plain-socket-server.ts';
 
 const PROGRAM = fileURLToPath(new URL('main.ts', import.meta.url));
 
 let signaling: ReleasedSignaling | null = null;
-const cleanups: (() => unknown)[] = [];
 afterEach(async () => {
   await signaling?.stop();
   signaling = null;
-  for (const cleanup of cleanups.splice(0)) await cleanup();
 });
 
 function run(...args: string[]): Promise<{ code: number; out: string; err: string }> {
@@ -82,7 +79,7 @@ const at = (url: string, suite: Suite) => SUITES[suite].flatMap((option) => [`--
 async function listening(server: Server | ReturnType<typeof createTcpServer>): Promise<string> {
   server.listen(0, '127.0.0.1');
   await once(server, 'listening');
-  cleanups.push(() => server.close());
+  onTestFinished(() => void server.close());
   return `127.0.0.1:${(server.address() as AddressInfo).port}`;
 }
 
@@ -119,28 +116,12 @@ describe.each(Object.keys(SUITES) as Suite[])('%s that cannot be reached', (suit
     const outcomes = JSON.parse(out).map(({ outcome, defect }: Record<string, unknown>) => [outcome, defect]);
     expect(new Set(outcomes.map(String))).toEqual(new Set(['not-tried,']));
   });
-
-  it('goes away: the remaining cases are not tried', { timeout: 30_000 }, async () => {
-    const server = await openPlainServer();
-    cleanups.push(() => closePlainServer(server).catch(() => undefined));
-    let connections = 0;
-    // The kit has tried each address; now its first case begins.
-    server.on('connection', () => {
-      if (++connections > SUITES[suite].length) void closePlainServer(server);
-    });
-    const url = plainServerUrl(server);
-    const { code, err } = await run(suite, ...at(url, suite), '--level', 'reference');
-    expect(code).toBe(3);
-    expect(err).not.toContain('known defect');
-    expect(err).toMatch(/^0 passed, 1 failed, \d+ not tried at level reference$/m);
-    expect(err).toMatch(/^ws:.* \(--\w+\) went away during ‘.*’: nothing listens there; check /m);
-  });
 });
 
 it('says which robots there are if the one it looks for has not registered', async () => {
   signaling = await ReleasedSignaling.start();
   const other = await SocketPeer.open(signaling.robotUrl);
-  cleanups.push(() => other.close());
+  onTestFinished(() => other.close());
   other.send({ type: 'register', name: 'rover', sdpOffer: 'v=0' });
   await other.message({ type: 'registered' });
   const cases = [

@@ -1,12 +1,11 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { afterAll, describe, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it } from 'vitest';
 import { requireAddon } from './addon.ts';
 import { faultOf } from './testing/helpers.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-dds-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 
 describe('without the addon', () => {
   it('one sentence says what is missing and how to fix it', () => {

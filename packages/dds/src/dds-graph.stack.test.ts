@@ -1,13 +1,14 @@
 /** Graphs in this process that communicate with each other. */
 import { spawnSync } from 'node:child_process';
-import { mkdtempSync, readdirSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { Worker } from 'node:worker_threads';
 import { RELIABLE_QOS, type RosFault, SENSOR_QOS } from '@farpoint/ros';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { testFolder } from '@farpoint/service/testing/folder';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { DdsGraph } from './dds-graph.ts';
-import { ADDON_SUITE, cdr, faultOf, testDomain, until } from './testing/helpers.ts';
+import { ADDON_SUITE, cdr, faultOf, testDomain } from './testing/helpers.ts';
 
 const STRING = 'std_msgs/msg/String';
 const options = { domain: testDomain(), localhostOnly: true, env: {} };
@@ -44,14 +45,14 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
       sound &&= bytes.subarray(4).every((byte, i) => byte === (i * 7 + bytes.length) % 256);
     });
     const publisher = theirs.advertise({ topic: '/a', type: STRING });
-    await until(() => publisher.subscribers === 1);
+    await eventually(() => publisher.subscribers === 1);
     const given = [4, 5, 6, 7, 8, 4096, 4097, 300_001, 9, 5_000_000];
     for (const size of given) {
       const bytes = Uint8Array.from({ length: size }, (_, i) => ((i - 4) * 7 + size) % 256);
       bytes.set(cdr());
       publisher.publish(bytes);
     }
-    await until(() => sizes.length === given.length);
+    await eventually(() => sizes.length === given.length);
     expect(sizes).toEqual(given);
     expect(sound).toBe(true);
   });
@@ -60,11 +61,11 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     const subscription = ours.subscribe({ topic: '/b', type: STRING, queue: 3 }, () => undefined);
     const { heard } = hear('/b', 3);
     const publisher = theirs.advertise({ topic: '/b', type: STRING });
-    await until(() => publisher.subscribers === 2);
+    await eventually(() => publisher.subscribers === 2);
     // Nothing is delivered before this function yields the thread.
     for (let i = 0; i < 10; i++) publisher.publish(cdr(i));
     expect(subscription).toMatchObject({ received: 10, dropped: 7, publishers: 1 });
-    await until(() => heard.length === 3);
+    await eventually(() => heard.length === 3);
     expect(heard.map((bytes) => bytes[4])).toEqual([7, 8, 9]);
   });
 
@@ -74,12 +75,12 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     ours = new DdsGraph({ ...options, now: () => performance.now() });
     const { heard, ms } = hear('/c', 1);
     const publisher = theirs.advertise({ topic: '/c', type: STRING });
-    await until(() => publisher.subscribers === 1);
+    await eventually(() => publisher.subscribers === 1);
     const published = performance.now();
     publisher.publish(cdr(1));
     const busyUntil = published + 20;
     while (performance.now() < busyUntil);
-    await until(() => heard.length === 1);
+    await eventually(() => heard.length === 1);
     expect(ms[0]).toBeGreaterThan(started);
     expect(ms[0]).toBeLessThan(busyUntil);
   });
@@ -89,7 +90,7 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     const publisher = theirs.advertise({ topic: '/d', type: STRING, qos });
     for (let i = 0; i < 5; i++) publisher.publish(cdr(i));
     const { heard } = hear('/d', 8, qos);
-    await until(() => heard.length === 2);
+    await eventually(() => heard.length === 2);
     expect(heard.map((bytes) => bytes[4])).toEqual([3, 4]);
   });
 
@@ -98,25 +99,25 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     const wrong = () => faults.filter(({ code }) => code === 'wrong-type');
     const publisher = theirs.advertise({ topic: '/e', type: 'std_msgs/msg/Bool' });
     theirs.advertise({ topic: '/e2', type: STRING });
-    await until(() => wrong().length === 1);
+    await eventually(() => wrong().length === 1);
     expect(wrong()[0]).toMatchObject({ topic: '/e' });
     publisher.close();
-    await until(() => !ours.topics().some(({ topic }) => topic === '/e'));
+    await eventually(() => !ours.topics().some(({ topic }) => topic === '/e'));
     // This is noticed slightly later; by then, the mismatch has been seen to disappear.
     const later = ours.subscribe(
       { topic: '/later', type: STRING, queue: 1, qos: RELIABLE_QOS },
       () => undefined,
     );
     theirs.advertise({ topic: '/later', type: STRING, qos: SENSOR_QOS });
-    await until(() => faults.some(({ topic }) => topic === later.topic));
+    await eventually(() => faults.some(({ topic }) => topic === later.topic));
     theirs.advertise({ topic: '/e', type: 'std_msgs/msg/Bool' });
-    await until(() => wrong().length === 2);
+    await eventually(() => wrong().length === 2);
   });
 
   it('reports QoS guarantees that are not offered', async () => {
     ours.subscribe({ topic: '/f', type: STRING, queue: 1, qos: RELIABLE_QOS }, () => undefined);
     const publisher = theirs.advertise({ topic: '/f', type: STRING, qos: SENSOR_QOS });
-    await until(() => faults.length === 1);
+    await eventually(() => faults.length === 1);
     expect(faults[0]).toMatchObject({ code: 'refused', topic: '/f' });
     expect(publisher.subscribers).toBe(0);
   });
@@ -125,13 +126,13 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     theirs.advertise({ topic: '/g', type: STRING });
     theirs.subscribe({ topic: '/h', type: STRING, queue: 1 }, () => undefined);
     ours.advertise({ topic: '/i', type: STRING });
-    await until(() => ours.topics().length === 2);
+    await eventually(() => ours.topics().length === 2);
     expect(ours.topics()).toEqual([
       { topic: '/g', type: STRING, publishers: 1, subscribers: 0 },
       { topic: '/h', type: STRING, publishers: 0, subscribers: 1 },
     ]);
     await theirs.close();
-    await until(() => ours.topics().length === 0);
+    await eventually(() => ours.topics().length === 0);
   });
 
   it('refuses to publish anything but CDR', () => {
@@ -156,9 +157,9 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
       subscription.close();
     });
     const publisher = theirs.advertise({ topic: '/k', type: STRING });
-    await until(() => publisher.subscribers === 1);
+    await eventually(() => publisher.subscribers === 1);
     for (let i = 0; i < 4; i++) publisher.publish(cdr(i));
-    await until(() => heard > 0);
+    await eventually(() => heard > 0);
     await ours.close();
     await ours.close();
     publisher.publish(cdr(9));
@@ -183,19 +184,12 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     expect(fault.message).toContain('another configuration');
   });
 
-  it('may be used only in workers', () => {
+  it('may be used only in workers, and writes no file to its working directory, which may not be writable', () => {
+    const folder = testFolder();
     const program = join(import.meta.dirname, 'testing', 'worker-only.ts');
-    const { status, signal } = spawnSync(process.execPath, [program]);
-    expect({ status, signal }).toEqual({ status: 0, signal: null });
-  });
-
-  it('writes no file to its working directory, which may not be writable', () => {
-    const folder = mkdtempSync(join(tmpdir(), 'farpoint-dds-'));
-    const program = join(import.meta.dirname, 'testing', 'worker-only.ts');
-    const { status } = spawnSync(process.execPath, [program], { cwd: folder });
+    const { status, signal } = spawnSync(process.execPath, [program], { cwd: folder });
     const files = readdirSync(folder);
-    rmSync(folder, { recursive: true });
-    expect({ status, files }).toEqual({ status: 0, files: [] });
+    expect({ status, signal, files }).toEqual({ status: 0, signal: null, files: [] });
   });
 
   it('survives a thread that ends with an open graph', async () => {
@@ -203,14 +197,14 @@ describe(`a graph over DDS (${ADDON_SUITE.note})`, { skip: ADDON_SUITE.skip }, (
     const worker = new Worker(new URL('./testing/publishing-worker.ts', import.meta.url), {
       workerData: { options, topic: '/l', type: STRING },
     });
-    await until(() => heard.length > 0);
+    await eventually(() => heard.length > 0);
     await worker.terminate();
     const count = ours.topics().length;
     expect(count).toBe(0);
     const publisher = theirs.advertise({ topic: '/m', type: STRING });
     const other = hear('/m', 1);
-    await until(() => publisher.subscribers === 1);
+    await eventually(() => publisher.subscribers === 1);
     publisher.publish(cdr(1));
-    await until(() => other.heard.length === 1);
+    await eventually(() => other.heard.length === 1);
   });
 });

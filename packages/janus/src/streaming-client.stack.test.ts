@@ -1,6 +1,6 @@
 /** The client with a real Janus. */
 import { findJanus, JANUS_REMEDY, JanusServer } from '@farpoint/local-stack';
-import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { afterAll, beforeAll, describe, expect, it, onTestFinished } from 'vitest';
 import { JanusFailure } from './janus-failure.ts';
 import { StreamingClient } from './streaming-client.ts';
 import type { MountpointRequest } from './streaming-message.ts';
@@ -13,19 +13,15 @@ const failureOf = (request: Promise<unknown>) =>
 
 describe.skipIf(findJanus() === null)(`Janus’ streaming plugin (needs: ${JANUS_REMEDY})`, () => {
   let janus: JanusServer;
-  const clients: StreamingClient[] = [];
   beforeAll(async () => {
     janus = await JanusServer.start();
   }, 30_000);
   afterAll(() => janus?.stop());
-  afterEach(() => {
-    for (const client of clients.splice(0)) client.close();
-  });
 
   async function connect(events: Partial<Parameters<typeof StreamingClient.connect>[1]> = {}) {
     const open = () => new WebSocket(janus.url, 'janus-protocol');
     const client = await StreamingClient.connect({ open }, { onClosed: () => undefined, ...events });
-    clients.push(client);
+    onTestFinished(() => client.close());
     return client;
   }
 

@@ -1,6 +1,6 @@
 import { type LocalStack, LocalStack as Stack } from '@farpoint/local-stack';
 import { idealProfile } from '@farpoint/network-sim';
-import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
+import { afterAll, beforeAll, expect, onTestFinished, test } from 'vitest';
 import { WebSocket } from 'ws';
 import { SignalingInterposer } from './signaling-interposer.ts';
 import { UdpLink } from './udp-link.ts';
@@ -8,14 +8,10 @@ import { UdpLink } from './udp-link.ts';
 type Json = Record<string, unknown>;
 
 let stack: LocalStack;
-const closers: (() => unknown)[] = [];
 beforeAll(async () => {
   stack = await Stack.start({ robots: [] });
 }, 60_000);
 afterAll(() => stack.stop());
-afterEach(async () => {
-  for (const close of closers.splice(0).reverse()) await close();
-});
 
 class Socket {
   readonly #socket: WebSocket;
@@ -31,7 +27,7 @@ class Socket {
     });
     this.#socket.on('error', () => {});
     this.closed = new Promise((resolve) => this.#socket.on('close', resolve));
-    closers.push(() => this.#socket.terminate());
+    onTestFinished(() => this.#socket.terminate());
   }
 
   async send(message: unknown): Promise<void> {
@@ -66,8 +62,8 @@ async function interpose(peers: 'farpoint' | 'reference-robots' | 'reference-cli
     peers,
     events: { onFault: (side, fault) => faults.push(`${side} ${fault}`) },
   });
-  closers.push(() => link.close());
-  closers.push(() => interposer.close());
+  onTestFinished(() => link.close());
+  onTestFinished(() => interposer.close());
   return { link, faults, url: `ws://127.0.0.1:${interposer.port}` };
 }
 

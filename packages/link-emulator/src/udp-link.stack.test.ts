@@ -1,14 +1,9 @@
 import { createSocket, type RemoteInfo, type Socket } from 'node:dgram';
 import { once } from 'node:events';
 import { constantCapacity, idealProfile, type LinkBin } from '@farpoint/network-sim';
-import { afterEach, expect, test } from 'vitest';
+import { expect, onTestFinished, test } from 'vitest';
 import type { Endpoint } from './candidate.ts';
 import { type Direction, UdpLink, type UdpLinkOptions } from './udp-link.ts';
-
-const closers: (() => void)[] = [];
-afterEach(() => {
-  for (const close of closers.splice(0)) close();
-});
 
 /** A datagram socket whose packets can be awaited. */
 class Peer {
@@ -28,7 +23,7 @@ class Peer {
     const socket = createSocket({ type: 'udp4', recvBufferSize: 1 << 20 });
     socket.bind(0, '127.0.0.1');
     await once(socket, 'listening');
-    closers.push(() => socket.close());
+    onTestFinished(() => void socket.close());
     return new Peer(socket);
   }
 
@@ -57,7 +52,7 @@ function open(options: Partial<UdpLinkOptions> = {}): UdpLink {
     seed: 1,
     ...options,
   });
-  closers.push(() => link.close());
+  onTestFinished(() => link.close());
   return link;
 }
 

@@ -3,10 +3,10 @@
  * gcc-aarch64-linux-gnu).
  */
 import { spawnSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { afterAll, describe, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it } from 'vitest';
 import { findNodeHeaders, INCLUDE_FOLDER } from './build-addon.ts';
 
 const compiler = 'aarch64-linux-gnu-gcc';
@@ -27,8 +27,7 @@ const WARNINGS = [
 ];
 
 describe.skipIf(!here)(`for arm64 (needs ${compiler})`, () => {
-  const out = mkdtempSync(join(tmpdir(), 'farpoint-arm64-'));
-  afterAll(() => rmSync(out, { recursive: true }));
+  const out = useFolder();
 
   it.skipIf(dds === undefined).each(['dds'])('%s (needs cyclonedds-dev)', (name) => compile(name, 'gnu11'));
   it.each(['shared-memory', 'gpio', 'systemd', 'udp-batch'])('%s', (name) => compile(name, 'c11'));

@@ -1,8 +1,7 @@
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { useFolder } from '@farpoint/service/testing/folder';
 import fc from 'fast-check';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { beforeAll, describe, expect, it } from 'vitest';
 import { CloudPlayer } from './cloud-player.ts';
 import { RecordingError } from './errors.ts';
 import { openRecording } from './open-recording.ts';
@@ -12,8 +11,7 @@ import { FakeClock } from './testing/fake-clock.ts';
 import { cloudMessage, mcapOf, writeFile } from './testing/files.ts';
 
 const CLOUDS = 40;
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-damaged-'));
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 let whole: Uint8Array;
 beforeAll(async () => {
   // Not a Buffer: its slices share memory.

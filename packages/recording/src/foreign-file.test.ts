@@ -1,14 +1,13 @@
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { mkdirSync, mkdtempSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { afterAll, describe, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it } from 'vitest';
 import { CloudPlayer } from './cloud-player.ts';
 import { openRecording } from './open-recording.ts';
 import { FakeClock } from './testing/fake-clock.ts';
 import { mcapOfTopics } from './testing/files.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-foreign-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 const text = (words: string) => new TextEncoder().encode(words);
 
 describe('what is no recording says what it is', () => {

@@ -1,16 +1,14 @@
 /** MCAP files whose writers left out what is optional. */
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { afterAll, describe, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it } from 'vitest';
 import { CloudPlayer } from './cloud-player.ts';
 import { openRecording } from './open-recording.ts';
 import { FakeClock } from './testing/fake-clock.ts';
 import { cloudMessage, mcapOf, START_NS, type Summary, writeFile } from './testing/files.ts';
 
 const CLOUDS = 20;
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-partial-'));
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 
 const left: [string, Summary & { useChunks?: boolean }][] = [
   ['an index of messages', { useMessageIndex: false }],

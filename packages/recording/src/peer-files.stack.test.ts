@@ -1,9 +1,9 @@
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Pose } from '@farpoint/protocol';
+import { useFolder } from '@farpoint/service/testing/folder';
 import fc from 'fast-check';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { beforeAll, describe, expect, it } from 'vitest';
 import { CloudPlayer } from './cloud-player.ts';
 import { RecordingError } from './errors.ts';
 import { openRecording } from './open-recording.ts';
@@ -61,9 +61,8 @@ describe.skipIf(typeof peers === 'string')(
   `recordings of PyPI’s mcap and rosbags ${typeof peers === 'string' ? `(${peers})` : ''}`,
   { timeout: 60_000 },
   () => {
-    const folder = mkdtempSync(join(tmpdir(), 'farpoint-recordings-'));
+    const folder = useFolder();
     beforeAll(() => (peers as Peers).write(folder), INSTALL_MS);
-    afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
     it.each(FILES)('%s: contains every message, in order', async (file) => {
       const recording = await openRecording(join(folder, file));

@@ -1,9 +1,8 @@
 /** Messages played along with the clouds: at their times, whatever is done to the playback. */
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { useFolder } from '@farpoint/service/testing/folder';
 import fc from 'fast-check';
-import { afterAll, beforeAll, describe, expect, it, vi } from 'vitest';
+import { beforeAll, describe, expect, it, vi } from 'vitest';
 import { CloudPlayer } from './cloud-player.ts';
 import type { RecordingError } from './errors.ts';
 import type { PlayOptions } from './play-options.ts';
@@ -13,8 +12,7 @@ import { POINT_CLOUD2_SCHEMA } from './ros-schemas.ts';
 import { FakeClock } from './testing/fake-clock.ts';
 import { cloudMessage, mcapOfTopics, START_NS, writeFile } from './testing/files.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-along-'));
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 
 const MS = 1_000_000n;
 const CLOUDS = 20;

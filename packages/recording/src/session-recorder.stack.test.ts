@@ -1,11 +1,12 @@
 import { spawn } from 'node:child_process';
 import { createHash } from 'node:crypto';
-import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Pose } from '@farpoint/protocol';
 import { foxgloveCompressedImageSchema, stampNs } from '@farpoint/ros';
-import { afterAll, describe, expect, it } from 'vitest';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it, onTestFinished } from 'vitest';
 import * as z from 'zod';
 import { CloudPlayer } from './cloud-player.ts';
 import { CloudTap } from './cloud-tap.ts';
@@ -14,8 +15,7 @@ import { SessionRecorder } from './session-recorder.ts';
 import { FakeClock } from './testing/fake-clock.ts';
 import { Peers } from './testing/peers.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-recorder-'));
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 
 const headerSchema = z.object({ frame_id: z.string() });
 const tfSchema = z.object({
@@ -48,14 +48,33 @@ const frameOf = (video: number, k: number): Uint8Array<ArrayBuffer> =>
   Uint8Array.from({ length: 900 + k }, (_, i) => (i * 5 + k * 17 + video) & 0xff);
 
 /** Lets the writer run, as between two frames of a camera. */
-async function written(tap: CloudTap): Promise<void> {
-  while (tap.pending > 0) await new Promise((resolve) => setTimeout(resolve, 1));
+const written = (tap: CloudTap) => eventually(() => tap.pending === 0);
+
+type RecorderOptions = Parameters<typeof SessionRecorder.open>[0];
+const open = (path: string, more: Partial<RecorderOptions> = {}) =>
+  SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n, ...more });
+
+/** A recorder with a file of its own. @returns it, and what it has written, once it is closed */
+async function recorderOf(name: string, more: Partial<RecorderOptions> = {}) {
+  const path = join(folder, `${name}.mcap`);
+  const recorder = await open(path, more);
+  const reopen = async (clouds: { close(): void } = recorder.clouds) => {
+    clouds.close();
+    await recorder.close();
+    return reopened(path);
+  };
+  return { path, recorder, reopen };
+}
+
+/** A recording that is closed with the test. */
+async function reopened(path: string) {
+  const recording = await openRecording(path);
+  onTestFinished(() => recording.close());
+  return recording;
 }
 
 async function record(path: string, compression: 'none' | 'zstd' = 'none'): Promise<SessionRecorder> {
-  const recorder = await SessionRecorder.open({
-    ...{ path, compression, robotId: 'test', epochNs: 1_700_000_000_000_000_000n },
-  });
+  const recorder = await open(path, { compression, epochNs: 1_700_000_000_000_000_000n });
   recorder.cameras(CAMERAS);
   recorder.videos([
     { name: 'Front', format: 'h264' },
@@ -109,12 +128,11 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
   it.each(['none', 'zstd'] as const)('what it records (%s) can be played', async (compression) => {
     const { path, recorder } = await recorded(compression);
     expect(recorder.bytes).toBe(statSync(path).size);
-    const recording = await openRecording(path);
+    const recording = await reopened(path);
     expect(recording.warning).toBeNull();
     const counts = Object.fromEntries(recording.topics.map(({ name, messages }) => [name, messages]));
     expect(counts).toMatchObject({ '/farpoint/captured': FRAMES, '/tf': 2 * FRAMES, '/odom': FRAMES });
     expect(counts).toMatchObject({ '/farpoint/cmd_vel': FRAMES, '/farpoint/telemetry': FRAMES });
-    await recording.close();
     expect(counts).toMatchObject({ [FRONT]: FRAMES, [REAR]: FRAMES / 3 });
     expect(recorder.messages).toBe(FRAMES * 9 + FRAMES / 3 + (counts['/farpoint/recorder'] ?? 0));
 
@@ -159,7 +177,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
 
   it('every frame named in a message has a pose in the world through tf alone, as viewers need it', async () => {
     const { path } = await recorded('none');
-    const recording = await openRecording(path);
+    const recording = await reopened(path);
     const parents = new Map<string, string>();
     const named = new Map<string, string>();
     const pictureFrames = new Set<string>();
@@ -177,7 +195,6 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       if (header !== undefined) named.set(header.frame_id, topic.name);
       if (child_frame_id !== undefined) named.set(child_frame_id, topic.name);
     }
-    await recording.close();
     expect(pictureFrames).toEqual(new Set(['camera_optical_frame', '/rear/image_raw', 'Front', 'Mast left']));
     expect([...named.keys()].sort()).toEqual(['base_link', 'camera_optical_frame', 'world']);
     for (const [frame, topic] of named) {
@@ -187,44 +204,19 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     }
   });
 
-  it('records no more captured clouds than configured', async () => {
-    const path = join(folder, 'few.mcap');
-    const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
-    const tap = new CloudTap(recorder.clouds, { captured: 5, sent: Number.POSITIVE_INFINITY });
-    const cloud = { form: 'points' as const, points: new Float32Array(40), count: 10 };
-    for (let k = 0; k < 58; k++) {
-      tap.captured(
-        { ...cloud, cameraPose: poseAt(0), capturedAtMs: k * (1000 / 30) },
-        { ...GRID, camera: null },
-      );
-      await written(tap);
-    }
-    tap.close();
-    await recorder.close();
-    const recording = await openRecording(path);
-    expect(recording.topics.find(({ name }) => name === '/farpoint/captured')?.messages).toBe(10);
-    await recording.close();
-  });
-
   it.each(['none', 'zstd'] as const)(
     'ends before it exceeds its maximum size (%s), reports it, and every message of it can be read',
     async (compression) => {
-      const path = join(folder, `full-${compression}.mcap`);
       const mostBytes = 2_000_000;
-      const recorder = await SessionRecorder.open({
-        ...{ path, compression, robotId: 'test', epochNs: 0n, mostBytes },
-      });
-      const full = new Promise<void>((resolve) => {
-        recorder.onFull = resolve;
-      });
+      const { path, recorder, reopen } = await recorderOf(`full-${compression}`, { compression, mostBytes });
+      let ended = false;
+      recorder.onFull = () => {
+        ended = true;
+      };
       const tap = new CloudTap(recorder.clouds, { captured: 1000, sent: 1000 });
       // Incompressible data.
       const points = Float32Array.from({ length: 40_000 }, (_, i) => Math.sin(i * i));
       let pushed = 0;
-      let ended = false;
-      void full.then(() => {
-        ended = true;
-      });
       while (!ended) {
         recorder.json('telemetry', pushed, { pushed });
         tap.captured(
@@ -241,26 +233,22 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       );
       expect(tap.pending).toBe(0);
       expect(tap.dropped).toBe(0);
-      tap.close();
-      await recorder.close();
+      const recording = await reopen(tap);
       const { size } = statSync(path);
       expect(size).toBeLessThanOrEqual(mostBytes);
       expect(size).toBeGreaterThan(mostBytes * 0.8);
       expect(recorder.bytes).toBe(size);
-      const recording = await openRecording(path);
       expect(recording.warning).toBeNull();
       const messages = new Map(recording.topics.map((topic) => [topic.name, topic.messages]));
       let clouds = 0;
       for await (const _ of recording.messages(['/farpoint/captured'], 0n)) clouds++;
       expect(clouds).toBe(messages.get('/farpoint/captured'));
       expect(clouds).toBeGreaterThan(5);
-      await recording.close();
     },
   );
 
   it('drops the oldest if the writer does not keep up, counts it, and never waits', async () => {
-    const path = join(folder, 'fast.mcap');
-    const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
+    const { recorder, reopen } = await recorderOf('fast');
     const tap = new CloudTap(recorder.clouds, {
       captured: Number.POSITIVE_INFINITY,
       sent: Number.POSITIVE_INFINITY,
@@ -277,30 +265,24 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     for (let k = 0; k < 10_000; k++) recorder.json('telemetry', k, { k });
     expect(tap.dropped).toBe(50 - 6);
     expect(recorder.dropped.events).toBe(10_000 - 256 - 4096);
-    tap.close();
-    await recorder.close();
-    const recording = await openRecording(path);
+    const recording = await reopen(tap);
     const sequences: number[] = [];
     for await (const { logNs } of recording.messages(['/farpoint/captured'], 0n))
       sequences.push(Number(logNs / 1_000_000n));
     // The first two were in progress at once; the newest four waited.
     expect(sequences).toEqual([0, 1, 46, 47, 48, 49]);
     expect(recording.topics.find(({ name }) => name === '/farpoint/telemetry')?.messages).toBe(256 + 4096);
-    await recording.close();
   });
 
   it('drops the oldest pictures if the writer does not keep up, and reports which are missing', async () => {
-    const path = join(folder, 'many-pictures.mcap');
-    const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
+    const { recorder, reopen } = await recorderOf('many-pictures');
     recorder.cameras([{ name: 'Camera', ofCloud: true }]);
     // All in one turn, so that no answer can arrive in between.
     for (let k = 0; k < 100; k++) recorder.picture(0, k, 'jpeg', pictureOf(0, k));
     recorder.json('telemetry', 0, {});
     expect(recorder.dropped).toEqual({ ...NOTHING_DROPPED, pictures: 100 - 4 - 24 });
-    recorder.clouds.close();
-    await recorder.close();
+    const recording = await reopen();
     expect(recorder.dropped.pictures).toBe(72);
-    const recording = await openRecording(path);
     const times: number[] = [];
     let told: unknown = null;
     for await (const { topic, logNs, data } of recording.messages([FRONT, '/farpoint/recorder'], 0n)) {
@@ -315,12 +297,10 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     // The first four were in progress at once; the newest 24 waited.
     expect(told).toMatchObject({ dropped: { captured: 0, sent: 0, pictures: 72 }, faults: 0 });
     expect(times).toEqual([0, 1, 2, 3, ...Array.from({ length: 24 }, (_, i) => 76 + i)]);
-    await recording.close();
   });
 
   it('drops whole runs of video frames if the writer does not keep up, and asks for a key frame', async () => {
-    const path = join(folder, 'many-frames.mcap');
-    const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
+    const { recorder, reopen } = await recorderOf('many-frames');
     recorder.videos([{ name: 'Front', format: 'h264' }]);
     const asked: number[] = [];
     recorder.onKeyFrameNeeded = (video) => asked.push(video);
@@ -336,29 +316,22 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     expect(recorder.dropped.videos).toBe(700 - keptFirst);
     expect(asked).toEqual([0]);
     recorder.video({ video: 0, capturedAtMs: 700, key: true, format: 'h264', bytes: frameOf(0, 700) });
-    recorder.clouds.close();
-    await recorder.close();
-    const recording = await openRecording(path);
+    const recording = await reopen();
     const times: number[] = [];
     for await (const { logNs } of recording.messages([VIDEOS[0]!], 0n))
       times.push(Number(logNs / 1_000_000n));
     expect(times).toEqual([...Array.from({ length: keptFirst }, (_, k) => k), 700]);
-    await recording.close();
   });
 
   it('a camera that nobody watched has a topic without messages', async () => {
-    const path = join(folder, 'no-pictures.mcap');
-    const recorder = await SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n });
+    const { recorder, reopen } = await recorderOf('no-pictures');
     recorder.cameras(CAMERAS);
     recorder.json('telemetry', 0, {});
-    recorder.clouds.close();
-    await recorder.close();
-    const recording = await openRecording(path);
+    const recording = await reopen();
     for (const name of [FRONT, REAR])
       expect(recording.topics.find((topic) => topic.name === name)).toMatchObject({
         ...{ type: 'foxglove_msgs/msg/CompressedImage', messages: 0 },
       });
-    await recording.close();
   });
 
   it('does not overwrite a file', async () => {
@@ -373,13 +346,8 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
 
   it('if it is killed, the file can be read up to its last chunk', async () => {
     const path = join(folder, 'killed.mcap');
-    const child = spawn(
-      process.execPath,
-      [join(import.meta.dirname, 'testing', 'endless-recorder.ts'), path],
-      {
-        stdio: ['ignore', 'pipe', 'inherit'],
-      },
-    );
+    const program = join(import.meta.dirname, 'testing', 'endless-recorder.ts');
+    const child = spawn(process.execPath, [program, path], { stdio: ['ignore', 'pipe', 'inherit'] });
     const written = await new Promise<number>((resolve) => {
       child.stdout.on('data', (data: Buffer) => {
         const count = Number(data.toString().trim().split('\n').at(-1));
@@ -388,14 +356,13 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     });
     child.kill('SIGKILL');
     await new Promise((resolve) => child.once('exit', resolve));
-    const recording = await openRecording(path);
+    const recording = await reopened(path);
     expect(recording.warning).toContain('ends without its index');
     let clouds = 0;
     for await (const { topic, data } of recording.messages(['/farpoint/captured'], 0n)) {
       expect(topic.decode(data)).toMatchObject({ width: 100, height: 100 });
       clouds++;
     }
-    await recording.close();
     // At least what the writer had reported as written.
     expect(clouds).toBeGreaterThan(0);
     const all = recording.topics.reduce((sum, { messages }) => sum + (messages ?? 0), 0);

@@ -1,10 +1,9 @@
 /** Quantities, alarms and reports of components: written by the recorder, read by this project and by others. */
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Alarm, DiagnosticReport } from '@farpoint/protocol';
 import { DiagnosticBoard, stampNs } from '@farpoint/ros';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { beforeAll, describe, expect, it } from 'vitest';
 import { openRecording } from './open-recording.ts';
 import { alarmRecordSchema, quantityOf, sampleRecordSchema, sincesOf } from './recorded-telemetry.ts';
 import type { RecordedTopic } from './recording.ts';
@@ -12,9 +11,8 @@ import { SessionRecorder } from './session-recorder.ts';
 import { Peers } from './testing/peers.ts';
 
 const EPOCH_MS = 1_700_000_000_000;
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-telemetry-'));
+const folder = useFolder();
 const path = join(folder, 'drive.mcap');
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
 const QUANTITIES = [
   { topic: '/motors', field: 'left', label: 'Left motor', unit: '°C' },

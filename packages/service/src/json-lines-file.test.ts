@@ -1,11 +1,10 @@
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { afterAll, describe, expect, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import { JsonLinesFile } from './json-lines-file.ts';
+import { useFolder } from './testing/folder.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-lines-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 
 describe('JsonLinesFile', () => {
   it('writes one object per line, all of them before it is closed', async () => {

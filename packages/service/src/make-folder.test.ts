@@ -1,11 +1,10 @@
-import { existsSync, mkdtempSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { existsSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { afterAll, describe, expect, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import { folderFault, makeFolder } from './make-folder.ts';
+import { useFolder } from './testing/folder.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-folder-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 const file = join(folder, 'file');
 writeFileSync(file, '');
 

@@ -1,7 +1,7 @@
-import { mkdirSync, mkdtempSync, renameSync, rmSync, truncateSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { mkdirSync, renameSync, rmSync, truncateSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { afterEach, beforeEach, expect, it } from 'vitest';
+import { testFolder } from './testing/folder.ts';
 import { WatchedText } from './watched-text.ts';
 
 let folder: string;
@@ -9,7 +9,7 @@ let path: string;
 let told: string[];
 let watched: WatchedText;
 beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-watched-'));
+  folder = testFolder();
   path = join(folder, 'list');
   told = [];
   watched = new WatchedText({
@@ -23,7 +23,6 @@ beforeEach(() => {
 });
 afterEach(() => {
   watched.close();
-  rmSync(folder, { recursive: true });
 });
 
 /** What it told, after the file was read again. */

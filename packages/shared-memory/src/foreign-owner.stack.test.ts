@@ -1,13 +1,13 @@
 import { chmodSync, chownSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it } from 'vitest';
 import { CloudProducer } from './cloud/cloud-producer.ts';
 import { CloudReader } from './cloud/cloud-reader.ts';
 import { cloudFile } from './cloud/layout.ts';
 import { MappedFile } from './mapped-file.ts';
 import { ReferenceControlWriter } from './reference/control-writer.ts';
 import { referenceFiles } from './reference/layout.ts';
-import { ADDON_SUITE, errorOf, removeFolder, scratchFolder } from './testing/helpers.ts';
+import { ADDON_SUITE, errorOf, scratchFolder } from './testing/helpers.ts';
 
 /** Only root can give files away. */
 const isRoot = process.geteuid?.() === 0;
@@ -19,7 +19,6 @@ beforeEach(() => {
   folder = scratchFolder();
   path = join(folder, 'file');
 });
-afterEach(() => removeFolder(folder));
 
 describe.skipIf(ADDON_SUITE.skip || !isRoot)(`files of other users (${ADDON_SUITE.note}; needs root)`, () => {
   it('are refused, whatever their permissions, unless that user’s or everybody’s are allowed', () => {

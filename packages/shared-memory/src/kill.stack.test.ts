@@ -2,20 +2,14 @@
  * Only complete frames, and no deadlock, while producer and reader are killed at random: a short run here, a longer one
  * with `pnpm test --all`; `pnpm bench shm --kill 100000` is the long run.
  */
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
-import { ADDON_SUITE, removeFolder, scratchFolder } from './testing/helpers.ts';
+import { describe, expect, it } from 'vitest';
+import { ADDON_SUITE, scratchFolder } from './testing/helpers.ts';
 import { runKillTest } from './testing/kill-test.ts';
 import { arePackedWhole, areWordsWhole, fillPacked, fillWords } from './testing/marked-frames.ts';
 
 const KILLS = process.env.FARPOINT_LONG_TESTS
   ? { frames: 1000, leastKills: 4 }
   : { frames: 100, leastKills: 1 };
-
-let folder: string;
-beforeEach(() => {
-  folder = scratchFolder();
-});
-afterEach(() => removeFolder(folder));
 
 describe('marked frames', () => {
   it('reveal a single word of another frame', () => {
@@ -59,7 +53,7 @@ describe('marked frames', () => {
 describe.skipIf(ADDON_SUITE.skip)(`killed at random (${ADDON_SUITE.note})`, { timeout: 300_000 }, () => {
   it.each(['farpoint', 'reference'] as const)('%s: no torn frame, no deadlock', async (layout) => {
     const result = await runKillTest({
-      ...{ layout, folder, ...KILLS, points: 6000, seed: 11, lifeMs: [10, 250] },
+      ...{ layout, folder: scratchFolder(), ...KILLS, points: 6000, seed: 11, lifeMs: [10, 250] },
     });
     expect(result.torn).toBe(0);
     expect(result.frames).toBeGreaterThanOrEqual(KILLS.frames);

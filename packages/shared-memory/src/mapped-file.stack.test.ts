@@ -8,9 +8,9 @@ import {
   writeFileSync,
 } from 'node:fs';
 import { join } from 'node:path';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it } from 'vitest';
 import { MappedFile } from './mapped-file.ts';
-import { ADDON_SUITE, codeOf, errorOf, removeFolder, scratchFolder } from './testing/helpers.ts';
+import { ADDON_SUITE, codeOf, errorOf, scratchFolder } from './testing/helpers.ts';
 
 let folder: string;
 let path: string;
@@ -18,7 +18,6 @@ beforeEach(() => {
   folder = scratchFolder();
   path = join(folder, 'file');
 });
-afterEach(() => removeFolder(folder));
 
 const room = (pixels: number) => ({ depth: new Float32Array(pixels), colour: new Uint32Array(pixels) });
 

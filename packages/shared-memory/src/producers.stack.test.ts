@@ -3,7 +3,7 @@ import { spawnSync } from 'node:child_process';
 import { readdirSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { packColour664, quantiseMillimetres } from '@farpoint/protocol';
-import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import { beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import { CloudReader, type FrameRoom } from './cloud/cloud-reader.ts';
 import { cloudFile } from './cloud/layout.ts';
 import { ReferenceFrameConsumer } from './reference/frame-consumer.ts';
@@ -12,9 +12,9 @@ import {
   ADDON_SUITE,
   EXAMPLES,
   findPython,
-  removeFolder,
   runs,
   scratchFolder,
+  scratchFolderOfFile,
   toHex,
 } from './testing/helpers.ts';
 
@@ -25,17 +25,12 @@ const COMPILERS = {
   'C++ (g++)': { program: 'g++', args: ['-std=c++17', '-x', 'c++'] },
 };
 
-let built: string;
+const built = scratchFolderOfFile();
 let folder: string;
 const python = findPython();
-beforeAll(() => {
-  built = scratchFolder();
-});
-afterAll(() => removeFolder(built));
 beforeEach(() => {
   folder = scratchFolder();
 });
-afterEach(() => removeFolder(folder));
 
 function run(command: readonly string[], input = ''): string {
   const [program, ...args] = command as [string, ...string[]];

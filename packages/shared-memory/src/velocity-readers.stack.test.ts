@@ -4,16 +4,16 @@ import { once } from 'node:events';
 import { chmodSync, chownSync, readFileSync, renameSync, rmSync, truncateSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
-import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import { afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import { type ReferenceFiles, referenceFiles } from './reference/layout.ts';
 import {
   ADDON_SUITE,
   EXAMPLES,
   fromHex,
   readVectors,
-  removeFolder,
   runs,
   scratchFolder,
+  scratchFolderOfFile,
 } from './testing/helpers.ts';
 
 const SILENCE_MS = 200;
@@ -30,21 +30,16 @@ interface ControlVector {
 }
 const vectors = readVectors<{ control: ControlVector[] }>('reference.json').control;
 
-let built: string;
+const built = scratchFolderOfFile();
 let folder: string;
 let files: ReferenceFiles;
 const children: ChildProcess[] = [];
-beforeAll(() => {
-  built = scratchFolder();
-});
-afterAll(() => removeFolder(built));
 beforeEach(() => {
   folder = scratchFolder();
   files = referenceFiles(folder);
 });
 afterEach(async () => {
   for (const child of children.splice(0)) await kill(child);
-  removeFolder(folder);
 });
 
 async function kill(child: ChildProcess): Promise<void> {

@@ -2,7 +2,7 @@ import { truncateSync } from 'node:fs';
 import { join } from 'node:path';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { MappedFile } from './mapped-file.ts';
-import { ADDON_SUITE, removeFolder, scratchFolder } from './testing/helpers.ts';
+import { ADDON_SUITE, scratchFolder } from './testing/helpers.ts';
 import { Watch, type WatchOutcome } from './watch.ts';
 
 let folder: string;
@@ -17,7 +17,6 @@ beforeEach(() => {
 afterEach(() => {
   watch?.close();
   file?.close();
-  removeFolder(folder);
 });
 
 function watchOutcomes(futex: boolean) {

@@ -1,11 +1,11 @@
 /** The ZED example against a stand-in for the SDK's Python module, which is as strict as the published interface. */
 import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it } from 'vitest';
 import { CloudReader, type FrameRoom } from './cloud/cloud-reader.ts';
 import { ReferenceFrameConsumer } from './reference/frame-consumer.ts';
 import { MAX_POINTS } from './reference/layout.ts';
-import { ADDON_SUITE, EXAMPLES, findPython, removeFolder, scratchFolder } from './testing/helpers.ts';
+import { ADDON_SUITE, EXAMPLES, findPython, scratchFolder } from './testing/helpers.ts';
 
 const SIZE = 64;
 const python = findPython();
@@ -18,7 +18,6 @@ let folder: string;
 beforeEach(() => {
   folder = scratchFolder();
 });
-afterEach(() => removeFolder(folder));
 
 /** Runs the example until the stand-in's camera is disconnected. */
 function run(args: readonly string[] = [], script: Record<string, string> = {}) {

@@ -1,18 +1,13 @@
 import { rotationMatrix } from '@farpoint/protocol';
-import { afterEach, describe, expect, test } from 'vitest';
+import { describe, expect, onTestFinished, test } from 'vitest';
 import { SimulatedBase } from './simulated-base.ts';
 import { SimulatedLidar } from './simulated-lidar.ts';
 import type { WorldDescription } from './world.ts';
 import { officeWorld } from './worlds/office.ts';
 
-const open: SimulatedLidar[] = [];
-afterEach(() => {
-  for (const lidar of open.splice(0)) lidar.close();
-});
-
 async function lidarIn(world: WorldDescription, noise = 0): Promise<SimulatedLidar> {
   const lidar = await SimulatedLidar.create({ world, seed: 1 }, { noise });
-  open.push(lidar);
+  onTestFinished(() => lidar.close());
   return lidar;
 }
 

@@ -1,7 +1,7 @@
 import { createHash } from 'node:crypto';
 import { type Twist, zeroTwist } from '@farpoint/protocol';
 import fc from 'fast-check';
-import { afterEach, describe, expect, test } from 'vitest';
+import { describe, expect, onTestFinished, test } from 'vitest';
 import {
   type CloudFrame,
   depthToMillimetres,
@@ -18,15 +18,11 @@ function twist(linear: number, angular: number): Twist {
   return command;
 }
 
-const open: Simulation[] = [];
 async function simulate(options: Partial<SimulationOptions> = {}): Promise<Simulation> {
   const simulation = await Simulation.create({ seed: 1, ...options });
-  open.push(simulation);
+  onTestFinished(() => simulation.close());
   return simulation;
 }
-afterEach(() => {
-  for (const simulation of open.splice(0)) simulation.close();
-});
 
 /** A long wall straight ahead, and nothing else. */
 function wallWorld(distance: number): WorldDescription {

@@ -1,13 +1,13 @@
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { testFolder } from '@farpoint/service/testing/folder';
 import { afterEach, expect, it, vi } from 'vitest';
 import { SoundProcess } from './sound-process.ts';
 
 afterEach(() => vi.unstubAllEnvs());
 
 it('the program gets no token of ours', async () => {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-sound-'));
+  const folder = testFolder();
   const program = join(folder, 'program');
   writeFileSync(program, `#!/bin/sh\nenv > ${folder}/environment\n`, { mode: 0o755 });
   vi.stubEnv('FARPOINT_ROBOT_TOKEN', 'hunter2');
@@ -28,6 +28,5 @@ it('the program gets no token of ours', async () => {
     expect(environment).not.toContain('hunter2');
   } finally {
     await process.close();
-    rmSync(folder, { recursive: true });
   }
 });

@@ -1,8 +1,9 @@
 /** The program by itself: sound goes in at one end and comes out at the other. */
-import { mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
-import { afterEach, describe, expect, it, vi } from 'vitest';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it, onTestFinished } from 'vitest';
 import { Loudspeaker } from './loudspeaker.ts';
 import { Microphone } from './microphone.ts';
 import { opusDurationMs } from './opus-packet.ts';
@@ -11,16 +12,8 @@ import { Arrivals, nowMs, SOUND_SUITE } from './testing/helpers.ts';
 import { samplesOf, toneShare } from './testing/tone.ts';
 import type { SoundPacket } from './wire.ts';
 
-/** What is waited for comes at once or, on a busy machine, later. */
-const SOON = { timeout: 30_000, interval: 20 };
-
 const retry = { firstMs: 20, mostMs: 40 };
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-sound-'));
-const open: { close(): Promise<void> }[] = [];
-afterEach(async () => {
-  for (const each of open.splice(0)) await each.close();
-});
-process.once('exit', () => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 
 type Packet = SoundPacket & { ageMs: number };
 
@@ -32,7 +25,7 @@ function microphone(source: ConstructorParameters<typeof Microphone>[0]['source'
     onPacket: (packet) => packets.add({ ...packet, ageMs: nowMs() - packet.capturedAtMs }),
     onFailure: failures.add,
   });
-  open.push(device);
+  onTestFinished(() => device.close());
   return { device, packets, failures };
 }
 
@@ -45,7 +38,7 @@ function loudspeaker(pipeline: string, more: object = {}) {
     onFailure: failures.add,
     onStarted: () => started.add(true),
   });
-  open.push(device);
+  onTestFinished(() => device.close());
   return { device, failures, started };
 }
 
@@ -88,7 +81,7 @@ describe(`farpoint-sound (${SOUND_SUITE.note})`, { skip: SOUND_SUITE.skip }, () 
       expect(device.play(firstMs + i * 20, 20, i % 10 === 5 ? new Uint8Array(0) : bytes)).toBe(true);
     }
     const whole = 40 * 960 * 2;
-    await vi.waitUntil(() => statSync(file).size >= whole * 0.9, SOON);
+    await eventually(() => statSync(file).size >= whole * 0.9);
     const samples = samplesOf(readFileSync(file)).slice(4800);
     expect(toneShare(samples, 600, 48_000)).toBeGreaterThan(0.8);
     expect(toneShare(samples, 900, 48_000)).toBeLessThan(0.05);
@@ -111,32 +104,5 @@ describe(`farpoint-sound (${SOUND_SUITE.note})`, { skip: SOUND_SUITE.skip }, () 
     const [failure] = await failures.atLeast(2);
     expect(failure).toMatchObject({ reason: 'device-lost', retried: true });
     expect(device.starts).toBeGreaterThanOrEqual(2);
-  });
-
-  it('comes back after it was killed', async () => {
-    const { device, packets, failures } = microphone({ kind: 'test' });
-    await packets.atLeast(5);
-    process.kill(device.pid!, 'SIGKILL');
-    const [failure] = await failures.atLeast(1);
-    expect(failure?.reason).toBe('process-lost');
-    await packets.atLeast(packets.all.length + 5);
-    expect(device.starts).toBe(2);
-  });
-
-  it('comes back after it hung', async () => {
-    const { device, packets, failures } = microphone({ kind: 'test' });
-    await packets.atLeast(5);
-    process.kill(device.pid!, 'SIGSTOP');
-    const [failure] = await failures.atLeast(1);
-    expect(failure).toMatchObject({ reason: 'process-hung', retried: true });
-    await packets.atLeast(packets.all.length + 5);
-    expect(device.starts).toBe(2);
-  });
-
-  it('is not started again where that cannot help', async () => {
-    const { device, failures } = microphone({ kind: 'test' }, { program: '/no/such/program' });
-    const [failure] = await failures.atLeast(1);
-    expect(failure).toMatchObject({ reason: 'not-built', retried: false });
-    expect(device.starts).toBe(1);
   });
 });

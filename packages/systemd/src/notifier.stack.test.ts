@@ -1,9 +1,8 @@
 import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
-import { afterAll, afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { loadSend, type Send } from './addon.ts';
 import { Notifier, notifyOrder } from './notifier.ts';
 
@@ -38,12 +37,14 @@ describe('notifier', () => {
   beforeEach(() => void vi.useFakeTimers());
   afterEach(() => void vi.useRealTimers());
 
-  it('notifies twice per watchdog time while the service is alive, and no more once it stops', () => {
+  function telling(watchdogMs: number | null) {
     const told: string[] = [];
-    const notifier = new Notifier({ socket: '@n', watchdogMs: 1000 }, (_, message) => {
-      told.push(message);
-      return 0;
-    });
+    const send = (_: string, message: string) => told.push(message) * 0;
+    return { told, notifier: new Notifier({ socket: '@n', watchdogMs }, send) };
+  }
+
+  it('notifies twice per watchdog time while the service is alive, and no more once it stops', () => {
+    const { told, notifier } = telling(1000);
     let alive = true;
     notifier.ready(
       () => alive,
@@ -63,11 +64,7 @@ describe('notifier', () => {
   });
 
   it('reports a new status within a second, and never repeats it', () => {
-    const told: string[] = [];
-    const notifier = new Notifier({ socket: '@n', watchdogMs: null }, (_, message) => {
-      told.push(message);
-      return 0;
-    });
+    const { told, notifier } = telling(null);
     let status = 'not registered';
     notifier.ready(
       () => true,
@@ -84,20 +81,13 @@ describe('notifier', () => {
 
   it('continues if nobody accepts its messages', () => {
     const notifier = new Notifier({ socket: '@n', watchdogMs: null }, () => 111);
-    notifier.ready(
-      () => true,
-      () => '',
-    );
+    notifier.starting(1000);
     notifier.stopping();
     expect(notifier.failed).toBe(2);
   });
 
   it('requests the time that its start may take', () => {
-    const told: string[] = [];
-    const notifier = new Notifier({ socket: '@n', watchdogMs: null }, (_, message) => {
-      told.push(message);
-      return 0;
-    });
+    const { told, notifier } = telling(null);
     notifier.starting(12_000.5);
     expect(told).toEqual(['EXTEND_TIMEOUT_USEC=12000500']);
   });
@@ -122,10 +112,9 @@ while True:
 describe.skipIf(send === null || !python)(
   'a real socket (needs the addon, pnpm build:native, and Python 3)',
   () => {
-    const folder = mkdtempSync(join(tmpdir(), 'farpoint-notify-'));
+    const folder = useFolder();
     let listener: ChildProcess | null = null;
     afterEach(() => void listener?.kill('SIGKILL'));
-    afterAll(() => rmSync(folder, { recursive: true, force: true }));
 
     it.each([join(folder, 'notify'), `@farpoint-test-${process.pid}`])(
       '%s receives our messages, sent by our own process',

@@ -6,7 +6,7 @@ import { closeSync, openSync } from 'node:fs';
 import { type AddressInfo, createServer } from 'node:net';
 import { join } from 'node:path';
 import { text } from 'node:stream/consumers';
-import { afterAll, afterEach, describe, expect, it } from 'vitest';
+import { afterAll, describe, expect, it, onTestFinished } from 'vitest';
 import { type Addon, loadAddon, readSending } from './addon.ts';
 import { DatagramBatch } from './datagram-batch.ts';
 import { SocketDescriptor } from './socket-descriptor.ts';
@@ -16,14 +16,10 @@ import { Received } from './testing/received.ts';
 const addon = loadAddon();
 const fake = addon === null ? null : FakeSendmmsg.build();
 afterAll(() => fake?.close());
-const cleanups: (() => void)[] = [];
-afterEach(() => {
-  for (const cleanup of cleanups.splice(0)) cleanup();
-});
 
 async function receiver(address: '127.0.0.1' | '::1' = '127.0.0.1'): Promise<Received> {
   const received = await Received.at(address);
-  cleanups.push(() => received.socket.close());
+  onTestFinished(() => void received.socket.close());
   return received;
 }
 
@@ -34,7 +30,7 @@ async function sender(type: 'udp4' | 'udp6' = 'udp4', by: Addon | null = addon) 
   socket.once('close', () => {
     open = false;
   });
-  cleanups.push(() => open && socket.close());
+  onTestFinished(() => void (open && socket.close()));
   const counters = { batched: 0, single: 0, failed: 0 };
   return { socket, counters, batch: new DatagramBatch(socket, by, counters) };
 }
@@ -121,10 +117,10 @@ describe.skipIf(addon === null)('the addon (needs pnpm build:native)', () => {
     expect(addon?.udpPort(fd)).toBe(socket.address().port);
     const file = openSync('/dev/null', 'r');
     const server = createServer().listen(0, '127.0.0.1');
-    cleanups.push(
-      () => closeSync(file),
-      () => server.close(),
-    );
+    onTestFinished(() => {
+      closeSync(file);
+      server.close();
+    });
     await once(server, 'listening');
     expect((server.address() as AddressInfo).port).toBeGreaterThan(0);
     const { fd: listening } = (server as unknown as { _handle: { fd: number } })._handle;

@@ -1,13 +1,12 @@
 /** The robot's key file. That the running robot proves its key: robot.stack.test.ts. */
-import { chmodSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { chmodSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { silentLogger } from '@farpoint/service';
-import { afterAll, describe, expect, it, vi } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it, vi } from 'vitest';
 import { openRobotKey, RobotKey, RobotKeyError } from './robot-key-file.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-robot-key-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 
 describe('the key file', () => {
   it('is made once, for nobody else to read, and is the robot’s from then on', async () => {

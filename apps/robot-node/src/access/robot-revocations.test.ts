@@ -1,11 +1,11 @@
-import { mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { type GrantKeys, parseGrantKeys, signRevocations } from '@farpoint/grants';
 import { makeIssuer, type TestIssuer } from '@farpoint/grants/testing';
 import { silentLogger } from '@farpoint/service';
+import { testFolder } from '@farpoint/service/testing/folder';
 import fc from 'fast-check';
-import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { ReasonCounts } from '../telemetry/robot-counters.ts';
 import { MAX_BLOCKED, RevocationJournal, RevocationJournalError } from './revocation-journal.ts';
 import { RobotRevocations, SIGNALING } from './robot-revocations.ts';
@@ -17,13 +17,12 @@ let keys: GrantKeys;
 let nowS: number;
 let outcomes: ReasonCounts;
 beforeEach(async () => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-revocations-'));
+  folder = testFolder();
   [first, second] = await Promise.all([makeIssuer('k1'), makeIssuer('k2')]);
   keys = await keysOf(first, second);
   nowS = 1000;
   outcomes = new ReasonCounts();
 });
-afterEach(() => rmSync(folder, { recursive: true, force: true }));
 
 const keysOf = (...issuers: TestIssuer[]) =>
   parseGrantKeys(JSON.stringify({ keys: issuers.map(({ publicJwk }) => publicJwk) }));

@@ -1,22 +1,16 @@
 /** The real robot program feeding a real Janus, with viewers. */
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { findJanus, JANUS_REMEDY, JanusServer, LocalStack } from '@farpoint/local-stack';
-import { availableEncoders } from '@farpoint/video';
-import { afterAll, afterEach, beforeAll, describe, expect, it, vi } from 'vitest';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { JanusViewer } from '../testing/janus-viewer.ts';
-
-/** What is waited for comes at once or, on a busy machine, later. */
-const SOON = { timeout: 30_000, interval: 20 };
+import { hasVideo } from '../testing/watched-camera.ts';
 
 const hasJanus = findJanus() !== null;
-const hasVideo = await availableEncoders().then(
-  () => true,
-  () => false,
-);
 const camera = (name: string, encoder: string) => ({
   ...{ name, encoder, width: 320, height: 240, kbitPerS: 400 },
   source: { kind: 'test', width: 320, height: 240, framesPerS: 30 },
@@ -26,7 +20,7 @@ describe.skipIf(!hasJanus || !hasVideo)(
   `broadcast through Janus (needs: ${JANUS_REMEDY}; GStreamer)`,
   { timeout: 60_000 },
   () => {
-    const folder = mkdtempSync(join(tmpdir(), 'farpoint-broadcast-'));
+    const folder = useFolder();
     const viewers: JanusViewer[] = [];
     let janus: JanusServer;
     let stack: LocalStack;
@@ -43,7 +37,6 @@ describe.skipIf(!hasJanus || !hasVideo)(
     afterAll(async () => {
       await stack?.stop();
       await janus?.stop();
-      rmSync(folder, { recursive: true, force: true });
     }, 30_000);
     afterEach(async () => {
       await Promise.all(viewers.splice(0).map((viewer) => viewer.close()));
@@ -51,7 +44,7 @@ describe.skipIf(!hasJanus || !hasVideo)(
 
     async function watch(pin = 'look'): Promise<JanusViewer> {
       const opens = () => JanusViewer.watch({ url: janus.url, mountpoint: 7, pin }).catch(() => null);
-      const viewer = await vi.waitUntil(opens, SOON);
+      const viewer = await eventually(opens);
       viewers.push(viewer);
       return viewer;
     }
@@ -96,7 +89,7 @@ describe.skipIf(!hasJanus || !hasVideo)(
         await viewer.losePicture();
         return frames(viewer, 'v0') >= until;
       };
-      await vi.waitUntil(hasEnough, SOON);
+      await eventually(hasEnough);
       const more = (viewer.videos.get('v0')?.keyFrames ?? 0) - before;
       expect(more).toBeGreaterThan(0);
       // One in 2 s, however long it took; to the ms: key-frame-gate.test.ts.

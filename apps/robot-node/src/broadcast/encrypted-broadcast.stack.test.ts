@@ -1,13 +1,12 @@
 /** A broadcast to a Janus that is not on loopback: encrypted, and found again after an outage. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { networkInterfaces, tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
+import { networkInterfaces } from 'node:os';
 import { join } from 'node:path';
 import { findJanus, JANUS_REMEDY, JanusServer, LocalStack } from '@farpoint/local-stack';
-import { afterAll, beforeAll, describe, expect, it, vi } from 'vitest';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { JanusViewer } from '../testing/janus-viewer.ts';
-
-/** What is waited for comes at once or, on a busy machine, later. */
-const SOON = { timeout: 30_000, interval: 20 };
 
 const address = Object.values(networkInterfaces())
   .flat()
@@ -17,7 +16,7 @@ describe.skipIf(findJanus() === null || address === undefined)(
   `encrypted broadcast through Janus (needs: ${JANUS_REMEDY}; a network)`,
   { timeout: 60_000 },
   () => {
-    const folder = mkdtempSync(join(tmpdir(), 'farpoint-broadcast-'));
+    const folder = useFolder();
     let janus: JanusServer;
     let stack: LocalStack;
     beforeAll(async () => {
@@ -31,7 +30,6 @@ describe.skipIf(findJanus() === null || address === undefined)(
     afterAll(async () => {
       await stack?.stop();
       await janus?.stop();
-      rmSync(folder, { recursive: true, force: true });
     }, 30_000);
 
     async function seeClouds(): Promise<void> {
@@ -44,7 +42,7 @@ describe.skipIf(findJanus() === null || address === undefined)(
         expect(malformedPackets).toBe(0);
         return ended === null;
       };
-      await vi.waitUntil(sees, SOON);
+      await eventually(sees);
     }
 
     const metric = async (name: string): Promise<number> => {
@@ -57,11 +55,11 @@ describe.skipIf(findJanus() === null || address === undefined)(
     it('is found again, without another mountpoint, when Janus was out of reach', async () => {
       process.kill(janus.pid, 'SIGSTOP');
       try {
-        while ((await metric('up')) === 1) await new Promise((resolve) => setTimeout(resolve, 100));
+        await eventually(async () => (await metric('up')) !== 1);
       } finally {
         process.kill(janus.pid, 'SIGCONT');
       }
-      while ((await metric('up')) === 0) await new Promise((resolve) => setTimeout(resolve, 100));
+      await eventually(async () => (await metric('up')) !== 0);
       await seeClouds();
       expect(await metric('mountpoints_total')).toBe(1);
     });

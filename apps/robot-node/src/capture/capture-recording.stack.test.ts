@@ -1,10 +1,9 @@
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { openRecording, SessionRecorder } from '@farpoint/recording';
 import { cloudMessage, mcapOf, writeFile } from '@farpoint/recording/testing';
 import type { TopicTable } from '@farpoint/ros';
-import { afterAll, describe, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it } from 'vitest';
 import * as z from 'zod';
 import { NO_BUDGET } from '../encode/capture-budget.ts';
 import { CODED_FORMATS } from '../encode/plan.ts';
@@ -12,8 +11,7 @@ import { Capture } from './capture.ts';
 import type { CaptureOptions, ReadyFrame } from './capture-messages.ts';
 import type { SourceOptions } from './open-source.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-capture-recording-'));
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 
 const cloudSchema = z.object({
   header: z.object({ stamp: z.object({ sec: z.number(), nanosec: z.number() }) }),

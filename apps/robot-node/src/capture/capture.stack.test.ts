@@ -5,7 +5,7 @@ import { afterEach, describe, expect, it } from 'vitest';
 import type { TimedBaseState } from '../base/base.ts';
 import { NO_BUDGET } from '../encode/capture-budget.ts';
 import { SLOT_BYTES, slotPayloadBytes } from '../encode/packetiser.ts';
-import { Capture, CaptureError } from './capture.ts';
+import { Capture } from './capture.ts';
 import type { CaptureOptions, ReadyFrame } from './capture-messages.ts';
 import type { SourceOptions } from './open-source.ts';
 
@@ -78,23 +78,6 @@ describe('capture thread', () => {
     expect(b.capturedAtMs).toBeGreaterThan(a.capturedAtMs);
   });
 
-  it('stays within the point budget', async () => {
-    const capture = await start(sim, { mostPoints: 450 });
-    capture.setBudget({ ...NO_BUDGET, targetBitsPerSecond: 1e9, overheadBytes: 68, streaming: true });
-    const [frame] = await frames(capture, 1);
-    expect(frame?.points).toBe(450);
-  });
-
-  it('captures nothing while nobody is watching', async () => {
-    const capture = await start(sim);
-    let count = 0;
-    capture.onFrame = () => count++;
-    // There would have been a frame for each of these reports of the state.
-    let reports = 0;
-    await stateWhere(capture, () => ++reports === 4);
-    expect(count).toBe(0);
-  });
-
   it('holds no more frames than it has buffers, and continues when one is returned', async () => {
     const capture = await start(sim);
     capture.setBudget({ ...NO_BUDGET, targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true });
@@ -104,23 +87,6 @@ describe('capture thread', () => {
     capture.recycle((held[0] as ReadyFrame).buffer);
     const [frame] = await next;
     expect(frame?.frameNumber).toBe(4);
-  });
-
-  it('makes the next captured frame green when asked', async () => {
-    const capture = await start(sim);
-    capture.setBudget({ ...NO_BUDGET, targetBitsPerSecond: 20e6, overheadBytes: 68, streaming: true });
-    capture.requestLatencyTest();
-    const got = await frames(capture, 3);
-    expect(got.filter((frame) => frame.latencyTest)).toHaveLength(1);
-  });
-
-  it('says why a source cannot be opened', async () => {
-    await expect(start({ kind: 'pcd', path: '/nowhere/cloud.pcd', frame: 'auto' })).rejects.toThrow(
-      CaptureError,
-    );
-    await expect(start({ kind: 'pcd', path: '/nowhere/cloud.pcd', frame: 'auto' })).rejects.toThrow(
-      '/nowhere/cloud.pcd',
-    );
   });
 });
 

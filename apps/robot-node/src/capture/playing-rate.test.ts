@@ -1,6 +1,4 @@
 /** Checks that a recording plays with all of its clouds, by counting, and with its own clock. */
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { CloudPlayer } from '@farpoint/recording';
 import {
@@ -11,14 +9,14 @@ import {
   writeFile,
 } from '@farpoint/recording/testing';
 import { resolveOptions } from '@farpoint/service';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { EvenPace } from '@farpoint/timing';
-import { afterAll, expect, test } from 'vitest';
+import { expect, test } from 'vitest';
 import { FramePlanner } from '../encode/plan.ts';
 import { toRobotOptions } from '../options/robot-options.ts';
 import { robotProgram } from '../options/robot-program.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-playing-rate-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 
 const at = (ms: number) => START_NS + BigInt(Math.round(ms * 1000)) * 1000n;
 /** Recorded all the time, unlike the clouds, which are recorded only while an operator watches. */

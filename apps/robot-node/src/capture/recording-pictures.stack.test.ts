@@ -1,6 +1,4 @@
 /** Pictures and readings from recordings, as shown by a robot that plays them. */
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import {
   cloudMessage,
@@ -12,26 +10,22 @@ import {
 } from '@farpoint/recording/testing';
 import { Peers } from '@farpoint/recording/testing/peers';
 import { type TopicReading, topicTableSchema } from '@farpoint/ros';
-import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { beforeAll, describe, expect, it, onTestFinished } from 'vitest';
 import type { SourcePicture } from '../pictures/source-picture.ts';
 import { Capture } from './capture.ts';
 import { RecordingSource } from './recording-source.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-recording-pictures-'));
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 
 const [WIDTH, HEIGHT] = [8, 4];
 const PLAY = { topic: '/points', rate: 100, fromS: 0, atEnd: 'stop', axes: 'auto' } as const;
-const sources: RecordingSource[] = [];
-afterEach(() => {
-  for (const source of sources.splice(0)) source.close();
-});
 
 /** Plays the recording to its end with a watcher for every camera. */
 async function play(path: string, table: object[], { watched = true } = {}) {
   const now = () => performance.now();
   const source = await RecordingSource.open({ ...PLAY, path, topics: topicTableSchema.parse(table) }, now);
-  sources.push(source);
+  onTestFinished(() => source.close());
   const pictures: SourcePicture[] = [];
   const readings: TopicReading[] = [];
   const faults: string[] = [];

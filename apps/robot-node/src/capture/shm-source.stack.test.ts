@@ -1,8 +1,8 @@
 /** Producers in shared memory, read by the real capture thread. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { emptyPlacement, emptyPointPacketHeader, type Pose, readCloudPayload } from '@farpoint/protocol';
+import { testFolder } from '@farpoint/service/testing/folder';
 import {
   CloudProducer,
   type FrameHeader,
@@ -10,7 +10,7 @@ import {
   ReferenceFrameProducer,
   referenceFiles,
 } from '@farpoint/shared-memory';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import { monotonicMs } from '../clock.ts';
 import { NO_BUDGET } from '../encode/capture-budget.ts';
 import { slotPayloadBytes } from '../encode/packetiser.ts';
@@ -20,26 +20,19 @@ import type { CaptureRoom } from './frame-source.ts';
 import { ReferenceShmSource } from './reference-shm-source.ts';
 
 let folder: string;
-const open: { close(): unknown }[] = [];
-const timers: NodeJS.Timeout[] = [];
 beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-shm-'));
-});
-afterEach(async () => {
-  for (const timer of timers.splice(0)) clearInterval(timer);
-  for (const each of open.splice(0).reverse()) await each.close();
-  rmSync(folder, { recursive: true, force: true });
+  folder = testFolder();
 });
 
 /** Repeats until the test ends, at the latest. */
 function every(ms: number, produce: () => void): NodeJS.Timeout {
   const timer = setInterval(produce, ms);
-  timers.push(timer);
+  onTestFinished(() => clearInterval(timer));
   return timer;
 }
 
 function keep<T extends { close(): unknown }>(made: T): T {
-  open.push(made);
+  onTestFinished(async () => void (await made.close()));
   return made;
 }
 
@@ -269,17 +262,6 @@ describe.skipIf(!isAvailable())(
           return source.capture(1000 + ms, wishes, room)?.latencyTest;
         });
         expect(answers).toEqual([false, false, true]);
-      });
-
-      it('gives a green frame from the capture thread', async () => {
-        const producer = keep(new ReferenceFrameProducer(folder));
-        const capture = await start('reference');
-        capture.setBudget(BUDGET);
-        capture.requestLatencyTest();
-        const produce = () => producer.publish(packed(1, 0xffff));
-        const frame = await frameWhere(capture, produce, ({ latencyTest }) => latencyTest);
-        expect(placementOf(frame).latencyTest).toBe(true);
-        expect(new Uint16Array(frame.buffer, 16 + 900, 1)[0]).toBe(GREEN);
       });
     });
 

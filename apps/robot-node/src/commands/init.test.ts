@@ -1,18 +1,14 @@
-import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { resolveOptions } from '@farpoint/service';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it } from 'vitest';
 import { robotProgram } from '../options/robot-program.ts';
 import { SOURCE_KINDS } from '../options/source.ts';
 import { init } from './init.ts';
 import { robotTemplate } from './robot-template.ts';
 
-let folder = '';
-beforeAll(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-init-'));
-});
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 
 /** Runs `init`. @returns what it wrote, and its exit code */
 function run(...argv: string[]) {

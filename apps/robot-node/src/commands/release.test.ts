@@ -1,7 +1,6 @@
-import { mkdtempSync, readdirSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { readdirSync } from 'node:fs';
+import { testFolder } from '@farpoint/service/testing/folder';
+import { beforeEach, describe, expect, it } from 'vitest';
 import { EstopJournal } from '../drive/estop-journal.ts';
 import { release } from './release.ts';
 
@@ -9,9 +8,8 @@ const ID = 'robot-1';
 
 let folder: string;
 beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-release-'));
+  folder = testFolder();
 });
-afterEach(() => rmSync(folder, { recursive: true, force: true }));
 
 const start = () => new EstopJournal(folder, ID, () => undefined);
 

@@ -1,12 +1,11 @@
-import { appendFileSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { appendFileSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { AuditLog } from '@farpoint/audit';
-import { afterAll, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { expect, it } from 'vitest';
 import { checkAudit } from './check-audit.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-audit-doctor-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 
 it('says whether the audit log can be written, and is as it was written', async () => {
   const path = join(folder, 'audit.jsonl');

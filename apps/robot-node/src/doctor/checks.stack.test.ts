@@ -1,15 +1,13 @@
 /** Checks of what this machine has: UDP ports, and blocks and locks in shared memory. */
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { isAvailable, ReferenceControlWriter, StopBlockWriter } from '@farpoint/shared-memory';
-import { afterAll, describe, expect, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import { checkSharedMemory } from './check-files.ts';
 import { checkUdpPorts } from './check-network.ts';
 import { checkStops } from './check-stops.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-doctor-checks-'));
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 
 it('UDP ports: too few, privileged', async () => {
   const verdicts = async (range: [number, number]) =>

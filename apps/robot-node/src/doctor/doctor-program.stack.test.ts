@@ -1,25 +1,21 @@
 /** The doctor, as a program and in this process, with and without real servers. */
 import { spawn } from 'node:child_process';
 import { createSocket } from 'node:dgram';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { writeFileSync } from 'node:fs';
 import { type AddressInfo, createServer } from 'node:net';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { freePorts, hasTurnServer, LocalStack, TurnServer } from '@farpoint/local-stack';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { isAvailable } from '@farpoint/shared-memory';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import { doctor as runDoctor } from '../commands/doctor.ts';
 import { checkConfiguration } from './check-configuration.ts';
 import { robotChecks } from './checks.ts';
 import { type Finding, runCheck } from './finding.ts';
 
 const program = fileURLToPath(new URL('../main.ts', import.meta.url));
-let folder: string;
-beforeAll(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-doctor-program-'));
-});
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 
 interface Outcome {
   code: number | null;

@@ -1,9 +1,9 @@
 /** The doctor's judgements of machines other than this one. */
-import { chmodSync, chownSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { chmodSync, chownSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { isAvailable } from '@farpoint/shared-memory';
-import { afterAll, describe, expect, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import type { SourceOptions } from '../capture/open-source.ts';
 import { checkMonotonicClock, checkTimeOfDay } from './check-clock.ts';
 import { checkRecording, checkSharedMemory } from './check-files.ts';
@@ -205,8 +205,7 @@ it('prints no health address for a port that is not yet chosen', () => {
 });
 
 describe('files', () => {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-files-'));
-  afterAll(() => rmSync(folder, { recursive: true }));
+  const folder = useFolder();
   const source = { kind: 'shm', layout: 'farpoint', folder, waitMs: 0 } as const;
   const sink = { kind: 'shm', folder, mode: 0o600, silenceMs: 150 } as const;
 

@@ -1,13 +1,13 @@
 /** The doctor's probes, against real servers. */
 import { createHmac } from 'node:crypto';
 import { createSocket, type Socket } from 'node:dgram';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { createServer as createHttpsServer } from 'node:https';
-import { type AddressInfo, createServer } from 'node:net';
-import { tmpdir } from 'node:os';
+import type { AddressInfo } from 'node:net';
 import { join } from 'node:path';
 import { freePorts, hasTurnServer, LocalStack, TURN_REMEDY, TurnServer } from '@farpoint/local-stack';
 import { Secret } from '@farpoint/service';
+import { testFolder, useFolder } from '@farpoint/service/testing/folder';
 import { selfSigned } from '@farpoint/service/testing/self-signed';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { WebSocketServer } from 'ws';
@@ -23,10 +23,9 @@ const SOON_MS = 300;
 const LONG_MS = 20_000;
 
 describe('a real signaling service', () => {
-  let folder: string;
+  const folder = useFolder();
   let stack: LocalStack;
   beforeAll(async () => {
-    folder = mkdtempSync(join(tmpdir(), 'farpoint-doctor-'));
     const tokens = join(folder, 'tokens.yaml');
     writeFileSync(tokens, 'rover-1: the-token\nrobot-2: other\n');
     stack = await LocalStack.start({
@@ -36,7 +35,6 @@ describe('a real signaling service', () => {
   }, 60_000);
   afterAll(async () => {
     await stack?.stop();
-    rmSync(folder, { recursive: true, force: true });
   });
 
   const probe = (id: string, token: string | null) =>
@@ -51,20 +49,6 @@ describe('a real signaling service', () => {
       LONG_MS,
       now,
     );
-
-  it('accepts a robot with its token, and gives the ICE servers and the time', async () => {
-    const answer = await probe('rover-1', 'the-token');
-    expect(answer).toMatchObject({ outcome: 'welcome', iceServers: [{ urls: 'stun:127.0.0.1:9' }] });
-    expect(judgeSignaling(stack.signalingUrl, 'rover-1', answer, false, Date.now())).toMatchObject([
-      { verdict: 'ok' },
-    ]);
-    const time = await askTime(
-      { url: stack.signalingUrl, id: '', name: '', token: null, ca: null },
-      LONG_MS,
-      Date.now,
-    );
-    expect(checkTimeOfDay(time)).toMatchObject([{ verdict: 'ok' }]);
-  });
 
   it.each([['wrong'], [null]])('refuses the token %s', async (token) => {
     const answer = await probe('rover-1', token);
@@ -109,19 +93,6 @@ describe('something else at the address of signaling', () => {
     for (const close of closers) close();
   });
 
-  it('does not block the doctor if it accepts connections and says nothing', async () => {
-    const server = createServer(() => undefined).listen(0, 'localhost');
-    closers.push(() => server.close());
-    await new Promise((resolve) => server.once('listening', resolve));
-    const { port } = server.address() as AddressInfo;
-    // Without a limit of time, there would be no answer.
-    const answer = await probeSignaling(target(port), SOON_MS, now);
-    expect(['silent', 'unreachable']).toContain(answer.outcome);
-    expect(judgeSignaling('ws://x', 'r', answer, false, Date.now())[0]?.verdict).toBe('fail');
-    expect(await askTime(target(port), SOON_MS, Date.now)).toBeNull();
-    expect((await findRunningRobot('127.0.0.1', port, SOON_MS)).state).not.toBe('runs');
-  });
-
   it.each([
     ['says nothing once a WebSocket is up', () => undefined, 'silent'],
     ['speaks another protocol', (send: (text: string) => void) => send('{"hello":1}'), 'unreadable'],
@@ -137,8 +108,7 @@ describe('something else at the address of signaling', () => {
   });
 
   it('is named if its certificate is not trusted, and accepted with tlsCa', async () => {
-    const folder = mkdtempSync(join(tmpdir(), 'farpoint-doctor-tls-'));
-    closers.push(() => rmSync(folder, { recursive: true }));
+    const folder = testFolder();
     const { key, cert } = selfSigned(folder, 'localhost');
     const server = createHttpsServer({ key: readFileSync(key), cert: readFileSync(cert) }, (_, response) =>
       response.writeHead(404).end(),

@@ -1,19 +1,18 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { RecordingError } from '@farpoint/recording';
 import { resolveOptions, StartFailure } from '@farpoint/service';
-import { afterAll, describe, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it } from 'vitest';
 import { CaptureError } from '../capture/capture.ts';
 import { openSource } from '../capture/open-source.ts';
 import { toRobotOptions } from '../options/robot-options.ts';
 import { robotProgram } from '../options/robot-program.ts';
 import { startFailure } from './start-failure.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-start-failure-'));
+const folder = useFolder();
 const words = join(folder, 'words.txt');
 writeFileSync(words, 'no cloud, no recording\n');
-afterAll(() => rmSync(folder, { recursive: true }));
 const missing = join(folder, 'missing');
 
 function optionsOf(argv: string[]) {

@@ -1,17 +1,16 @@
-import { mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { testFolder } from '@farpoint/service/testing/folder';
 import fc from 'fast-check';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it } from 'vitest';
 import { EstopJournal } from './estop-journal.ts';
 
 let folder: string;
 const faults: Error[] = [];
 beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-estop-'));
+  folder = testFolder();
   faults.length = 0;
 });
-afterEach(() => rmSync(folder, { recursive: true, force: true }));
 
 const open = (id = 'robot-1', at = folder) => new EstopJournal(at, id, (error) => faults.push(error));
 

@@ -1,9 +1,7 @@
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
 import { type Command, type Twist, zeroTwist } from '@farpoint/protocol';
 import { DriveGuard, defaultDriveLimits, type EstopReleasePolicy } from '@farpoint/safety';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { testFolder } from '@farpoint/service/testing/folder';
+import { beforeEach, describe, expect, it } from 'vitest';
 import { EstopJournal } from './estop-journal.ts';
 import { LocalRelease } from './local-release.ts';
 import { ReleaseRequest } from './release-request.ts';
@@ -12,9 +10,8 @@ const TICK_MS = 25;
 
 let folder: string;
 beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-release-'));
+  folder = testFolder();
 });
-afterEach(() => rmSync(folder, { recursive: true, force: true }));
 
 function setUp(estopRelease: EstopReleasePolicy = 'driver') {
   const guard = new DriveGuard({

@@ -1,9 +1,8 @@
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { rmSync } from 'node:fs';
 import { type Command, zeroTwist } from '@farpoint/protocol';
 import { DriveGuard, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
+import { testFolder } from '@farpoint/service/testing/folder';
 import { isAvailable, ReferenceControlReader } from '@farpoint/shared-memory';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { DriveStation } from './drive-station.ts';
@@ -12,11 +11,10 @@ import { openSink } from './open-sink.ts';
 let folder: string;
 const open: { close(): void }[] = [];
 beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-sink-'));
+  folder = testFolder();
 });
 afterEach(() => {
   for (const each of open.splice(0)) void each.close();
-  rmSync(folder, { recursive: true, force: true });
 });
 
 const errors: unknown[] = [];

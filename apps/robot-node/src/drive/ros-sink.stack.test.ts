@@ -1,8 +1,10 @@
 /** The thread that publishes velocities, with a real master and a rospy subscriber. */
+
 import { type Twist, zeroTwist } from '@farpoint/protocol';
 import { topicTableSchema } from '@farpoint/ros';
 import { Ros1Peers } from '@farpoint/ros/testing/ros1';
 import type { Logger } from '@farpoint/service';
+import { eventually } from '@farpoint/service/testing/eventually';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { RosSink } from './ros-sink.ts';
 
@@ -32,12 +34,12 @@ describe.skipIf(python === null)(`ROS sink (${missing ?? 'rosmaster, rospy'})`, 
     };
     const sink = new RosSink({ graph, entry, silenceMs: SILENCE_MS }, log as unknown as Logger);
     const timer = setInterval(() => sink.apply(ahead, false), 40);
-    while (!node.heard.some(({ x }) => x === 0.3)) await new Promise((resolve) => setTimeout(resolve, 5));
+    await eventually(() => node.heard.some(({ x }) => x === 0.3));
     const hangAt = Date.now();
     // Nothing runs in this thread meanwhile.
     Atomics.wait(new Int32Array(new SharedArrayBuffer(4)), 0, 0, HANG_MS);
     clearInterval(timer);
-    while (!node.heard.some(({ x }) => x === 0)) await new Promise((resolve) => setTimeout(resolve, 5));
+    await eventually(() => node.heard.some(({ x }) => x === 0));
     const firstZero = node.heard.find(({ x }) => x === 0)?.nodeMs ?? 0;
     expect(firstZero - hangAt).toBeGreaterThan(0);
     // It does not wait for the main thread. After how many ms: ros-velocity.test.ts.

@@ -4,20 +4,13 @@ import { type Command, zeroTwist } from '@farpoint/protocol';
 import { topicTableSchema } from '@farpoint/ros';
 import { DriveGuard, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
 import { silentLogger } from '@farpoint/service';
-import { afterEach, describe, expect, it } from 'vitest';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { describe, expect, it, onTestFinished } from 'vitest';
 import { monotonicMs } from '../clock.ts';
 import { DriveStation } from './drive-station.ts';
 import { RosSink } from './ros-sink.ts';
 
 const THREAD = new URL('../testing/ending-drive-worker.ts', import.meta.url);
-const closing: (() => unknown)[] = [];
-afterEach(async () => {
-  for (const close of closing.splice(0).reverse()) await close();
-});
-
-const until = async (is: () => boolean) => {
-  while (!is()) await new Promise((resolve) => setTimeout(resolve, 2));
-};
 
 function setUp() {
   const [entry] = topicTableSchema.parse([{ topic: '/cmd_vel', as: 'velocity' }]);
@@ -41,11 +34,11 @@ function setUp() {
   const wire = new BroadcastChannel('drive-worker');
   const published: { x: number; hold: boolean }[] = [];
   wire.onmessage = (event) => published.push((event as unknown as { data: (typeof published)[number] }).data);
-  closing.push(
-    () => sink.close(),
-    () => station.close(),
-    () => wire.close(),
-  );
+  onTestFinished(async () => {
+    wire.close();
+    station.close();
+    await sink.close();
+  });
   guard.onOpenHand('op');
   const outcome = guard.requestLease('op', false, monotonicMs());
   const lease = outcome.granted ? outcome.lease : '';
@@ -63,9 +56,11 @@ function setUp() {
   };
   /** Drives with a fresh hand until the thread has published it. */
   const driving = async () => {
-    await until(() => sink.fault === null);
+    await eventually(() => sink.fault === null);
     published.length = 0;
-    await until(() => drive(0) === 'accepted' && drive(0.3) === 'accepted' && published.at(-1)?.x === 0.3);
+    await eventually(
+      () => drive(0) === 'accepted' && drive(0.3) === 'accepted' && published.at(-1)?.x === 0.3,
+    );
   };
   return { sink, guard, wire, published, readings, drive, driving };
 }
@@ -76,18 +71,18 @@ describe('the thread that publishes velocities', { timeout: 30_000 }, () => {
     expect(sink.fault).toBe('starting');
     expect(drive(0.3)).toBe('no-wheels');
     await driving();
-    await until(() => readings.at(-1) === 'ok /cmd_vel: 1 listening');
+    await eventually(() => readings.at(-1) === 'ok /cmd_vel: 1 listening');
     wire.postMessage('throw');
-    await until(() => sink.fault === 'thread-ended');
+    await eventually(() => sink.fault === 'thread-ended');
     published.length = 0;
     expect(drive(0.3)).toBe('no-wheels');
     expect(guard.velocityAt(monotonicMs()).linear.x).toBe(0);
     expect(readings.at(-1)).toBe('error /cmd_vel: velocities cannot be published: trying again');
-    await until(() => sink.fault === null);
+    await eventually(() => sink.fault === null);
     expect(sink.restarts).toBe(1);
     // The hand that held on moves nothing, and the wheels are told to stand.
     expect(drive(0.3)).toBe('let-go-first');
-    await until(() => published.filter(({ hold }) => hold).length > 3);
+    await eventually(() => published.filter(({ hold }) => hold).length > 3);
     for (const { x } of published) expect(x).toBe(0);
     await driving();
   });
@@ -96,10 +91,10 @@ describe('the thread that publishes velocities', { timeout: 30_000 }, () => {
     const { sink, wire, drive, driving } = setUp();
     await driving();
     wire.postMessage('hang');
-    await until(() => sink.fault === 'thread-hung');
+    await eventually(() => sink.fault === 'thread-hung');
     expect(drive(0.3)).toBe('no-wheels');
-    await until(() => sink.restarts === 1);
-    await until(() => sink.fault === null);
+    await eventually(() => sink.restarts === 1);
+    await eventually(() => sink.fault === null);
     expect(drive(0.3)).toBe('let-go-first');
     await driving();
   });
@@ -108,11 +103,11 @@ describe('the thread that publishes velocities', { timeout: 30_000 }, () => {
     const { sink, wire, readings, drive, driving } = setUp();
     await driving();
     wire.postMessage('leave');
-    await until(() => sink.fault === 'no-listener');
+    await eventually(() => sink.fault === 'no-listener');
     expect(drive(0.3)).toBe('no-wheels');
-    await until(() => readings.at(-1) === 'warn /cmd_vel: nobody listens to the velocities');
+    await eventually(() => readings.at(-1) === 'warn /cmd_vel: nobody listens to the velocities');
     wire.postMessage('join');
-    await until(() => sink.fault === null);
+    await eventually(() => sink.fault === null);
     expect([drive(0.3), drive(0), drive(0.3)]).toEqual(['let-go-first', 'accepted', 'accepted']);
   });
 });

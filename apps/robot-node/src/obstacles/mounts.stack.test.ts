@@ -1,19 +1,11 @@
 /** One truth about where a camera sits, for a producer in shared memory that gives its camera's poses. */
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { testFolder } from '@farpoint/service/testing/folder';
 import { CloudProducer, isAvailable } from '@farpoint/shared-memory';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import { CloudShmSource } from '../capture/cloud-shm-source.ts';
 import { BEGAN_MS, driveAtWall, opticalPoints, opticalPose, WALL_POINTS } from '../testing/wall-drive.ts';
 import { opticalMount, type SensorMount } from './sensor-mount.ts';
-
-let folder: string;
-beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-mounts-'));
-});
-afterEach(() => rmSync(folder, { recursive: true, force: true }));
 
 const level: SensorMount = { x: 0, y: 0, z: 0.9, roll: 0, pitch: 0, yaw: 0 };
 const HEADER = { width: WALL_POINTS, height: 1, lens: null, latencyTest: false };
@@ -27,6 +19,7 @@ describe.skipIf(!isAvailable())('shared memory (needs the addon: pnpm build:nati
   ) {
     const { speed = 0.6, aheadMs = 0, poses = true } = options;
     let nowMs = BEGAN_MS;
+    const folder = testFolder();
     using producer = new CloudProducer({ folder, format: 'points', maxPoints: WALL_POINTS });
     const empty = new Float32Array(WALL_POINTS * 4).fill(Number.NaN);
     const bytes = (points: Float32Array) => ({ points: new Uint8Array(points.buffer) });

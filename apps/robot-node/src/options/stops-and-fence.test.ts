@@ -1,13 +1,12 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { resolveOptions } from '@farpoint/service';
-import { afterAll, describe, expect, test } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, test } from 'vitest';
 import { toRobotOptions } from './robot-options.ts';
 import { robotProgram } from './robot-program.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-fence-'));
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 
 function robot(argv: string[], text: string | null = null) {
   const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => text });

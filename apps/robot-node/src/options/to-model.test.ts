@@ -1,6 +1,6 @@
-import { mkdtempSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { testFolder } from '@farpoint/service/testing/folder';
 import { expect, test } from 'vitest';
 import type { RobotOptionValues } from './robot-program.ts';
 import { toModel } from './to-model.ts';
@@ -10,7 +10,7 @@ const SMALL =
 
 /** A file with this text. */
 function fileOf(text: string): string {
-  const path = join(mkdtempSync(join(tmpdir(), 'farpoint-urdf-')), 'robot.urdf');
+  const path = join(testFolder(), 'robot.urdf');
   writeFileSync(path, text);
   return path;
 }

@@ -2,16 +2,11 @@
 import type { MessagePort } from 'node:worker_threads';
 import { PICTURE_CHUNK_HEADER_BYTES, readPictureFile } from '@farpoint/protocol';
 import { createLogger } from '@farpoint/service';
-import { afterEach, expect, it } from 'vitest';
+import { expect, it, onTestFinished } from 'vitest';
 import { PictureHub, type PictureTarget } from './picture-hub.ts';
 import type { ReadyPicture } from './picture-messages.ts';
 import { PictureTap } from './picture-tap.ts';
 import type { SourcePicture } from './source-picture.ts';
-
-const hubs: PictureHub[] = [];
-afterEach(async () => {
-  for (const hub of hubs.splice(0)) await hub.close();
-});
 
 /** A hub with a watcher, and the tap that a capture thread would have. */
 async function setUp() {
@@ -58,7 +53,7 @@ async function setUp() {
     },
     log,
   });
-  hubs.push(hub);
+  onTestFinished(() => hub.close());
   hub.tick(0);
   let nowMs = 0;
   const offer = async (picture: Omit<SourcePicture, 'camera'>) => {

@@ -1,13 +1,11 @@
 /** The robot program where one of its two signaling services does not exist. */
 import { once } from 'node:events';
-import { mkdtempSync, rmSync } from 'node:fs';
 import { type AddressInfo, createServer, type Server } from 'node:net';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
 import { ReferenceOperator } from '@farpoint/conformance';
 import { ReleasedSignaling } from '@farpoint/conformance/testing';
 import { freePorts, LocalStack, ManagedProcess, repositoryRoot } from '@farpoint/local-stack';
-import { afterEach, describe, expect, it } from 'vitest';
+import { testFolder } from '@farpoint/service/testing/folder';
+import { describe, expect, it, onTestFinished } from 'vitest';
 import { SignaledOperator } from '../testing/signaled-operator.ts';
 
 const ROBOT = 'sim-1';
@@ -15,11 +13,6 @@ const NAME = 'Simulated robot';
 const ARGS = ['--sim-size', '64', '--max-points', '650'];
 /** Enough for a robot that warned at each of them to be seen. */
 const ATTEMPTS = 4;
-
-const cleanups: (() => unknown)[] = [];
-afterEach(async () => {
-  for (const cleanup of cleanups.splice(0).reverse()) await cleanup();
-});
 
 /** A port whose connections end at once, as where nothing is, but which can count them. */
 class AbsentService {
@@ -37,7 +30,7 @@ class AbsentService {
   static async open(): Promise<AbsentService> {
     const server = createServer().listen(0, '127.0.0.1');
     await once(server, 'listening');
-    cleanups.push(() => server.close());
+    onTestFinished(() => void server.close());
     return new AbsentService(server);
   }
 
@@ -53,8 +46,7 @@ class AbsentService {
 /** Starts a robot. @returns a function that ends it, and gives its warnings about signaling */
 async function startRobot(signaling: string, reference: string): Promise<() => Promise<string[]>> {
   const [adminPort] = await freePorts(1);
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-absent-'));
-  cleanups.push(() => rmSync(folder, { recursive: true, force: true }));
+  const folder = testFolder();
   const lines: string[] = [];
   const robot = await ManagedProcess.start({
     name: 'robot',
@@ -67,7 +59,7 @@ async function startRobot(signaling: string, reference: string): Promise<() => P
     readyUrl: `http://127.0.0.1:${adminPort}/healthz`,
     onLine: (_, line) => lines.push(line),
   });
-  cleanups.push(() => robot.stop());
+  onTestFinished(async () => void (await robot.stop()));
   return async () => {
     await robot.stop();
     return lines
@@ -81,10 +73,10 @@ describe('a robot without one of its signaling services', { timeout: 90_000 }, (
   it('says once that its own is not there, however often it tries, and serves reference operators', async () => {
     const absent = await AbsentService.open();
     const released = await ReleasedSignaling.start();
-    cleanups.push(() => released.stop());
+    onTestFinished(() => released.stop());
     const end = await startRobot(absent.url, released.robotUrl);
     const operator = await ReferenceOperator.connect(released.clientUrl, NAME);
-    cleanups.push(() => operator.close());
+    onTestFinished(() => operator.close());
     operator.say('start');
     await operator.packets.next();
     await absent.untilAttempts(ATTEMPTS);
@@ -94,10 +86,10 @@ describe('a robot without one of its signaling services', { timeout: 90_000 }, (
   it('says once that the reference signaling is not there, and serves its own operators', async () => {
     const absent = await AbsentService.open();
     const stack = await LocalStack.start({ robots: [] });
-    cleanups.push(() => stack.stop());
+    onTestFinished(() => stack.stop());
     const end = await startRobot(stack.signalingUrl, absent.url);
     const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
-    cleanups.push(() => operator.close());
+    onTestFinished(() => operator.close());
     await operator.client.until(() => operator.client.packets > 0);
     await absent.untilAttempts(ATTEMPTS);
     expect(await end()).toEqual(['no connection to the reference signaling; trying again']);

@@ -1,14 +1,8 @@
 /** The robot program as an operator of the reference system sees it: processes, sockets, WebRTC. */
 import { checkOffer, ReferenceOperator, RtpStreamRules, SocketPeer } from '@farpoint/conformance';
 import { LocalStack } from '@farpoint/local-stack';
-import {
-  CLOUD_FORMATS,
-  LATENCY_TEST_COLOUR,
-  type LeaseState,
-  type Twist,
-  zeroTwist,
-} from '@farpoint/protocol';
-import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { CLOUD_FORMATS, type LeaseState, type Twist, zeroTwist } from '@farpoint/protocol';
+import { afterAll, beforeAll, describe, expect, it, onTestFinished } from 'vitest';
 import { SignaledOperator } from '../testing/signaled-operator.ts';
 
 const ROBOT = 'sim-1';
@@ -23,7 +17,6 @@ const PACKET_BYTES = 1200;
 const REPORTED_BITS_PER_S = 400_000;
 
 let stack: LocalStack;
-const cleanups: (() => Promise<void>)[] = [];
 
 beforeAll(async () => {
   stack = await LocalStack.start({
@@ -31,9 +24,6 @@ beforeAll(async () => {
   });
 }, 60_000);
 afterAll(() => stack.stop(), 30_000);
-afterEach(async () => {
-  for (const cleanup of cleanups.splice(0).reverse()) await cleanup();
-});
 
 function clientUrl(): string {
   return `ws://127.0.0.1:${stack.ports.referenceClient}/`;
@@ -41,13 +31,13 @@ function clientUrl(): string {
 
 async function referenceOperator(): Promise<ReferenceOperator> {
   const operator = await ReferenceOperator.connect(clientUrl(), NAME);
-  cleanups.push(() => operator.close());
+  onTestFinished(() => operator.close());
   return operator;
 }
 
 async function farpointOperator(): Promise<SignaledOperator> {
   const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
-  cleanups.push(() => operator.close());
+  onTestFinished(() => operator.close());
   await operator.client.until(() => operator.client.telemetry !== null);
   return operator;
 }
@@ -145,19 +135,6 @@ describe('reference profile of the robot process', { timeout: 60_000 }, () => {
     fast();
   });
 
-  it('makes a green frame when linear.z requests it, without moving', async () => {
-    const operator = await referenceOperator();
-    operator.say('start');
-    await operator.packets.next();
-    const twist = forward(0.5);
-    twist.linear.z = 1;
-    operator.command(twist);
-    const green = await operator.packets.next((packet) =>
-      coloursOf(packet).every((c) => c === LATENCY_TEST_COLOUR),
-    );
-    expect(coloursOf(green).length).toBe(150);
-  });
-
   it('comes down to the rate that the operator reports (exactly how far: pacer.test.ts, reported-limit.test.ts)', async () => {
     const operator = await referenceOperator();
     operator.say('start');
@@ -174,21 +151,11 @@ describe('reference profile of the robot process', { timeout: 60_000 }, () => {
     while ((await rateOver(20)) > 1.1 * REPORTED_BITS_PER_S);
   });
 
-  it('ignores garbage and invalid answers, and makes a new offer', async () => {
+  it('ignores invalid answers, and makes a new offer', async () => {
     const first = await referenceOperator();
-    for (const bytes of [new Uint8Array([0xff, 0xfe, 0]), new TextEncoder().encode('{"linear":')]) {
-      first.sendControl(bytes);
-      first.sendBandwidth(bytes);
-      first.say(bytes);
-    }
-    first.sendControl('null');
-    first.sendBandwidth('text');
-    first.sendBandwidth(new Uint8Array([0xff, 0xff, 0xff, 0xff]));
-    first.say('start');
-    await first.packets.next();
     await first.close();
     const line = await SocketPeer.open(clientUrl());
-    cleanups.push(() => line.close());
+    onTestFinished(() => line.close());
     const { robot } = await line.message<{ robot: { id: number } }>({ type: 'register' });
     const noTransport = first.offer.replaceAll('a=ice-pwd', 'a=x');
     for (const sdpAnswer of ['', 'v=0\r\nm=nonsense', noTransport]) {
@@ -222,21 +189,17 @@ describe('reference profile of the robot process', { timeout: 60_000 }, () => {
 
   it('is not offered unless configured', async () => {
     await stack.startRobot({ id: 'sim-2', name: 'Other', args: ARGS });
-    cleanups.push(async () => void (await stack.robot('sim-2').stop()));
+    onTestFinished(async () => void (await stack.robot('sim-2').stop()));
     // By the time that Farpoint's own operators have a session, it would have been.
     const own = await SignaledOperator.connect(stack.signalingUrl, 'sim-2');
-    cleanups.push(() => own.close());
+    onTestFinished(() => own.close());
     const line = await SocketPeer.open(clientUrl());
-    cleanups.push(() => line.close());
+    onTestFinished(() => line.close());
     line.send({ type: 'getRobots' });
     const { robots } = await line.message<{ robots: { name: string }[] }>({ type: 'robots' });
     expect(robots.map(({ name }) => name)).toEqual([NAME]);
   });
 });
-
-function coloursOf(packet: Uint8Array): Uint16Array {
-  return new Uint16Array(packet.slice(20 + 16 + 900, 20 + 16 + 1200).buffer);
-}
 
 function timestampOf(packet: Uint8Array): number {
   return new DataView(packet.buffer, packet.byteOffset).getUint32(4);

@@ -1,16 +1,16 @@
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { topicTableSchema } from '@farpoint/ros';
 import { MemoryGraph } from '@farpoint/ros/testing';
 import { OptionsError, resolveOptions } from '@farpoint/service';
-import { afterAll, beforeAll, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { beforeAll, expect, it } from 'vitest';
 import { listen } from '../capture/ros-listener.ts';
 import { toRobotOptions } from '../options/robot-options.ts';
 import { robotProgram } from '../options/robot-program.ts';
 import { describeTopics, readFrom, sourcedFolders } from './message-folders.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-messages-'));
+const folder = useFolder();
 const TABLE = [
   { topic: '/points', as: 'cloud' },
   { topic: '/grip', as: 'text', type: 'arm_msgs/msg/Grip' },
@@ -21,7 +21,6 @@ beforeAll(() => {
   writeFileSync(join(folder, 'arm_msgs', 'msg', 'Grip.msg'), 'float32 force\nFinger[2] fingers\n');
   writeFileSync(join(folder, 'arm_msgs', 'msg', 'Finger.msg'), 'bool touches\n');
 });
-afterAll(() => rmSync(folder, { recursive: true }));
 
 it('reads messages whose type is defined only in files', () => {
   const topics = describeTopics(topicTableSchema.parse(TABLE), readFrom(['/nowhere', folder]));

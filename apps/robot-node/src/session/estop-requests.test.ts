@@ -1,13 +1,8 @@
 import { DriveGuard, type DriveGuardOptions, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
 import fc from 'fast-check';
-import { afterEach, describe, expect, it } from 'vitest';
+import { describe, expect, it, onTestFinished } from 'vitest';
 import { DriveStation } from '../drive/drive-station.ts';
 import { OperatorMessages, type SessionHost } from './operator-messages.ts';
-
-const stations: DriveStation[] = [];
-afterEach(() => {
-  for (const station of stations.splice(0)) station.close();
-});
 
 /** A robot with the real guard on a simulated clock; operators come and go. */
 function robot(options: Partial<DriveGuardOptions> = {}) {
@@ -21,7 +16,7 @@ function robot(options: Partial<DriveGuardOptions> = {}) {
     () => undefined,
     () => nowMs,
   );
-  stations.push(drive);
+  onTestFinished(() => drive.close());
   const sessions: OperatorMessages[] = [];
   const refused: string[] = [];
   const tellAll = () => {

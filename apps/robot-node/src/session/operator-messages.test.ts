@@ -10,14 +10,9 @@ import {
 } from '@farpoint/protocol';
 import { DriveGuard, defaultDriveLimits, MotionSupervisor, type RejectedCommand } from '@farpoint/safety';
 import fc from 'fast-check';
-import { afterEach, describe, expect, it } from 'vitest';
+import { describe, expect, it, onTestFinished } from 'vitest';
 import { DriveStation } from '../drive/drive-station.ts';
 import { OperatorMessages, type SessionHost } from './operator-messages.ts';
-
-const stations: DriveStation[] = [];
-afterEach(() => {
-  for (const station of stations.splice(0)) station.close();
-});
 
 /** A robot with the real guard and two operators, on a simulated clock. */
 function robot() {
@@ -34,10 +29,11 @@ function robot() {
     },
     () => nowMs,
   );
-  stations.push(drive);
+  onTestFinished(() => drive.close());
   const tests: [string, number, number][] = [];
   const refused: [string, string][] = [];
   const rejected: RejectedCommand[] = [];
+  const limited = new Set<string>();
   const operators = new Map<string, ReturnType<typeof operator>>();
   const host: SessionHost = {
     drive,
@@ -53,6 +49,7 @@ function robot() {
     commandAccepted: () => undefined,
     commandRejected: (rejection) => rejected.push(rejection),
     messageRefused: (channel: string, error: ProtocolError) => refused.push([channel, error.code]),
+    messageLimited: (kind) => limited.add(kind),
   };
   function operator(id: string) {
     const inbox: RobotSessionMessage[] = [];
@@ -92,6 +89,7 @@ function robot() {
     tests,
     refused,
     rejected,
+    limited,
     speed: () => speed,
     pass: (ms: number) => {
       nowMs += ms;
@@ -217,10 +215,10 @@ describe('OperatorMessages', () => {
     const { alice } = robot();
     const switches: boolean[] = [];
     alice.session.wishes.onStreamSwitch = (running) => switches.push(running);
-    alice.session.onMessage('session', 'stop');
+    for (const word of ['stop', 'start']) alice.session.onMessage('session', word);
     alice.send({ type: 'stream', running: false });
     alice.send({ type: 'stream', running: true });
-    expect(switches).toEqual([false, true]);
+    expect(switches).toEqual([false, true, false, true]);
   });
 
   it('reports a broken command as malformed and a broken request as a fault', () => {
@@ -231,6 +229,17 @@ describe('OperatorMessages', () => {
     expect(alice.inbox.at(-1)).toMatchObject({ type: 'fault' });
     alice.session.onMessage('bandwidth', 'fast');
     expect(refused.map(([channel]) => channel)).toEqual(['control', 'session', 'bandwidth']);
+  });
+
+  it('drops what exceeds an operator’s limits, by kind, and still takes its emergency stop', () => {
+    const { alice, guard, limited } = robot();
+    for (let id = 0; id < 300; id++) {
+      alice.session.onMessage('control', JSON.stringify({ type: 'clockProbe', id, sentMs: 0 }));
+      alice.send({ type: 'leaseRequest', take: false });
+    }
+    expect(limited).toEqual(new Set(['probe', 'lease', 'session']));
+    alice.send({ type: 'estop', latch: true });
+    expect(guard.estopState().latched).toBe(true);
   });
 
   it('stands still whatever bytes a watching operator sends', () => {

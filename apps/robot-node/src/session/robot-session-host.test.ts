@@ -1,14 +1,9 @@
 import { DriveGuard, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
-import { afterEach, expect, test } from 'vitest';
+import { expect, onTestFinished, test } from 'vitest';
 import { DriveStation } from '../drive/drive-station.ts';
 import type { PeerEnd } from '../transport/peer-events.ts';
 import type { OperatorMessages } from './operator-messages.ts';
 import { RobotSessionHost, type RobotSessionHostParts } from './robot-session-host.ts';
-
-const stations: DriveStation[] = [];
-afterEach(() => {
-  for (const station of stations.splice(0)) station.close();
-});
 
 /** A robot that somebody has driven. */
 function driven() {
@@ -19,7 +14,7 @@ function driven() {
     () => undefined,
     () => 0,
   );
-  stations.push(drive);
+  onTestFinished(() => drive.close());
   const host = new RobotSessionHost({
     drive,
     estop: { request: { take: () => false } },

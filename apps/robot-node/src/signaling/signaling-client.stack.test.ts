@@ -8,17 +8,10 @@ import {
   type ServiceToRobot,
 } from '@farpoint/protocol';
 import { createLogger, Secret, silentLogger } from '@farpoint/service';
-import { afterEach, describe, expect, it, vi } from 'vitest';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { describe, expect, it, onTestFinished } from 'vitest';
 import { type WebSocket, WebSocketServer } from 'ws';
 import { SignalingClient } from './signaling-client.ts';
-
-/** What is waited for comes at once or, on a busy machine, later. */
-const SOON = { timeout: 30_000, interval: 20 };
-
-const cleanups: (() => Promise<unknown> | unknown)[] = [];
-afterEach(async () => {
-  for (const cleanup of cleanups.splice(0).reverse()) await cleanup();
-});
 
 /** @param port that of a service before; a new one, that stays this test's, if absent */
 async function service(port?: number) {
@@ -29,7 +22,7 @@ async function service(port?: number) {
     for (const socket of server.clients) socket.terminate();
     await new Promise((resolve) => server.close(resolve));
   };
-  cleanups.push(stop);
+  onTestFinished(stop);
   /** The next robot that connects, with its first message. */
   const nextRobot = async (): Promise<{ socket: WebSocket; path: string; hello: RobotToService }> => {
     const [socket, request] = (await once(server, 'connection')) as [WebSocket, { url: string }];
@@ -44,23 +37,16 @@ function client(port: number, token: string | null = null, log = silentLogger(),
   const options = { url, id: 'r1', name: 'Robot', key: new Secret('k1'), ca: null };
   const shown = token === null ? null : new Secret(token);
   const made = new SignalingClient({ ...options, token: shown }, log);
-  cleanups.push(() => made.close());
+  onTestFinished(() => made.close());
   return made;
 }
 
 const welcome = JSON.stringify({ type: 'robot.welcome', id: 'r1', iceServers: [] } satisfies ServiceToRobot);
 
 describe('SignalingClient', () => {
-  it('finds the service below a path', async () => {
+  it('introduces itself below a path, and is registered once welcomed', async () => {
     const { port, nextRobot } = await service();
-    const called = nextRobot();
-    client(port, null, silentLogger(), '/base/').start();
-    expect((await called).path).toBe('/base/robot');
-  });
-
-  it('introduces itself, and is registered once welcomed', async () => {
-    const { port, nextRobot } = await service();
-    const robot = client(port, 'secret');
+    const robot = client(port, 'secret', silentLogger(), '/base/');
     const messages: ServiceToRobot[] = [];
     const welcomed = new Promise<void>((resolve) => {
       robot.onMessage = (message) => {
@@ -71,7 +57,7 @@ describe('SignalingClient', () => {
     const called = nextRobot();
     robot.start();
     const { socket, path, hello } = await called;
-    expect(path).toBe('/robot');
+    expect(path).toBe('/base/robot');
     expect(hello).toEqual({
       type: 'robot.hello',
       protocol: 1,
@@ -89,20 +75,7 @@ describe('SignalingClient', () => {
     expect(JSON.parse(String((await said)[0]))).toEqual({ type: 'session.close', session: 's' });
   });
 
-  it('reconnects with the same key after the service was away', async () => {
-    const first = await service();
-    const robot = client(first.port);
-    const called = first.nextRobot();
-    robot.start();
-    await called;
-    await first.stop();
-    const second = await service(first.port);
-    const { hello } = await second.nextRobot();
-    expect(hello).toMatchObject({ type: 'robot.hello', key: 'k1' });
-    expect(robot.disconnects).toBeGreaterThanOrEqual(1);
-  });
-
-  it('reports once that the service is missing, and once more when it is gone again', async () => {
+  it('reports once that the service is missing, connects when it is there, and reports once more when it is gone again', async () => {
     const first = await service();
     const warnings: string[] = [];
     const stream = { write: (line: string) => void warnings.push(line) };
@@ -110,23 +83,24 @@ describe('SignalingClient', () => {
     const robot = client(first.port, null, log);
     await first.stop();
     robot.start();
-    while (robot.disconnects < 3) await new Promise((resolve) => setTimeout(resolve, 5));
+    await eventually(() => robot.disconnects >= 3);
     expect(warnings.length).toBe(1);
     const second = await service(first.port);
-    const { socket } = await second.nextRobot();
+    const { socket, hello } = await second.nextRobot();
+    expect(hello).toMatchObject({ type: 'robot.hello', key: 'k1' });
     const welcomed = new Promise<void>((resolve) => (robot.onMessage = () => resolve()));
     socket.send(welcome);
     await welcomed;
     const before = robot.disconnects;
     await second.stop();
-    while (robot.disconnects < before + 2) await new Promise((resolve) => setTimeout(resolve, 5));
+    await eventually(() => robot.disconnects >= before + 2);
     expect(warnings.length).toBe(2);
   });
 
   it('checks a doubtful connection, and replaces one that does not answer within 2 s', async () => {
     const deaf = new WebSocketServer({ port: 0, host: '127.0.0.1', autoPong: false });
     await once(deaf, 'listening');
-    cleanups.push(() => {
+    onTestFinished(() => {
       for (const socket of deaf.clients) socket.terminate();
       deaf.close();
     });
@@ -144,7 +118,7 @@ describe('SignalingClient', () => {
       robot.check();
       return asked;
     };
-    await vi.waitUntil(hasAsked, SOON);
+    await eventually(hasAsked);
     // This connection gets no answer.
     const [again] = (await once(deaf, 'connection')) as [WebSocket];
     expect(again).not.toBe(socket);

@@ -1,17 +1,16 @@
 /** The real robot program with a microphone and a loudspeaker. */
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Sound } from '@farpoint/protocol';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { Microphone, opusDurationMs } from '@farpoint/sound';
 import { ADDON_FILE, BUILD_REMEDY } from '@farpoint/sound/build';
 import { samplesOf, toneShare } from '@farpoint/sound/testing';
-import { afterAll, afterEach, describe, expect, it } from 'vitest';
+import { describe, expect, it, onTestFinished } from 'vitest';
 import type { OperatorClient } from '../testing/operator-client.ts';
 import { useRobot } from '../testing/use-robot.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-sound-'));
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 const config = join(folder, 'farpoint.yaml');
 const heard = join(folder, 'heard.raw');
 const sink = `audio/x-raw,format=S16LE,rate=48000,channels=1 ! filesink location=${heard} buffer-mode=unbuffered`;
@@ -28,10 +27,6 @@ writeFileSync(
 );
 
 const VOICE_HZ = 700;
-const speakers: Microphone[] = [];
-afterEach(async () => {
-  for (const speaker of speakers.splice(0)) await speaker.close();
-});
 
 /** Speaks until the test ends. @param lost each so many packets, one is lost */
 function speak({ sound }: OperatorClient, lost = Number.POSITIVE_INFINITY): Microphone {
@@ -48,7 +43,7 @@ function speak({ sound }: OperatorClient, lost = Number.POSITIVE_INFINITY): Micr
       }
     },
   });
-  speakers.push(speaker);
+  onTestFinished(() => speaker.close());
   return speaker;
 }
 

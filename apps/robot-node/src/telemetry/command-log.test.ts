@@ -1,12 +1,11 @@
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { zeroTwist } from '@farpoint/protocol';
-import { afterAll, expect, test } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { expect, test } from 'vitest';
 import { CommandLog } from './command-log.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-log-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 
 function written(log: { write(): void }, path: string): string[] {
   log.write();

@@ -73,17 +73,6 @@ export class SignaledOperator {
     return operator;
   }
 
-  /** Requests a session, and resolves with the reason for which the robot or the service refuses it. */
-  static async refused(url: string, robotId: string): Promise<ServiceToOperator> {
-    const operator = new SignaledOperator(url, robotId);
-    await operator.until(({ type }) => type === 'robots');
-    operator.#send({ type: 'session.open', robotId });
-    const is = ({ type }: ServiceToOperator) => type === 'session.closed' || type === 'error';
-    await operator.until(is);
-    await operator.close();
-    return operator.#log.find(is) as ServiceToOperator;
-  }
-
   get session(): string {
     return this.#session;
   }

@@ -1,4 +1,5 @@
 import type { Twist } from '@farpoint/protocol';
+import { eventually } from '@farpoint/service/testing/eventually';
 import type { OperatorClient } from './operator-client.ts';
 
 const COMMAND_MS = 20;
@@ -13,4 +14,19 @@ export function steadyHand(client: OperatorClient, lease: string, twist: Twist):
     if (client.control.readyState === 'open') client.drive(lease, 0, { twist });
   }, COMMAND_MS);
   return () => clearInterval(timer);
+}
+
+/** Drives straight on, as a page does, until `is` holds. The client's hand lets go when the robot asks for it. */
+export async function driveUntil(
+  client: OperatorClient,
+  lease: string,
+  linear: number,
+  is: () => boolean,
+): Promise<void> {
+  const timer = setInterval(() => client.drive(lease, linear), COMMAND_MS);
+  try {
+    await eventually(is);
+  } finally {
+    clearInterval(timer);
+  }
 }

@@ -1,9 +1,8 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { type GrantedOperator, grantTo, makeIssuer } from '@farpoint/grants/testing';
 import type { Role } from '@farpoint/protocol';
-import { afterAll } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { shownGrant } from './shown-grant.ts';
 import { type Credentials, SignaledOperator } from './signaled-operator.ts';
 import { type RobotUnderTest, useRobot } from './use-robot.ts';
@@ -39,8 +38,7 @@ export async function useGrantingRobot(
   id: string,
   args: readonly string[] | ((folder: string) => readonly string[]) = [],
 ): Promise<GrantingRobot> {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-granting-'));
-  afterAll(() => rmSync(folder, { recursive: true }));
+  const folder = useFolder();
   const keyFile = join(folder, 'grant-keys.json');
   const trust = (...issuers: Issuer[]) =>
     writeFileSync(keyFile, JSON.stringify({ keys: issuers.map(({ publicJwk }) => publicJwk) }));

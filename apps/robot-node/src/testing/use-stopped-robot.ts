@@ -1,9 +1,8 @@
 /** A robot with stops of its own, and an operator of it. */
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+
 import { LocalStack, type RobotSpec } from '@farpoint/local-stack';
 import type { EstopState, Reading } from '@farpoint/protocol';
+import { testFolder } from '@farpoint/service/testing/folder';
 import { afterEach, beforeEach } from 'vitest';
 import { SignaledOperator } from './signaled-operator.ts';
 
@@ -36,14 +35,13 @@ export function useStoppedRobot(): StoppedRobot {
   let operator: SignaledOperator | null = null;
   const ending: (() => unknown)[] = [];
   beforeEach(() => {
-    folder = mkdtempSync(join(tmpdir(), 'farpoint-stops-'));
+    folder = testFolder();
   });
   afterEach(async () => {
     await operator?.close();
     await stack?.stop();
     [operator, stack] = [null, null];
     for (const end of ending.splice(0)) await end();
-    rmSync(folder, { recursive: true, force: true });
   });
   const connect = async ({ signalingUrl }: LocalStack) => {
     operator = await SignaledOperator.connect(signalingUrl, ID);

@@ -43,8 +43,3 @@ export class WatchedCamera {
     for (const each of this.#waiting.splice(0)) each();
   }
 }
-
-/** Resolves once `is` returns true; another process or thread changes its result. */
-export const eventually = async (is: () => boolean) => {
-  while (!is()) await new Promise((resolve) => setTimeout(resolve, 2));
-};

@@ -1,11 +1,10 @@
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { afterEach, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { expect, it } from 'vitest';
 import { PacketLog } from './packet-log.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-packet-log-'));
-afterEach(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 
 it('writes what was sent, oldest first, and overwrites the oldest entries when full', () => {
   const path = join(folder, 'sent.csv');

@@ -1,11 +1,11 @@
 /** The real robot program with cameras that it can encode with several codecs, by GStreamer. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { VideoCodec } from '@farpoint/protocol';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { availableEncoders } from '@farpoint/video';
 import { BUILD_REMEDY } from '@farpoint/video/build';
-import { afterAll, describe, expect, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import type { SignaledOperator } from '../testing/signaled-operator.ts';
 import { useRobot } from '../testing/use-robot.ts';
 
@@ -13,8 +13,7 @@ const codecs = await availableEncoders().then(
   ({ encoders }) => new Set(encoders.map(({ codec }) => codec)),
   () => new Set(),
 );
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-codecs-'));
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 const config = join(folder, 'farpoint.yaml');
 const size = { width: 320, height: 240, kbitPerS: 400 };
 writeFileSync(

@@ -1,18 +1,13 @@
 /** The real robot program with cameras encoded by GStreamer. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { availableEncoders } from '@farpoint/video';
+import { useFolder } from '@farpoint/service/testing/folder';
 import { BUILD_REMEDY } from '@farpoint/video/build';
-import { afterAll, describe, expect, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import { useRobot } from '../testing/use-robot.ts';
+import { hasVideo } from '../testing/watched-camera.ts';
 
-const isBuilt = await availableEncoders().then(
-  () => true,
-  () => false,
-);
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-video-'));
-afterAll(() => rmSync(folder, { recursive: true, force: true }));
+const folder = useFolder();
 const config = join(folder, 'farpoint.yaml');
 writeFileSync(
   config,
@@ -46,7 +41,7 @@ writeFileSync(
   }),
 );
 
-describe.skipIf(!isBuilt)(`cameras with video (needs: ${BUILD_REMEDY})`, { timeout: 60_000 }, () => {
+describe.skipIf(!hasVideo)(`cameras with video (needs: ${BUILD_REMEDY})`, { timeout: 60_000 }, () => {
   const robot = useRobot('sim-1', [
     ...['--config', config, '--sim-size', '64', '--max-points', '600'],
     ...['--rate-control', 'fixed', '--bitrate-mbps', '10'],

@@ -1,5 +1,4 @@
-import { mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import {
   decodeTicket,
@@ -12,15 +11,15 @@ import {
   verifyGrant,
   verifyRevocations,
 } from '@farpoint/grants';
-import { afterEach, beforeEach, expect, it } from 'vitest';
+import { testFolder } from '@farpoint/service/testing/folder';
+import { beforeEach, expect, it } from 'vitest';
 import { grantCommand } from './grant-command.ts';
 
 const NOW = 1_800_000_000_000;
 let folder: string;
 beforeEach(() => {
-  folder = mkdtempSync(join(tmpdir(), 'farpoint-grant-'));
+  folder = testFolder();
 });
-afterEach(() => rmSync(folder, { recursive: true }));
 
 async function run(args: string[], nowMs = NOW) {
   const [out, err]: [string[], string[]] = [[], []];

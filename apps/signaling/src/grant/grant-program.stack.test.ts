@@ -1,13 +1,12 @@
 /** The command as people run it. */
 import { spawnSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { afterAll, expect, it } from 'vitest';
+import { useFolder } from '@farpoint/service/testing/folder';
+import { expect, it } from 'vitest';
 
 const program = join(import.meta.dirname, '../main.ts');
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-grant-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+const folder = useFolder();
 
 function run(args: string[], input = '') {
   const { status, stdout, stderr } = spawnSync(process.execPath, [program, 'grant', ...args], {

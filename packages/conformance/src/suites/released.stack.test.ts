@@ -2,7 +2,7 @@
  * The suites against stand-ins for the released programs: they pass at level `reference` and fail at level `strict`.
  * Signaling: ../main.stack.test.ts.
  */
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import type { KnownDefect } from '../known-defects.ts';
 import { ReleasedBridge, ReleasedRobot, ReleasedSignaling } from '../testing/index.ts';
 import { bridgeSuite } from './bridge-suite.ts';
@@ -10,13 +10,9 @@ import { robotSuite } from './robot-suite.ts';
 import { type CaseResult, type ConformanceCase, type Level, runSuite } from './suite.ts';
 
 let signaling: ReleasedSignaling;
-const cleanups: (() => Promise<void>)[] = [];
 beforeEach(async () => {
   signaling = await ReleasedSignaling.start();
-  cleanups.push(() => signaling.stop());
-});
-afterEach(async () => {
-  for (const cleanup of cleanups.splice(0).reverse()) await cleanup();
+  onTestFinished(() => signaling.stop());
 });
 
 const failed = (results: readonly CaseResult[]) => results.filter(({ outcome }) => outcome === 'failed');
@@ -39,10 +35,10 @@ describe('robot', { timeout: 60_000 }, () => {
     async (which) => {
       if (which.startsWith('as another')) {
         const first = await ReleasedRobot.start(signaling.robotUrl, { name: 'first' });
-        cleanups.push(() => first.stop());
+        onTestFinished(() => first.stop());
       }
       const robot = await ReleasedRobot.start(signaling.robotUrl, { offerAgainMs: 100 });
-      cleanups.push(() => robot.stop());
+      onTestFinished(() => robot.stop());
       await expectAllDefects(robotSuite, { client: signaling.clientUrl, name: 'robot' });
       expect(robot.offers).toBeGreaterThanOrEqual(robotSuite.length);
     },
@@ -52,7 +48,7 @@ describe('robot', { timeout: 60_000 }, () => {
 describe('bridge', { timeout: 120_000 }, () => {
   const run = async (level: Level) => {
     const bridge = await ReleasedBridge.start();
-    cleanups.push(() => bridge.stop());
+    onTestFinished(() => bridge.stop());
     const target = { robot: signaling.robotUrl, client: signaling.clientUrl, ...bridge.sockets };
     if (level === 'reference') await expectAllDefects(bridgeSuite, target);
     return { bridge, target };

@@ -1,16 +1,11 @@
-import { afterEach, describe, expect, it } from 'vitest';
+import { describe, expect, it, onTestFinished } from 'vitest';
 import { closePlainServer, openPlainServer, plainServerUrl } from '../testing/plain-socket-server.ts';
 import { type ConformanceCase, type Level, runSuite, whyUnfinished } from './suite.ts';
-
-const cleanups: (() => unknown)[] = [];
-afterEach(async () => {
-  for (const cleanup of cleanups.splice(0)) await cleanup();
-});
 
 /** The second of three cases ends the server. */
 async function runWithLoss(level: Level, second: Partial<ConformanceCase<null>>, fails: boolean) {
   const server = await openPlainServer();
-  cleanups.push(() => closePlainServer(server).catch(() => undefined));
+  onTestFinished(() => closePlainServer(server).catch(() => undefined));
   const cases: ConformanceCase<null>[] = [
     { name: 'first', run: async () => undefined },
     {

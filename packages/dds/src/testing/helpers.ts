@@ -19,11 +19,6 @@ export function testDomain(): number {
   return domain;
 }
 
-/** Resolves once `is` returns true; another thread or process changes its result. */
-export async function until(is: () => boolean): Promise<void> {
-  while (!is()) await new Promise((resolve) => setTimeout(resolve, 1));
-}
-
 /** The fault that an action throws. */
 export function faultOf(action: () => unknown): RosFault {
   try {

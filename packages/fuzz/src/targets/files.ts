@@ -7,9 +7,6 @@ import { cloudMessage, mcapOf } from '@farpoint/recording/testing';
 import { encode } from 'fast-png';
 import type { FuzzTarget } from '../fuzz-target.ts';
 
-const folder = mkdtempSync(join(tmpdir(), 'farpoint-fuzz-'));
-process.once('exit', () => rmSync(folder, { recursive: true, force: true }));
-
 /** 8 × 8 grey pixels. */
 const JPEG = [
   '/9j/4AAQSkZJRgABAQAAAQABAAD/2wCEACgcHiMeGSgjISMtKygwPGRBPDc3PHtYXUlkkYCZlo+AjIqgtObDoKrarYqMyP/L2u71',
@@ -25,15 +22,20 @@ const JPEG = [
 
 /** As programs do: from the disk. Reads every message. */
 function readFile(name: string): (input: Uint8Array) => Promise<void> {
-  const path = join(folder, name);
   return async (input) => {
-    writeFileSync(path, input);
-    const recording = await openRecording(path);
+    // For each input: a process that is killed, as those of tests are, leaves one at most.
+    const folder = mkdtempSync(join(tmpdir(), 'farpoint-fuzz-'));
     try {
-      const names = recording.topics.map((topic) => topic.name);
-      for await (const { topic, data } of recording.messages(names, recording.startNs)) topic.decode(data);
+      writeFileSync(join(folder, name), input);
+      const recording = await openRecording(join(folder, name));
+      try {
+        const names = recording.topics.map((topic) => topic.name);
+        for await (const { topic, data } of recording.messages(names, recording.startNs)) topic.decode(data);
+      } finally {
+        await recording.close();
+      }
     } finally {
-      await recording.close();
+      rmSync(folder, { recursive: true, force: true });
     }
   };
 }

@@ -1,8 +1,9 @@
 /** Graphs through rclnodejs, in the sourced ROS 2 installation. */
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { testFolder } from '@farpoint/service/testing/folder';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import type { RosFault } from '../fault.ts';
 import { RELIABLE_QOS } from '../graph.ts';
@@ -12,9 +13,6 @@ import { RclnodejsGraph } from './rclnodejs-graph.ts';
 const STRING = 'std_msgs/msg/String';
 const entry = isSourced(process.env) ? findRclnodejs() : null;
 const now = () => performance.now();
-const until = async (is: () => boolean) => {
-  while (!is()) await new Promise((resolve) => setTimeout(resolve, 5));
-};
 /** std_msgs/String in little-endian CDR, padded to `size` bytes. */
 function text(size: number): Uint8Array {
   const bytes = new Uint8Array(size);
@@ -25,7 +23,7 @@ function text(size: number): Uint8Array {
 }
 
 it('without a binary, reports a fault and builds nothing', async () => {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-rclnodejs-'));
+  const folder = testFolder();
   const module = join(folder, 'node_modules', 'rclnodejs');
   mkdirSync(module, { recursive: true });
   writeFileSync(join(module, 'package.json'), '{"main":"index.js"}');
@@ -41,7 +39,6 @@ it('without a binary, reports a fault and builds nothing', async () => {
     what: 'rclnodejs has no binary for this ROS',
     remedy: expect.stringContaining('npm rebuild rclnodejs') as string,
   });
-  rmSync(folder, { recursive: true });
 });
 
 describe.skipIf(entry === null)(
@@ -73,26 +70,26 @@ describe.skipIf(entry === null)(
         sound &&= Buffer.compare(bytes, text(bytes.length)) === 0 && Math.abs(now() - receivedMs) < 1000;
       });
       const publisher = theirs.advertise({ topic: '/a', type: STRING, qos: { ...RELIABLE_QOS, depth: 16 } });
-      await until(() => publisher.subscribers === 1 && subscription.publishers === 1);
+      await eventually(() => publisher.subscribers === 1 && subscription.publishers === 1);
       // RTPS pads sizes that are not multiples of four bytes.
       const sizes = [12, 16, 4096, 300_004, 5_000_000, 12];
       for (const size of sizes) publisher.publish(text(size));
-      await until(() => heard.length === sizes.length);
+      await eventually(() => heard.length === sizes.length);
       expect(heard).toEqual(sizes);
       expect(sound).toBe(true);
-      await until(() => subscription.received === sizes.length);
+      await eventually(() => subscription.received === sizes.length);
       expect(subscription.dropped).toBe(0);
-      await until(() => ours.topics().some(({ topic }) => topic === '/a'));
+      await eventually(() => ours.topics().some(({ topic }) => topic === '/a'));
       expect(ours.topics().find(({ topic }) => topic === '/a')).toEqual({
         ...{ topic: '/a', type: STRING, publishers: 1, subscribers: 0 },
       });
       publisher.close();
-      await until(() => subscription.publishers === 0);
+      await eventually(() => subscription.publishers === 0);
     }, 60_000);
 
     it('a missing type is a fault with its topic', async () => {
       ours.subscribe({ topic: '/b', type: 'nobody_msgs/msg/Nothing', queue: 1 }, () => undefined);
-      await until(() => faults.length > 0);
+      await eventually(() => faults.length > 0);
       expect(faults[0]).toMatchObject({ code: 'unsupported', topic: '/b' });
     }, 60_000);
 
@@ -102,13 +99,13 @@ describe.skipIf(entry === null)(
         heard.push(bytes.length),
       );
       const publisher = theirs.advertise({ topic: '/c', type: STRING });
-      await until(() => publisher.subscribers === 1);
+      await eventually(() => publisher.subscribers === 1);
       const child = execFileSync('pgrep', ['-f', `"name":"ours_${process.pid}"`], { encoding: 'utf8' });
       process.kill(Number(child.split('\n')[0]), 'SIGKILL');
-      await until(() => faults.length > 0);
+      await eventually(() => faults.length > 0);
       expect(faults[0]).toMatchObject({ code: 'lost', what: expect.stringContaining('SIGKILL') as string });
       const timer = setInterval(() => publisher.publish(text(20)), 50);
-      await until(() => heard.length > 0);
+      await eventually(() => heard.length > 0);
       clearInterval(timer);
       expect(heard[0]).toBe(20);
     }, 60_000);
@@ -119,11 +116,11 @@ describe.skipIf(entry === null)(
         heard.push(bytes.length),
       );
       const publisher = theirs.advertise({ topic: '/d', type: STRING });
-      await until(() => publisher.subscribers === 1);
+      await eventually(() => publisher.subscribers === 1);
       publisher.publish(text(30));
       publisher.close();
       await theirs.close();
-      await until(() => heard.length === 1);
+      await eventually(() => heard.length === 1);
     }, 60_000);
   },
 );

@@ -2,6 +2,7 @@
 import { once } from 'node:events';
 import { connect } from 'node:net';
 import type { Twist } from '@farpoint/protocol';
+import { eventually } from '@farpoint/service/testing/eventually';
 import { RosFollowerClient, RosMasterClient, RosNode } from '@foxglove/ros1';
 import fc from 'fast-check';
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
@@ -20,10 +21,6 @@ const CLOUD = 'sensor_msgs/msg/PointCloud2';
 const TWIST = 'geometry_msgs/msg/Twist';
 const ahead: Twist = { linear: { x: 0.5, y: 0, z: 0 }, angular: { x: 0, y: 0, z: -0.25 } };
 const now = () => performance.now();
-
-async function until(is: () => boolean): Promise<void> {
-  while (!is()) await new Promise((resolve) => setTimeout(resolve, 5));
-}
 
 describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`, { timeout: 60_000 }, () => {
   let peers: Ros1Peers;
@@ -73,7 +70,7 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
       colourOf(imageSchema.parse(decodeImage(bytes)), colour);
       pixel = colour[1000] as number;
     });
-    await until(() => times.length >= 21 && pixel !== 0);
+    await eventually(() => times.length >= 21 && pixel !== 0);
     expect(points).toBe(230_400);
     expect(into[2]).toBe(2);
     expect(new Uint32Array(into.buffer)[3]).toBe(0xff00_80ff);
@@ -93,9 +90,9 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
       return { publisher, publish: () => publisher.publish(write(ahead, 1_000_000_000n, 'base_link')) };
     };
     const each = [send('/cmd_vel', TWIST), send('/cmd_vel_stamped', 'geometry_msgs/msg/TwistStamped')];
-    await until(() => each.every(({ publisher }) => publisher.subscribers === 1));
+    await eventually(() => each.every(({ publisher }) => publisher.subscribers === 1));
     for (const { publish } of each) publish();
-    await until(() => node.heard.length === 2);
+    await eventually(() => node.heard.length === 2);
     for (const { x, turn } of node.heard) expect([x, turn]).toEqual([0.5, -0.25]);
     await node.kill();
   });
@@ -103,12 +100,12 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
   it('reports a killed node as gone, and finds it when it returns', async () => {
     const first = await peers.startNode('cloud', 'camera');
     const counter = counted();
-    await until(() => counter.count > 2);
+    await eventually(() => counter.count > 2);
     await first.kill();
-    await until(() => faults.some(({ message }) => message === '/points: its publisher is gone'));
+    await eventually(() => faults.some(({ message }) => message === '/points: its publisher is gone'));
     const before = counter.count;
     const second = await peers.startNode('cloud', 'camera');
-    await until(() => counter.count > before + 5);
+    await eventually(() => counter.count > before + 5);
     // Once each: nobody is connected twice.
     expect(counter.subscription.publishers).toBe(1);
     await second.kill();
@@ -118,22 +115,22 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     const old = await peers.startNode('cloud,velocity', 'camera');
     const counter = counted();
     const publisher = graph.advertise({ topic: '/cmd_vel', type: TWIST });
-    await until(() => counter.count > 2 && publisher.subscribers === 1);
+    await eventually(() => counter.count > 2 && publisher.subscribers === 1);
     await peers.killCore();
-    await until(() =>
+    await eventually(() =>
       faults.some(({ code, message }) => code === 'lost' && message.includes('no ROS 1 master')),
     );
     // Nodes are connected to each other, not through the master.
     const before = counter.count;
-    await until(() => counter.count > before + 3);
+    await eventually(() => counter.count > before + 3);
     await old.kill();
     await peers.startCore();
     const fresh = await peers.startNode('cloud,velocity', 'camera');
     const since = counter.count;
-    await until(() => counter.count > since + 5 && publisher.subscribers === 1);
+    await eventually(() => counter.count > since + 5 && publisher.subscribers === 1);
     publisher.publish(velocityWriter(1, TWIST)(ahead, 0n, ''));
-    await until(() => fresh.heard.length === 1);
-    await until(() =>
+    await eventually(() => fresh.heard.length === 1);
+    await eventually(() =>
       graph.topics().some(({ topic, subscribers }) => topic === '/points' && subscribers === 1),
     );
     await fresh.kill();
@@ -148,14 +145,14 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     const counter = counted();
     await peers.startCore();
     const node = await peers.startNode('cloud', 'camera');
-    await until(() => counter.count > 2);
+    await eventually(() => counter.count > 2);
     await node.kill();
   });
 
   it('reports a topic of another type, and delivers none of its messages', async () => {
     const node = await peers.startNode('cloud', 'camera');
     const counter = counted('/points', 'sensor_msgs/msg/Image');
-    await until(() => faults.length > 0);
+    await eventually(() => faults.length > 0);
     expect(faults[0]?.topic).toBe('/points');
     expect(['wrong-type', 'refused']).toContain(faults[0]?.code);
     expect(counter.count).toBe(0);
@@ -169,14 +166,14 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     const subscription = graph.subscribe({ topic: '/arm', type, queue: 1 }, (bytes) => {
       message ??= decoderOf(1, type, subscription.definition)(bytes);
     });
-    await until(() => message !== null);
+    await eventually(() => message !== null);
     expect(message).toMatchObject({ joints: Float32Array.of(0.5, 1.5), mode: 'hold' });
     await node.kill();
   });
 
   it('survives peers that send garbage to its ports', async () => {
     graph.advertise({ topic: '/cmd_vel', type: TWIST });
-    await until(() => graph.topics().some(({ topic }) => topic === '/cmd_vel'));
+    await eventually(() => graph.topics().some(({ topic }) => topic === '/cmd_vel'));
     const [, , url] = await new RosMasterClient(peers.masterUrl).lookupNode('/prober', '/farpoint_test');
     const { port, address } = await RosNode.RequestTopic(
       '/prober',
@@ -206,7 +203,7 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     }
     const node = await peers.startNode('velocity,cloud', 'camera');
     const counter = counted();
-    await until(() => counter.count > 2);
+    await eventually(() => counter.count > 2);
     await node.kill();
   });
 
@@ -214,17 +211,17 @@ describe.skipIf(python === null)(`ROS 1 graph (${missing ?? 'roscore, rospy'})`,
     const other = await open('farpoint_other');
     other.subscribe({ topic: '/points', type: CLOUD, queue: 1 }, () => {});
     other.advertise({ topic: '/left', type: TWIST });
-    await until(() => graph.topics().some(({ topic }) => topic === '/left'));
+    await eventually(() => graph.topics().some(({ topic }) => topic === '/left'));
     await other.close();
-    await until(() => !graph.topics().some(({ topic }) => topic === '/left'));
+    await eventually(() => !graph.topics().some(({ topic }) => topic === '/left'));
   });
 
   it('ends when the master ends it because another node with its name has registered', async () => {
     const counter = counted();
-    await until(() => graph.topics().some(({ topic }) => topic === '/points'));
+    await eventually(() => graph.topics().some(({ topic }) => topic === '/points'));
     const other = await open();
     other.subscribe({ topic: '/points', type: CLOUD, queue: 1 }, () => {});
-    await until(() =>
+    await eventually(() =>
       faults.some(({ message }) => message.includes('the master has ended the node /farpoint_test')),
     );
     await other.close();

@@ -1,7 +1,7 @@
 /** Files that an option may name and that hold nothing: what is in them, and what people must be told. */
-import { chmodSync, mkdirSync, mkdtempSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { chmodSync, mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { useFolder } from './folder.ts';
 
 export interface UselessFile {
   readonly what: string;
@@ -10,9 +10,9 @@ export interface UselessFile {
   readonly words: string;
 }
 
-/** Makes one of each kind, in a folder of their own. */
+/** Makes one of each kind, in a folder of their own: see {@link useFolder}. */
 export function uselessFiles(): UselessFile[] {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-useless-'));
+  const folder = useFolder();
   const holding = (what: string, content: string | Uint8Array, words: string): UselessFile => {
     const path = join(folder, what.replaceAll(' ', '-'));
     writeFileSync(path, content);

@@ -2,7 +2,7 @@ import { chmodSync, readFileSync, rmSync, statSync, truncateSync, writeFileSync 
 import fc from 'fast-check';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { MappedFile } from '../mapped-file.ts';
-import { ADDON_SUITE, codeOf, errorOf, removeFolder, scratchFolder } from '../testing/helpers.ts';
+import { ADDON_SUITE, codeOf, errorOf, scratchFolder } from '../testing/helpers.ts';
 import { Watch } from '../watch.ts';
 import { CloudProducer } from './cloud-producer.ts';
 import { CloudReader, type FrameRoom } from './cloud-reader.ts';
@@ -17,7 +17,6 @@ beforeEach(() => {
 });
 afterEach(() => {
   for (const each of open.splice(0)) each[Symbol.dispose]();
-  removeFolder(folder);
 });
 
 function keep<T extends Disposable>(made: T): T {

@@ -3,21 +3,16 @@ import { spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { join } from 'node:path';
 import { zeroTwist } from '@farpoint/protocol';
-import { afterEach, beforeEach, describe, expect, it } from 'vitest';
-import { ADDON_SUITE, errorOf, removeFolder, scratchFolder } from '../testing/helpers.ts';
+import { describe, expect, it } from 'vitest';
+import { ADDON_SUITE, errorOf, scratchFolder } from '../testing/helpers.ts';
 import { ReferenceControlReader } from './control-reader.ts';
 import { ReferenceControlWriter } from './control-writer.ts';
 
 const PROGRAM = join(import.meta.dirname, '..', 'testing', 'driving-writer.ts');
 
-let folder: string;
-beforeEach(() => {
-  folder = scratchFolder();
-});
-afterEach(() => removeFolder(folder));
-
 describe.skipIf(ADDON_SUITE.skip)(`the command block's lock (${ADDON_SUITE.note})`, () => {
   it('names the process that holds it, and dies with that process', async () => {
+    const folder = scratchFolder();
     const child = spawn(process.execPath, [PROGRAM, '--folder', folder], {
       stdio: ['ignore', 'pipe', 'inherit'],
     });

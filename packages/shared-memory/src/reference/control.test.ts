@@ -1,17 +1,9 @@
 import { readFileSync, rmSync, statSync, truncateSync, writeFileSync } from 'node:fs';
 import { type Twist, zeroTwist } from '@farpoint/protocol';
+import { eventually } from '@farpoint/service/testing/eventually';
 import fc from 'fast-check';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
-import {
-  ADDON_SUITE,
-  errorOf,
-  fromHex,
-  readVectors,
-  removeFolder,
-  scratchFolder,
-  toHex,
-  until,
-} from '../testing/helpers.ts';
+import { ADDON_SUITE, errorOf, fromHex, readVectors, scratchFolder, toHex } from '../testing/helpers.ts';
 import { ReferenceControlReader } from './control-reader.ts';
 import { ReferenceControlWriter } from './control-writer.ts';
 import { type ReferenceFiles, referenceFiles } from './layout.ts';
@@ -33,7 +25,6 @@ beforeEach(() => {
 });
 afterEach(() => {
   for (const each of open.splice(0)) each[Symbol.dispose]();
-  removeFolder(folder);
 });
 
 /** Only the test about this silence waits for it. */
@@ -125,7 +116,7 @@ describe.skipIf(ADDON_SUITE.skip)(`command block (${ADDON_SUITE.note})`, () => {
     const read = reader();
     const counter = write.write(forward);
     // Nothing in this thread writes.
-    await until(() => (read.read()?.counter ?? counter) > counter);
+    await eventually(() => (read.read()?.counter ?? counter) > counter);
     expect(read.read()).toEqual({ counter: counter + 1, twist: zeroTwist() });
     expect(write.silences).toBe(1);
     expect(write.write(zeroTwist())).toBe(counter + 2);

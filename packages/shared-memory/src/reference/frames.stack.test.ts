@@ -8,7 +8,6 @@ import {
   errorOf,
   fromHex,
   readVectors,
-  removeFolder,
   scratchFolder,
   toHex,
 } from '../testing/helpers.ts';
@@ -38,7 +37,6 @@ beforeEach(() => {
 afterEach(() => {
   producer?.close();
   consumer?.close();
-  removeFolder(folder);
 });
 
 /** Writes into the file as another program would. */

@@ -1,22 +1,19 @@
 /** Helpers for this package's tests. */
 import { spawnSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { testFolder, useFolder } from '@farpoint/service/testing/folder';
 import { isAvailable } from '../addon.ts';
 import { SharedMemoryError, type SharedMemoryErrorCode } from '../errors.ts';
 
 /** Tests that need the addon are skipped without it, and then name the command that builds it. */
 export const ADDON_SUITE = { skip: !isAvailable(), note: 'needs the addon: pnpm build:native' };
 
-/** A new folder, in shared memory if there is any. */
-export function scratchFolder(): string {
-  return mkdtempSync(join(existsSync('/dev/shm') ? '/dev/shm' : tmpdir(), 'farpoint-test-'));
-}
-
-export function removeFolder(folder: string): void {
-  rmSync(folder, { recursive: true, force: true });
-}
+const MEMORY = existsSync('/dev/shm') ? '/dev/shm' : tmpdir();
+/** A folder in shared memory, if there is any: for the test that runs, or for all of the file. */
+export const scratchFolder = (): string => testFolder(MEMORY);
+export const scratchFolderOfFile = (): string => useFolder(MEMORY);
 
 export function fromHex(hex: string): Uint8Array {
   return new Uint8Array(Buffer.from(hex, 'hex'));
@@ -43,11 +40,6 @@ export function errorOf(action: () => unknown): SharedMemoryError {
 
 export function codeOf(action: () => unknown): SharedMemoryErrorCode {
   return errorOf(action).code;
-}
-
-/** Resolves once `is` returns true; another thread or process changes its result. */
-export async function until(is: () => boolean): Promise<void> {
-  while (!is()) await new Promise((resolve) => setTimeout(resolve, 1));
 }
 
 const root = join(import.meta.dirname, '..', '..', '..', '..');

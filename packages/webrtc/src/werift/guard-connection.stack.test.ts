@@ -285,12 +285,6 @@ describe('a running session', () => {
     expect(peers.heard).toEqual(['hello']);
   });
 
-  it('accepts a message of 64 KiB', async () => {
-    const peers = await connect();
-    await peers.exchange('x'.repeat(65_536));
-    expect(peers.faults).toEqual([]);
-  });
-
   it('reports a listener that throws, and keeps working', async () => {
     const peers = await connect();
     peers.onHeard = () => {

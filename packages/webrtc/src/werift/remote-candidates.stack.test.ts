@@ -1,11 +1,9 @@
-import { afterEach, describe, expect, it, vi } from 'vitest';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { describe, expect, it, onTestFinished } from 'vitest';
 import { RTCPeerConnection } from 'werift';
 import type { CandidateRefusal } from '../ice/candidate-gate.ts';
 import { guardConnection } from './guard-connection.ts';
 import { RemoteCandidates } from './remote-candidates.ts';
-
-/** What is waited for comes at once or, on a busy machine, later. */
-const SOON = { timeout: 30_000, interval: 20 };
 
 /** As sent by a peer that hides its addresses; nothing can resolve these names. */
 const HIDDEN = [
@@ -14,15 +12,10 @@ const HIDDEN = [
   '',
 ];
 
-const cleanups: (() => unknown)[] = [];
-afterEach(async () => {
-  for (const cleanup of cleanups.splice(0)) await cleanup();
-});
-
 function peer() {
   const connection = new RTCPeerConnection({ iceServers: [], iceUseTcp: false, bundlePolicy: 'max-bundle' });
   guardConnection(connection);
-  cleanups.push(() => connection.close());
+  onTestFinished(() => connection.close());
   const refused: CandidateRefusal[] = [];
   const remote = new RemoteCandidates(connection, (reason) => refused.push(reason));
   return { connection, remote, refused };
@@ -31,7 +24,7 @@ function peer() {
 const withoutCandidates = (sdp = '') => sdp.replaceAll(/a=(candidate:.*|end-of-candidates)\r\n/g, '');
 
 async function connected(connection: RTCPeerConnection): Promise<void> {
-  await vi.waitUntil(() => /^(?:connected|failed)$/.test(connection.connectionState), SOON);
+  await eventually(() => /^(?:connected|failed)$/.test(connection.connectionState));
   expect(connection.connectionState).toBe('connected');
 }
 

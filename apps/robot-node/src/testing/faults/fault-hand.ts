@@ -10,7 +10,6 @@ import type { OperatorClient } from '../operator-client.ts';
 import type { FaultyHand } from './fault.ts';
 
 const COMMAND_MS = 20;
-const FRAMES_KEPT = 500;
 export const SPEED = 0.25;
 
 /** A hand that holds on, whatever the robot says, and whose commands a fault can change. */
@@ -25,8 +24,6 @@ export class FaultHand implements FaultyHand {
   readonly #timer: NodeJS.Timeout;
   #sequence = 0;
   #seenUs: number | null = null;
-  /** When each frame began to arrive, `performance.now()`. */
-  readonly #framesMs: number[] = [];
 
   constructor(client: OperatorClient, lease: string) {
     this.#client = client;
@@ -88,19 +85,11 @@ export class FaultHand implements FaultyHand {
     this.#deadMan = true;
   }
 
-  /** The longest time without a new frame since then, ms. @param fromMs `performance.now()` */
-  longestWithoutFrame(fromMs: number): number {
-    const times = [fromMs, ...this.#framesMs.filter((ms) => ms > fromMs), performance.now()];
-    return Math.max(...times.slice(1).map((ms, i) => ms - (times[i] as number)));
-  }
-
   stop(): void {
     clearInterval(this.#timer);
   }
 
   #see(captureTimeUs: number): void {
     this.#seenUs = captureTimeUs;
-    this.#framesMs.push(performance.now());
-    if (this.#framesMs.length > FRAMES_KEPT) this.#framesMs.shift();
   }
 }

@@ -59,15 +59,20 @@ export class WheelLog {
    * When the wheels were first told less than before, or were told nothing any more.
    *
    * @param fromMs the cause, `performance.now()`
-   * @returns ms after the cause, the longest time that this log did not look, and the longest without a word
+   * @returns ms after the cause, and the longest time that this log did not look
    */
-  brakingAfter(fromMs: number): { afterMs: number; blindMs: number; silentMs: number } | null {
-    return this.#after(fromMs, ({ linear }, before) => linear < before.linear - 1e-9);
-  }
-
-  /** As {@link brakingAfter}, of the first zero: being told less for a moment is not a stop. */
-  stopAfter(fromMs: number): { afterMs: number; blindMs: number; silentMs: number } | null {
-    return this.#after(fromMs, ({ linear }) => linear === 0);
+  brakingAfter(fromMs: number): { afterMs: number; blindMs: number } | null {
+    const before = this.#samples.findLast(({ atMs }) => atMs <= fromMs);
+    if (before === undefined) return null;
+    let last = before;
+    let blindMs = 0;
+    for (const sample of this.#samples) {
+      if (sample.atMs <= fromMs) continue;
+      blindMs = Math.max(blindMs, sample.atMs - last.atMs);
+      if (sample.linear < before.linear - 1e-9) return { afterMs: sample.atMs - fromMs, blindMs };
+      last = sample;
+    }
+    return null;
   }
 
   /** When the last velocity was written, `performance.now()`. */
@@ -79,26 +84,6 @@ export class WheelLog {
   close(): void {
     clearInterval(this.#timer);
     this.#block.close();
-  }
-
-  #after(
-    fromMs: number,
-    is: (sample: Sample, before: Sample) => boolean,
-  ): { afterMs: number; blindMs: number; silentMs: number } | null {
-    const before = this.#samples.findLast(({ atMs }) => atMs <= fromMs);
-    if (before === undefined) return null;
-    let last = before;
-    let word = before;
-    let [blindMs, silentMs] = [0, 0];
-    for (const sample of this.#samples) {
-      if (sample.atMs <= fromMs) continue;
-      blindMs = Math.max(blindMs, sample.atMs - last.atMs);
-      silentMs = Math.max(silentMs, sample.atMs - word.atMs);
-      if (sample.counter !== word.counter) word = sample;
-      if (is(sample, before)) return { afterMs: sample.atMs - fromMs, blindMs, silentMs };
-      last = sample;
-    }
-    return null;
   }
 
   #poll(): void {

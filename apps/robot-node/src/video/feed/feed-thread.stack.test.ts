@@ -4,11 +4,12 @@ import { testDomain } from '@farpoint/dds/testing';
 import type { Publisher } from '@farpoint/ros';
 import { messageBytes } from '@farpoint/ros/testing';
 import { silentLogger } from '@farpoint/service';
+import { eventually } from '@farpoint/service/testing/eventually';
 import { DEFAULT_CAMERA } from '@farpoint/sim';
 import { BUILD_REMEDY } from '@farpoint/video/build';
 import { afterEach, describe, expect, it } from 'vitest';
 import { monotonicMs } from '../../clock.ts';
-import { eventually, hasVideo, WatchedCamera } from '../../testing/watched-camera.ts';
+import { hasVideo, WatchedCamera } from '../../testing/watched-camera.ts';
 import type { FeedSource, RosVideoSource, SimVideoSource } from './feed-source.ts';
 import { FeedThread } from './feed-thread.ts';
 
@@ -108,23 +109,16 @@ describe.skipIf(!hasVideo)(
       expect(thread.restarts).toBeGreaterThanOrEqual(1);
     });
 
-    it('close although the thread hangs', async () => {
-      const script = new URL('../../testing/hanging-feed-worker.ts', import.meta.url);
-      const thread = new FeedThread(silentLogger(), { script, life: SOON });
+    it.each([
+      ['hangs', 'hanging', { life: SOON }],
+      ['is dead', 'failing', { retry: { firstMs: 60_000, mostMs: 60_000 } }],
+    ])('close although the thread %s, and may be closed again', async (_, worker, options) => {
+      const script = new URL(`../../testing/${worker}-feed-worker.ts`, import.meta.url);
+      const thread = new FeedThread(silentLogger(), { script, ...options });
       const front = watch(thread, 'Front', simulated(0));
       await front.until(() => front.pictures.length >= 1);
       front.encoder.requestKeyFrame();
       await front.encoder.close();
-    });
-
-    it('close although the thread is dead', async () => {
-      const script = new URL('../../testing/failing-feed-worker.ts', import.meta.url);
-      const thread = new FeedThread(silentLogger(), { script, retry: { firstMs: 60_000, mostMs: 60_000 } });
-      const front = watch(thread, 'Front', simulated(0));
-      await front.until(() => front.pictures.length >= 1);
-      front.encoder.requestKeyFrame();
-      const closing = front.encoder.close();
-      await closing;
       await front.encoder.close();
     });
 
