@@ -1,3 +1,4 @@
+import { longProperty } from '@farpoint/network-sim/cases';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { CHAIN_START, makeEntry, sha256 } from './audit-entry.ts';
@@ -36,7 +37,7 @@ describe('a chain', () => {
         const kind = at === bytes.byteLength - 1 ? 'torn' : 'changed';
         expect(verify([changed])).toMatchObject({ kind, entry, place: { file: 'f0', line: entry + 1 } });
       }),
-      { numRuns: 2000 },
+      longProperty(2, 4000),
     );
   });
 
@@ -140,7 +141,7 @@ it('arbitrary files are refused without an exception', () => {
           expect(result.last.sequence - result.first.sequence).toBe(result.entries - 1);
       },
     ),
-    { numRuns: 1000 },
+    longProperty(3, 2000),
   );
 });
 

@@ -1,5 +1,5 @@
 import { BUSY_COMPUTER } from '@farpoint/network-sim';
-import { longProperty, someOf } from '@farpoint/network-sim/cases';
+import { longProperty, shareInEachRun, someOf } from '@farpoint/network-sim/cases';
 import type { PacketResult } from '@farpoint/rtp';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
@@ -20,6 +20,11 @@ import {
 const M = 1e6;
 /** Mean rate of the link in the teleoperation paper, with the paper's round trip. */
 const LINK = 41.44 * M;
+/** Of a receiver's clock: when, and by how much, ms. */
+const JUMPS = [
+  [8000, 500],
+  [13_000, -700],
+] as const;
 const flat = (bitsPerSecond: number) => [{ atMs: 0, mbps: bitsPerSecond / M }];
 
 function run(scenario: Partial<Scenario>): Outcome {
@@ -34,6 +39,35 @@ const q95 = (outcome: Outcome, fromMs: number, toMs: number) =>
 const used = (outcome: Outcome, fromMs: number, toMs: number) =>
   utilisation(outcome, outcome.media[0]!, fromMs, toMs);
 
+/** What a path may be, and how much of it is used after 5 s at least, with a queue of how many ms at most. */
+const PATHS: [what: string, scenario: Partial<Scenario>, least: number, queueMs: number][] = [
+  ['of 1 Mbit/s', { capacity: flat(M) }, 0.85, 60],
+  ['of 8 Mbit/s', { capacity: flat(8 * M) }, 0.85, 25],
+  ['of 90 Mbit/s', { capacity: flat(90 * M) }, 0.85, 25],
+  ['of a long way and queue', { capacity: flat(8 * M), rttMs: 200, queueMs: 500 }, 0.85, 50],
+  ['whose delay varies by 5 ms', { jitterMs: 5 }, 0.7, 40],
+  ['whose delay varies by 10 ms', { capacity: flat(8 * M), jitterMs: 10 }, 0.7, 40],
+  [
+    'that reorders, and duplicates feedback',
+    { reorder: 0.02, media: [{ duplicateFeedback: 0.1 }] },
+    0.85,
+    20,
+  ],
+  ['that loses feedback', { backLoss: 0.2 }, 0.65, 25],
+  ['with rare feedback', { media: [{ feedbackMs: [200, 250] }] }, 0.7, 60],
+  ['to a clock that runs fast and jumps', { media: [{ clockJumps: JUMPS, clockSkewPpm: 100 }] }, 0.85, 20],
+  ['that stalls often', { stalls: { link: { perSecond: 4, lengthMs: [5, 25] } } }, 0.88, 60],
+  ['to a receiver that stalls', { stalls: { receiver: { perSecond: 5, lengthMs: [5, 25] } } }, 0.88, 60],
+  ['from a sender that stalls', { stalls: { sender: { perSecond: 5, lengthMs: [5, 40] } } }, 0.88, 60],
+  ['that stalls for long', { stalls: { link: { perSecond: 1, lengthMs: [40, 60] } } }, 0.88, 60],
+];
+
+test.each(PATHS)('a path %s is used, with little queue', (_, scenario, least, queueMs) => {
+  const outcome = run(scenario);
+  expect(used(outcome, 5000, 20_000)).toBeGreaterThan(least);
+  expect(q95(outcome, 5000, 20_000)).toBeLessThan(queueMs);
+});
+
 describe('a steady link', () => {
   test.each(someOf([1, 2, 3]))('is used within 2 s, with little queue (seed %i)', (seed) => {
     const outcome = run({ seed });
@@ -43,23 +77,11 @@ describe('a steady link', () => {
     expect(losses(outcome.media[0]!, 0, 20_000).overflow).toBeLessThan(0.001);
   });
 
-  test.each([1, 8, 90])('of %i Mbit/s', (mbit) => {
-    const outcome = run({ capacity: flat(mbit * M) });
-    expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.85);
-    expect(q95(outcome, 5000, 20_000)).toBeLessThan(mbit === 1 ? 60 : 25);
-  });
-
   test('without any probe', () => {
     const outcome = run({ media: [{ probes: false }] });
     expect(msUntilUsed(outcome, outcome.media[0]!, 0, 20_000, 0.85)).toBeLessThan(6000);
     expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.85);
     expect(q95(outcome, 5000, 20_000)).toBeLessThan(25);
-  });
-
-  test('with a round trip of 200 ms and a queue of 0.5 s', () => {
-    const outcome = run({ capacity: flat(8 * M), rttMs: 200, queueMs: 500 });
-    expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.85);
-    expect(q95(outcome, 5000, 20_000)).toBeLessThan(50);
   });
 });
 
@@ -113,20 +135,16 @@ describe('loss', () => {
 });
 
 describe('beside a TCP flow', () => {
-  test.each([50, 100, 200])('keeps a fair share: CUBIC, 20 Mbit/s, queue of %i ms', (queueMs) => {
-    const outcome = run({ durationMs: 60_000, capacity: flat(20 * M), queueMs, cubic: [{ startMs: 5000 }] });
-    const ours = share(outcome.media[0]!, outcome.cubic[0]!, 10_000, 60_000);
-    expect(ours).toBeGreaterThan(0.25);
-    expect(ours).toBeLessThan(0.75);
-  });
+  const later = { cubic: [{ startMs: 5000 }] };
 
-  test('that was there first', () => {
-    const outcome = run({
-      durationMs: 60_000,
-      capacity: flat(20 * M),
-      cubic: [{}],
-      media: [{ startMs: 5000 }],
-    });
+  test.each([
+    ...someOf([50, 100, 200]).map(
+      (queueMs) => [`with a queue of ${queueMs} ms`, { queueMs, ...later }] as const,
+    ),
+    ['that was there first', { cubic: [{}], media: [{ startMs: 5000 }] }],
+    ['on a busy computer', { stalls: BUSY_COMPUTER, ...later }],
+  ] as [string, Partial<Scenario>][])('keeps a fair share of 20 Mbit/s: CUBIC, %s', (_, scenario) => {
+    const outcome = run({ durationMs: 60_000, capacity: flat(20 * M), ...scenario });
     const ours = share(outcome.media[0]!, outcome.cubic[0]!, 10_000, 60_000);
     expect(ours).toBeGreaterThan(0.25);
     expect(ours).toBeLessThan(0.75);
@@ -134,7 +152,8 @@ describe('beside a TCP flow', () => {
 
   test('that leaves: the queue is short again within 10 s in most runs', () => {
     // Sometimes a share test falls just before the flow leaves; then the next test has to detect it.
-    const queues = [1, 2, 3, 4, 5].map((seed) => {
+    const seeds = someOf([1, 2, 3, 4, 5], 1, shareInEachRun(1 / 2));
+    const queues = seeds.map((seed) => {
       const outcome = run({
         durationMs: 50_000,
         seed,
@@ -144,11 +163,11 @@ describe('beside a TCP flow', () => {
       expect(used(outcome, 35_000, 50_000)).toBeGreaterThan(0.85);
       return q95(outcome, 35_000, 50_000);
     });
-    expect(queues.sort((a, b) => a - b)[2]).toBeLessThan(25);
+    expect(queues.filter((ms) => ms < 25).length).toBeGreaterThan(queues.length / 2);
   });
 });
 
-test.each([8, 41.44])('two flows share %f Mbit/s, whichever came first', (mbit) => {
+test.each(someOf([8, 41.44]))('two flows share %f Mbit/s, whichever came first', (mbit) => {
   const outcome = run({ durationMs: 60_000, capacity: flat(mbit * M), media: [{}, { startMs: 10_000 }] });
   const [first, second] = outcome.media as [Outcome['media'][0], Outcome['media'][0]];
   const part = share(first, second, 20_000, 60_000);
@@ -166,48 +185,11 @@ describe('other things the path may do', () => {
     expect(losses(outcome.media[0]!, 0, 20_000).overflow).toBeLessThan(0.01);
   });
 
-  test.each([
-    [41.44, 5],
-    [8, 10],
-  ])('delay that varies: %f Mbit/s, ± %i ms', (mbit, jitterMs) => {
-    const outcome = run({ capacity: flat(mbit * M), jitterMs });
-    expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.7);
-    expect(q95(outcome, 5000, 20_000)).toBeLessThan(40);
-  });
-
   test('a queue limit in ms, so fewer bytes on a slower link', () => {
     const capacity = [...flat(LINK), { atMs: 10_000, mbps: 8 }];
     const outcome = run({ capacity, queueMs: 100, queueFollows: true });
     expect(used(outcome, 11_000, 20_000)).toBeGreaterThan(0.85);
     expect(losses(outcome.media[0]!, 11_000, 20_000).overflow).toBeLessThan(0.01);
-  });
-
-  test('reordered packets and duplicated feedback', () => {
-    const outcome = run({ reorder: 0.02, media: [{ duplicateFeedback: 0.1 }] });
-    expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.85);
-    expect(q95(outcome, 5000, 20_000)).toBeLessThan(20);
-  });
-
-  test('lost feedback', () => {
-    const outcome = run({ backLoss: 0.2 });
-    expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.65);
-    expect(q95(outcome, 5000, 20_000)).toBeLessThan(25);
-  });
-
-  test('rare feedback', () => {
-    const outcome = run({ media: [{ feedbackMs: [200, 250] }] });
-    expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.7);
-    expect(q95(outcome, 5000, 20_000)).toBeLessThan(60);
-  });
-
-  test('a receiver’s clock that runs fast and jumps', () => {
-    const jumps = [
-      [8000, 500],
-      [13_000, -700],
-    ] as const;
-    const outcome = run({ media: [{ clockJumps: jumps, clockSkewPpm: 100 }] });
-    expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.85);
-    expect(q95(outcome, 5000, 20_000)).toBeLessThan(20);
   });
 
   test('an outage of 36 s: a trickle, then back within 2 s', () => {
@@ -234,12 +216,12 @@ describe('other things the path may do', () => {
 
 describe.each(someOf([1, 2, 3]))('another route (seed %i)', (seed) => {
   test.each([
-    ['shorter', -15, 0.95],
-    ['longer', 8, 0.85],
-    ['longer', 40, 0.8],
-    ['longer', 80, 0.75],
-  ])('that is %s by %i ms is detected within 3 s', (_, moreMs, least) => {
-    for (const stalls of [{}, BUSY_COMPUTER]) {
+    ['shorter', -15, 0.95, 0],
+    ['longer', 8, 0.85, 1],
+    ['longer', 40, 0.8, 0],
+    ['longer', 80, 0.75, 1],
+  ])('that is %s by %i ms is detected within 3 s', (_, moreMs, least, from) => {
+    for (const stalls of someOf([{}, BUSY_COMPUTER], from, shareInEachRun(1 / 2))) {
       const outcome = run({ durationMs: 20_000, seed, stalls, delaySteps: [[6000, moreMs]] });
       expect(used(outcome, 9000, 20_000)).toBeGreaterThan(0.85);
       expect(used(outcome, 6000, 20_000)).toBeGreaterThan(least);
@@ -261,17 +243,6 @@ describe('on a busy computer', () => {
     expect(sharpDrops(outcome, 2000)).toBe(0);
   });
 
-  test.each([
-    ['link', 4, 5, 25],
-    ['receiver', 5, 5, 25],
-    ['sender', 5, 5, 40],
-    ['link', 1, 40, 60],
-  ] as const)('the %s alone stalls, %i / s, for %i–%i ms', (who, perSecond, least, most) => {
-    const outcome = run({ stalls: { [who]: { perSecond, lengthMs: [least, most] } } });
-    expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.88);
-    expect(q95(outcome, 5000, 20_000)).toBeLessThan(60);
-  });
-
   test.each(someOf([1, 2, 3]))('with 5 %% of loss that is the link’s own (seed %i)', (seed) => {
     const outcome = run({ seed, stalls: BUSY_COMPUTER, loss: 0.05 });
     expect(used(outcome, 5000, 20_000)).toBeGreaterThan(0.82);
@@ -284,18 +255,6 @@ describe('on a busy computer', () => {
     expect(msAboveQueue(outcome.media[0]!, 100, down, 20_000)).toBeLessThan(600);
     expect(used(outcome, 12_000, 20_000)).toBeGreaterThan(0.8);
     expect(msUntilUsed(outcome, outcome.media[0]!, 20_000, 30_000, 0.85)).toBeLessThan(4500);
-  });
-
-  test('it still shares with a TCP flow', () => {
-    const outcome = run({
-      durationMs: 60_000,
-      capacity: flat(20 * M),
-      stalls: BUSY_COMPUTER,
-      cubic: [{ startMs: 5000 }],
-    });
-    const ours = share(outcome.media[0]!, outcome.cubic[0]!, 10_000, 60_000);
-    expect(ours).toBeGreaterThan(0.25);
-    expect(ours).toBeLessThan(0.75);
   });
 });
 

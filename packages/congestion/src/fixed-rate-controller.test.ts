@@ -1,9 +1,14 @@
 import type { PacketResult } from '@farpoint/rtp';
 import fc from 'fast-check';
-import { describe, expect, test } from 'vitest';
+import { beforeEach, describe, expect, test } from 'vitest';
 import { FixedRateController } from './fixed-rate-controller.ts';
 
 const MBIT = 1_000_000;
+
+let controller: FixedRateController;
+beforeEach(() => {
+  controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
+});
 
 function results(received: number, lost: number): PacketResult[] {
   return Array.from({ length: received + lost }, (_, i) => ({
@@ -15,7 +20,7 @@ function results(received: number, lost: number): PacketResult[] {
 }
 
 /** Sends for `seconds` with feedback every 50 ms that reports this loss. @returns the end time */
-function run(controller: FixedRateController, fromMs: number, seconds: number, loss: number): number {
+function run(fromMs: number, seconds: number, loss: number): number {
   const untilMs = fromMs + seconds * 1000;
   for (let t = fromMs; t < untilMs; t += 50) {
     for (let i = 0; i < 50; i++) controller.onPacketSent(i, 1244, t);
@@ -26,48 +31,43 @@ function run(controller: FixedRateController, fromMs: number, seconds: number, l
 }
 
 test('gives the configured rate', () => {
-  const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
   expect(controller.targetBitsPerSecond(0)).toBe(40 * MBIT);
-  run(controller, 0, 10, 0);
+  run(0, 10, 0);
   expect(controller.targetBitsPerSecond(0)).toBe(40 * MBIT);
 });
 
 test('loss for a whole second halves the rate, a short burst of loss does not', () => {
-  const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
-  let t = run(controller, 0, 0.95, 0);
-  t = run(controller, t, 0.05, 1);
+  let t = run(0, 0.95, 0);
+  t = run(t, 0.05, 1);
   expect(controller.targetBitsPerSecond(t)).toBe(40 * MBIT);
-  run(controller, t, 1, 0.2);
+  run(t, 1, 0.2);
   expect(controller.targetBitsPerSecond(t)).toBe(20 * MBIT);
 });
 
 test('between clean and sustained loss, the rate stays', () => {
-  const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
-  let t = run(controller, 0, 1, 0.5);
-  t = run(controller, t, 5, 0.06);
+  let t = run(0, 1, 0.5);
+  t = run(t, 5, 0.06);
   expect(controller.targetBitsPerSecond(t)).toBe(20 * MBIT);
 });
 
 test('recovers in clean seconds, up to the configured rate and no further', () => {
-  const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
-  let t = run(controller, 0, 1, 0.5);
-  t = run(controller, t, 1, 0);
+  let t = run(0, 1, 0.5);
+  t = run(t, 1, 0);
   expect(controller.targetBitsPerSecond(t)).toBeCloseTo(24 * MBIT, 3);
-  t = run(controller, t, 3, 0);
+  t = run(t, 3, 0);
   expect(controller.targetBitsPerSecond(t)).toBe(40 * MBIT);
 });
 
 test('loss never lowers the rate below the floor; a floor above the rate is the rate', () => {
-  const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT, floorBitsPerSecond: 3 * MBIT });
-  run(controller, 0, 10, 0.9);
+  controller = new FixedRateController({ bitsPerSecond: 40 * MBIT, floorBitsPerSecond: 3 * MBIT });
+  run(0, 10, 0.9);
   expect(controller.targetBitsPerSecond(0)).toBe(3 * MBIT);
-  const small = new FixedRateController({ bitsPerSecond: 0.5 * MBIT });
-  run(small, 0, 10, 0.9);
-  expect(small.targetBitsPerSecond(0)).toBe(0.5 * MBIT);
+  controller = new FixedRateController({ bitsPerSecond: 0.5 * MBIT });
+  run(0, 10, 0.9);
+  expect(controller.targetBitsPerSecond(0)).toBe(0.5 * MBIT);
 });
 
 test('the receiver’s limit applies, also below the floor, until it is lifted', () => {
-  const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
   controller.onReceiverLimit(0.2 * MBIT, 0);
   expect(controller.targetBitsPerSecond(0)).toBe(0.2 * MBIT);
   controller.onReceiverLimit(100 * MBIT, 0);
@@ -78,7 +78,6 @@ test('the receiver’s limit applies, also below the floor, until it is lifted',
 
 describe('without transport-wide feedback', () => {
   test('detects loss from the receiver’s sums', () => {
-    const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
     for (let t = 0; t <= 1000; t += 200) {
       controller.onPacketSent(0, 1244, t);
       controller.onReceiverReport({ packetsReceived: t, packetsLost: t / 4 }, t);
@@ -87,7 +86,6 @@ describe('without transport-wide feedback', () => {
   });
 
   test('judges each interval’s sums by themselves', () => {
-    const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
     controller.onPacketSent(0, 1244, 0);
     for (let t = 0; t <= 6000; t += 200) {
       controller.onReceiverReport({ packetsReceived: t, packetsLost: Math.min(t, 1000) / 4 }, t);
@@ -96,7 +94,6 @@ describe('without transport-wide feedback', () => {
   });
 
   test('ignores a report that was overtaken', () => {
-    const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
     controller.onPacketSent(0, 1244, 0);
     controller.onReceiverReport({ packetsReceived: 1000, packetsLost: 100 }, 0);
     controller.onReceiverReport({ packetsReceived: 2000, packetsLost: 100 }, 400);
@@ -106,7 +103,6 @@ describe('without transport-wide feedback', () => {
   });
 
   test('prefers transport-wide feedback to the sums', () => {
-    const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
     controller.onPacketSent(0, 1244, 0);
     controller.onReceiverReport({ packetsReceived: 0, packetsLost: 0 }, 0);
     controller.onFeedback(results(100, 0), 500);
@@ -117,28 +113,25 @@ describe('without transport-wide feedback', () => {
 
 describe('silence', () => {
   test('of a receiver that has answered before counts as loss', () => {
-    const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
-    let t = run(controller, 0, 1, 0);
+    let t = run(0, 1, 0);
     for (const end = t + 1000; t < end; t += 10) controller.onPacketSent(0, 1244, t);
     controller.onTick(t);
     expect(controller.targetBitsPerSecond(t)).toBe(20 * MBIT);
   });
 
   test('of a receiver that never answered, or while nothing is sent, means nothing', () => {
-    const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
     for (let t = 0; t < 3000; t += 10) {
       controller.onPacketSent(0, 1244, t);
       controller.onTick(t);
     }
     expect(controller.targetBitsPerSecond(0)).toBe(40 * MBIT);
-    const t = run(controller, 3000, 2, 0);
+    const t = run(3000, 2, 0);
     for (let later = t; later < t + 10_000; later += 25) controller.onTick(later);
     expect(controller.targetBitsPerSecond(0)).toBe(40 * MBIT);
   });
 });
 
 test('ignores the loss fraction of few packets', () => {
-  const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
   controller.onPacketSent(0, 1244, 0);
   controller.onFeedback(results(5, 5), 500);
   controller.onTick(1000);
@@ -158,7 +151,7 @@ test('stays between floor and configured rate, never above the receiver’s limi
   );
   fc.assert(
     fc.property(fc.array(fc.tuple(fc.nat(1500), event), { maxLength: 100, size: 'max' }), (events) => {
-      const controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
+      controller = new FixedRateController({ bitsPerSecond: 40 * MBIT });
       let t = 0;
       let limit = Number.POSITIVE_INFINITY;
       for (const [dt, { kind, received, lost }] of events) {

@@ -31,41 +31,20 @@ function drain(pacer: PacketPacer<NumberedFrame>, fromMs: number): [number, numb
   return sent;
 }
 
-test('nothing to send, nothing due', () => {
-  const pacer = exact(10 * MBIT);
-  expect(pacer.nextDueMs).toBeNull();
-  expect(pacer.due(0)).toBeNull();
-});
-
-test('packets leave evenly at the rate', () => {
-  const pacer = exact(10 * MBIT);
-  pacer.enqueue(frame(1, 4), 100);
-  expect(drain(pacer, 100)).toEqual([
-    [1, 0, 100],
-    [1, 1, 101],
-    [1, 2, 102],
-    [1, 3, 103],
-  ]);
-});
-
-test('the factor speeds it up', () => {
-  const pacer = exact(8 * MBIT, { factor: 1.25 });
-  pacer.enqueue(frame(1, 3), 0);
-  expect(drain(pacer, 0).map(([, , t]) => t)).toEqual([0, 1, 2]);
-});
-
-test('a minimum span slows it down', () => {
-  const pacer = exact(100 * MBIT);
-  pacer.enqueue(frame(1, 4, 20), 0);
-  expect(drain(pacer, 0).map(([, , t]) => t)).toEqual([0, 5, 10, 15]);
-});
-
-test('a burst window saves wake-ups and keeps the rate', () => {
-  const pacer = exact(40 * MBIT, { burstMs: 1 });
-  pacer.enqueue(frame(1, 48), 0);
-  const times = drain(pacer, 0).map(([, , t]) => t);
-  // Four packets together each millisecond.
-  expect(times).toEqual(Array.from({ length: 48 }, (_, i) => Math.floor(i / 4)));
+test.each([
+  ['evenly at the rate', exact(10 * MBIT), frame(1, 4), [0, 1, 2, 3]],
+  ['faster by the factor', exact(8 * MBIT, { factor: 1.25 }), frame(1, 3), [0, 1, 2]],
+  ['over the minimum span', exact(100 * MBIT), frame(1, 4, 20), [0, 5, 10, 15]],
+  // Fewer wake-ups, and the same rate.
+  [
+    'together within a burst’s window',
+    exact(40 * MBIT, { burstMs: 1 }),
+    frame(1, 9),
+    [0, 0, 0, 0, 1, 1, 1, 1, 2],
+  ],
+] as const)('packets leave %s', (_, pacer, whole, timesMs) => {
+  pacer.enqueue(whole, 100);
+  expect(drain(pacer, 100)).toEqual(timesMs.map((ms, i) => [1, i, 100 + ms]));
 });
 
 test('a burst has no more bytes than allowed, however high the rate and however late the wake-up', () => {
@@ -82,15 +61,6 @@ test('a burst has no more bytes than allowed, however high the rate and however 
   // What is caught up, and what is sent ahead.
   expect(sent[1]).toBeCloseTo(128_000, -3.5);
   expect(sent[2]).toBeLessThanOrEqual(64_000);
-});
-
-test('marks the last run of a frame', () => {
-  const pacer = exact(10 * MBIT);
-  pacer.enqueue(frame(1, 2), 0);
-  expect(pacer.due(0)).toMatchObject({ first: 0, count: 1, last: false });
-  expect(pacer.due(0)).toBeNull();
-  expect(pacer.due(1)).toMatchObject({ first: 1, count: 1, last: true });
-  expect(pacer.nextDueMs).toBeNull();
 });
 
 test('the next frame keeps its distance from the one before', () => {

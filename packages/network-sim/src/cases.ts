@@ -3,7 +3,12 @@
  * `FAST_CHECK_SEED` gives others. A long test tries a quarter of its cases, so that whoever changes something waits for
  * less than a minute, and all of them with `FARPOINT_LONG_TESTS`, as `pnpm soak` does.
  */
-const SHARE = process.env.FARPOINT_LONG_TESTS ? 1 : 1 / 4;
+const SHARE = shareInEachRun(1 / 4);
+
+/** All of them with `FARPOINT_LONG_TESTS`, and otherwise this share: of cases that each take longer, or less, than most. */
+export function shareInEachRun(share: number): number {
+  return process.env.FARPOINT_LONG_TESTS ? 1 : share;
+}
 
 /** Of properties that have no seed of their own. */
 export const PROPERTY_SEED = Number(process.env.FAST_CHECK_SEED ?? 1);

@@ -61,23 +61,6 @@ test('delivers nothing before its time', () => {
   expect(model.wakeMs).toBe(Number.POSITIVE_INFINITY);
 });
 
-test('a packet that spans a capacity step or an outage ends at the right instant', () => {
-  const capacity: CapacitySpec = {
-    steps: [
-      { atMs: 0, mbps: 8 },
-      { atMs: 2, mbps: 0 },
-      { atMs: 500, mbps: 2 },
-    ],
-    periodMs: null,
-  };
-  const { model, arrivals } = link({ capacity });
-  model.offer(3000, 0, 0);
-  model.offer(1000, 0, 1);
-  model.advance(5000);
-  // 2000 bytes until 2 ms, the rest at 250 bytes per millisecond.
-  expect(arrivals.map(({ atMs }) => atMs)).toEqual([504, 508]);
-});
-
 test('while backlogged, the bytes that leave are the integral of the capacity', () => {
   const trace = fc.record({
     samples: fc.array(fc.constantFrom(0, 0, 0.05, 1.7, 8, 44.2, 120), { minLength: 2, maxLength: 40 }),
@@ -109,15 +92,6 @@ test('while backlogged, the bytes that leave are the integral of the capacity', 
     }),
     { seed: 3 },
   );
-});
-
-test('a queue of bytes holds no more, and drops the newest', () => {
-  const { model, arrivals, offer } = link({ ...mbps(8), queue: { bytes: 5000 } });
-  expect(offer(7, 1000, 0)).toEqual([null, null, null, null, null, 'queue-full', 'queue-full']);
-  expect(model.backlogBytes).toBe(5000);
-  expect(model.offer(1000, 1, 7)).toBeNull();
-  model.advance(100);
-  expect(arrivals.map(({ handle }) => handle)).toEqual([0, 1, 2, 3, 4, 7]);
 });
 
 test('a queue of milliseconds never delays by more', () => {

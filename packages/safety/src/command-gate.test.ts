@@ -1,28 +1,24 @@
 import type { Command, CommandRejection } from '@farpoint/protocol';
-import { describe, expect, test } from 'vitest';
+import { beforeEach, describe, expect, test } from 'vitest';
 import { CommandGate, type CommandVerdict, type GateContext } from './command-gate.ts';
 import { defaultDriveLimits } from './limits.ts';
+import { commandOf } from './testing/driven-guard.ts';
+
+let gate: CommandGate;
+beforeEach(() => {
+  gate = new CommandGate(defaultDriveLimits);
+});
 
 const open: GateContext = { holdsLease: true, meetEstop: () => 'clear' };
 
-function command(change: Partial<Command> = {}, x = 0.5, yaw = -0.25): Command {
-  return {
-    type: 'command',
-    sequence: 1,
-    timeMs: 0,
-    lease: 'lease',
-    deadMan: true,
-    twist: { linear: { x, y: 0, z: 0 }, angular: { x: 0, y: 0, z: yaw } },
-    ...change,
-  };
-}
+const command = (change: Partial<Command> = {}, x = 0.5, yaw = -0.25) => commandOf(x, yaw, change);
 
 function reasonOf(verdict: CommandVerdict): CommandRejection | 'accepted' {
   return verdict.accepted ? 'accepted' : verdict.reason;
 }
 
 test('accepts a valid command', () => {
-  expect(new CommandGate(defaultDriveLimits).check('a', command(), 0, open)).toEqual({
+  expect(gate.check('a', command(), 0, open)).toEqual({
     accepted: true,
     spentMs: 0,
     unread: false,
@@ -31,7 +27,6 @@ test('accepts a valid command', () => {
 });
 
 test('accepts nothing without the lease, not even zero', () => {
-  const gate = new CommandGate(defaultDriveLimits);
   const verdict = gate.check('a', command({}, 0, 0), 0, { ...open, holdsLease: false });
   expect(reasonOf(verdict)).toBe('not-lease-holder');
 });
@@ -45,13 +40,11 @@ describe('sequence', () => {
     [0, 0xffffffff, 'repeated'],
     [0x80000003, 2, 'accepted'],
   ] as const)('%i, then %i: %s', (first, second, expected) => {
-    const gate = new CommandGate(defaultDriveLimits);
     expect(reasonOf(gate.check('a', command({ sequence: first }), 0, open))).toBe('accepted');
     expect(reasonOf(gate.check('a', command({ sequence: second }), 0, open))).toBe(expected);
   });
 
   test('after a newer request was refused for its content, an older one is not accepted', () => {
-    const gate = new CommandGate(defaultDriveLimits);
     expect(reasonOf(gate.check('a', command({ sequence: 3, deadMan: false }), 0, open))).toBe(
       'dead-man-released',
     );
@@ -59,14 +52,12 @@ describe('sequence', () => {
   });
 
   test('a stale command does not use up its sequence number', () => {
-    const gate = new CommandGate(defaultDriveLimits);
     gate.check('a', command({ sequence: 1, timeMs: 1000 }), 1000, open);
     expect(reasonOf(gate.check('a', command({ sequence: 9, timeMs: 1000 }), 1200, open))).toBe('stale');
     expect(reasonOf(gate.check('a', command({ sequence: 2, timeMs: 1210 }), 1210, open))).toBe('accepted');
   });
 
   test('counts each operator separately', () => {
-    const gate = new CommandGate(defaultDriveLimits);
     gate.check('a', command({ sequence: 100 }), 0, open);
     expect(reasonOf(gate.check('b', command({ sequence: 1 }), 0, open))).toBe('accepted');
   });
@@ -74,7 +65,6 @@ describe('sequence', () => {
 
 describe('age', () => {
   test('accepts 150 ms of waiting, and no more', () => {
-    const gate = new CommandGate(defaultDriveLimits);
     gate.check('a', command({ sequence: 1, timeMs: 77_000 }), 0, open);
     expect(reasonOf(gate.check('a', command({ sequence: 2, timeMs: 77_010 }), 160, open))).toBe('accepted');
     const late = gate.check('a', command({ sequence: 3, timeMs: 77_020 }), 171, open);
@@ -82,7 +72,6 @@ describe('age', () => {
   });
 
   test('after a stall, refuses the old commands of the burst and accepts the fresh ones', () => {
-    const gate = new CommandGate(defaultDriveLimits);
     gate.check('a', command({ sequence: 0, timeMs: 0 }), 30, open);
     const verdicts: string[] = [];
     // Sent every 50 ms from 50 to 500, all delivered at 530.
@@ -109,13 +98,11 @@ describe('age', () => {
   });
 
   test('a clock probe teaches the transit time before the first command', () => {
-    const gate = new CommandGate(defaultDriveLimits);
     gate.observeClock('a', 1000, 1040);
     expect(reasonOf(gate.check('a', command({ timeMs: 1100 }), 1400, open))).toBe('stale');
   });
 
   test('commands of an operator without the lease also teach the transit time', () => {
-    const gate = new CommandGate(defaultDriveLimits);
     gate.check('a', command({ timeMs: 0 }), 0, { ...open, holdsLease: false });
     expect(reasonOf(gate.check('a', command({ timeMs: 0 }), 200, open))).toBe('stale');
   });
@@ -131,7 +118,6 @@ describe('emergency stop', () => {
   test.each(['latched', 'let-go'] as const)(
     '%s: refuses motion, accepts zero as a sign of life',
     (answer) => {
-      const gate = new CommandGate(defaultDriveLimits);
       const context: GateContext = { ...open, meetEstop: () => answer };
       expect(reasonOf(gate.check('a', command({ sequence: 1 }), 0, context))).toBe('estop-latched');
       expect(reasonOf(gate.check('a', command({ sequence: 2 }, 0, 0), 0, context))).toBe('accepted');
@@ -140,7 +126,6 @@ describe('emergency stop', () => {
 
   test('is asked about fresh commands only: a late zero does not count as letting go', () => {
     const asked: boolean[] = [];
-    const gate = new CommandGate(defaultDriveLimits);
     const context: GateContext = {
       ...open,
       meetEstop: (motion) => {
@@ -156,7 +141,6 @@ describe('emergency stop', () => {
 });
 
 test('motion needs the grip, standing still does not', () => {
-  const gate = new CommandGate(defaultDriveLimits);
   expect(reasonOf(gate.check('a', command({ sequence: 1, deadMan: false }), 0, open))).toBe(
     'dead-man-released',
   );
@@ -167,7 +151,7 @@ describe('range', () => {
   const still = { x: 0, y: 0, z: 0 };
 
   test('is stated in words', () => {
-    const verdict = new CommandGate(defaultDriveLimits).check('a', command({}, 3.2), 0, open);
+    const verdict = gate.check('a', command({}, 3.2), 0, open);
     expect(verdict).toEqual({
       accepted: false,
       reason: 'out-of-range',
@@ -186,7 +170,6 @@ describe('range', () => {
     [{ linear: { ...still, x: Number.NaN }, angular: still }],
     [{ linear: still, angular: { ...still, z: Number.POSITIVE_INFINITY } }],
   ])('%j is refused, not clamped', (twist) => {
-    const gate = new CommandGate(defaultDriveLimits);
     expect(reasonOf(gate.check('a', command({ twist }), 0, open))).toBe('out-of-range');
   });
 
@@ -202,7 +185,7 @@ describe('range', () => {
   });
 
   test('returns minus zero as zero', () => {
-    const verdict = new CommandGate(defaultDriveLimits).check('a', command({}, -0, -0), 0, open);
+    const verdict = gate.check('a', command({}, -0, -0), 0, open);
     expect(verdict.accepted && Object.is(verdict.twist.linear.x, 0)).toBe(true);
   });
 });
@@ -233,7 +216,6 @@ describe('rate', () => {
 });
 
 test('beyond the limit, forgets the operator that was silent for longest', () => {
-  const gate = new CommandGate(defaultDriveLimits);
   gate.check('a', command({ sequence: 5 }), 0, open);
   gate.check('b', command({ sequence: 5 }), 0, open);
   for (let i = 0; i < 62; i++) gate.check(`other-${i}`, command(), 0, open);
@@ -244,79 +226,60 @@ test('beyond the limit, forgets the operator that was silent for longest', () =>
 });
 
 test('a forgotten operator starts afresh', () => {
-  const gate = new CommandGate(defaultDriveLimits);
   gate.check('a', command({ sequence: 5 }), 0, open);
   gate.forget('a');
   expect(reasonOf(gate.check('a', command({ sequence: 1 }), 0, open))).toBe('accepted');
 });
 
 describe('a grip held through silence', () => {
-  const at = (gate: CommandGate, ms: number, change: Partial<Command> = {}, x = 0.5) =>
+  const at = (ms: number, change: Partial<Command> = {}, x = 0.5) =>
     reasonOf(gate.check('a', command({ sequence: ms + 1, timeMs: ms, ...change }, x, 0), ms, open));
 
   test('after a second without a command, refuses motion until the hand has let go', () => {
-    const gate = new CommandGate(defaultDriveLimits);
-    expect(at(gate, 0)).toBe('accepted');
-    expect(at(gate, 999)).toBe('accepted');
-    expect(at(gate, 1999)).toBe('let-go-first');
-    expect(at(gate, 2020)).toBe('let-go-first');
-    expect(at(gate, 9000)).toBe('let-go-first');
-    expect(at(gate, 9020, {}, 0)).toBe('accepted');
-    expect(at(gate, 9040)).toBe('accepted');
+    expect(at(0)).toBe('accepted');
+    expect(at(999)).toBe('accepted');
+    expect([gate.mustLetGo('a', 1998), gate.mustLetGo('a', 1999)]).toEqual([false, true]);
+    expect(at(1999)).toBe('let-go-first');
+    expect(at(2020)).toBe('let-go-first');
+    expect(at(9000)).toBe('let-go-first');
+    expect(at(9020, {}, 0)).toBe('accepted');
+    expect(at(9040)).toBe('accepted');
   });
 
   test('a released grip also counts as letting go', () => {
-    const gate = new CommandGate(defaultDriveLimits);
-    expect(at(gate, 0)).toBe('accepted');
-    expect(at(gate, 5000, { deadMan: false })).toBe('dead-man-released');
-    expect(at(gate, 5020)).toBe('accepted');
+    expect(at(0)).toBe('accepted');
+    expect(at(5000, { deadMan: false })).toBe('dead-man-released');
+    expect(at(5020)).toBe('accepted');
   });
 
   test('a hand that was open before the silence drives at once', () => {
-    const gate = new CommandGate(defaultDriveLimits);
-    expect(at(gate, 0)).toBe('accepted');
-    expect(at(gate, 20, { deadMan: false }, 0)).toBe('accepted');
-    expect(at(gate, 60_000)).toBe('accepted');
+    expect(at(0)).toBe('accepted');
+    expect(at(20, { deadMan: false }, 0)).toBe('accepted');
+    expect(at(60_000)).toBe('accepted');
   });
 
   test('a burst of commands that the link held back is no sign of life', () => {
-    const gate = new CommandGate(defaultDriveLimits);
-    expect(at(gate, 0)).toBe('accepted');
-    expect(at(gate, 3000, { timeMs: 200 })).toBe('stale');
-    expect(at(gate, 3001)).toBe('let-go-first');
+    expect(at(0)).toBe('accepted');
+    expect(at(3000, { timeMs: 200 })).toBe('stale');
+    expect(at(3001)).toBe('let-go-first');
   });
 });
 
 describe('wheels that are away', () => {
   const away = { ...open, wheelsFault: 'nobody listens' };
-  const at = (
-    gate: CommandGate,
-    ms: number,
-    x: number,
-    context = open as typeof open & { wheelsFault?: string },
-  ) => reasonOf(gate.check('a', command({ sequence: ms + 1, timeMs: ms }, x, 0), ms, context));
+  const at = (ms: number, x: number, context: GateContext = open) =>
+    gate.check('a', command({ sequence: ms + 1, timeMs: ms }, x, 0), ms, context);
 
-  test('motion is refused, and says why; zero passes', () => {
-    const gate = new CommandGate(defaultDriveLimits);
-    expect(at(gate, 0, 0, away)).toBe('accepted');
-    const refused = gate.check('a', command({ sequence: 9, timeMs: 9 }, 0.5, 0), 9, away);
-    expect(refused).toEqual({ accepted: false, reason: 'no-wheels', detail: 'nobody listens' });
-  });
-
-  test('a hand that held on must let go before the wheels that return move', () => {
-    const gate = new CommandGate(defaultDriveLimits);
-    expect(at(gate, 0, 0.5, away)).toBe('no-wheels');
-    expect([at(gate, 20, 0.5), at(gate, 40, 0), at(gate, 60, 0.5)]).toEqual([
-      'let-go-first',
-      'accepted',
-      'accepted',
-    ]);
+  test('motion is refused, and says why; zero passes; a hand that held on must let go before they move again', () => {
+    expect(reasonOf(at(0, 0, away))).toBe('accepted');
+    expect(at(10, 0.5, away)).toEqual({ accepted: false, reason: 'no-wheels', detail: 'nobody listens' });
+    const back = [at(20, 0.5), at(40, 0), at(60, 0.5)];
+    expect(back.map(reasonOf)).toEqual(['let-go-first', 'accepted', 'accepted']);
   });
 
   test('a hand that was moving when they went must let go, even if no command came meanwhile', () => {
-    const gate = new CommandGate(defaultDriveLimits);
-    expect(at(gate, 0, 0.5)).toBe('accepted');
+    expect(reasonOf(at(0, 0.5))).toBe('accepted');
     gate.requireLetGo('nothing moved');
-    expect(at(gate, 20, 0.5)).toBe('let-go-first');
+    expect(reasonOf(at(20, 0.5))).toBe('let-go-first');
   });
 });

@@ -1,58 +1,10 @@
-import {
-  type Command,
-  decodeJson,
-  encodeJson,
-  isZeroTwist,
-  robotSessionCodec,
-  zeroTwist,
-} from '@farpoint/protocol';
+import { decodeJson, encodeJson, isZeroTwist, robotSessionCodec, zeroTwist } from '@farpoint/protocol';
 import { describe, expect, test } from 'vitest';
-import { DriveGuard } from './drive-guard.ts';
-import type { DriveGuardOptions } from './drive-guard-options.ts';
 import { defaultDriveLimits } from './limits.ts';
-
-function randomBytes(): (count: number) => Uint8Array {
-  let next = 0;
-  return (count) => new Uint8Array(count).fill(++next);
-}
-
-function guardWith(options: Partial<DriveGuardOptions> = {}): DriveGuard {
-  return new DriveGuard({ limits: defaultDriveLimits, randomBytes: randomBytes(), ...options });
-}
-
-/** A guard whose lease operator `a` holds, and a function that sends a's commands. */
-function driven() {
-  const guard = guardWith();
-  guard.onOpenHand('a');
-  const outcome = guard.requestLease('a', false, 0);
-  if (!outcome.granted) throw new Error('no lease');
-  let sequence = 0;
-  const send = (nowMs: number, x: number, change: Partial<Command> = {}) =>
-    guard.onCommand(
-      'a',
-      {
-        type: 'command',
-        sequence: sequence++,
-        timeMs: nowMs,
-        lease: outcome.lease,
-        deadMan: true,
-        twist: { linear: { x, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0 } },
-        ...change,
-      },
-      nowMs,
-    );
-  return { guard, send, lease: outcome.lease };
-}
-
-test('stands still before anything has happened', () => {
-  const guard = guardWith();
-  expect(isZeroTwist(guard.velocityAt(0))).toBe(true);
-  expect(guard.nextDeadlineMs).toBeNull();
-  expect(guard.state(0)).toBe('idle');
-});
+import { commandOf, drivenGuard, makeGuard } from './testing/driven-guard.ts';
 
 test('follows the latest command until the watchdog expires', () => {
-  const { guard, send } = driven();
+  const { guard, send } = drivenGuard();
   send(1000, 0.5);
   expect(guard.velocityAt(1149).linear.x).toBe(0.5);
   expect(guard.nextDeadlineMs).toBe(1150);
@@ -64,7 +16,7 @@ test('follows the latest command until the watchdog expires', () => {
 });
 
 test('a refused command does not feed the watchdog', () => {
-  const { guard, send } = driven();
+  const { guard, send } = drivenGuard();
   send(1000, 0.5);
   expect(send(1100, 9).accepted).toBe(false);
   expect(guard.nextDeadlineMs).toBe(1150);
@@ -72,7 +24,7 @@ test('a refused command does not feed the watchdog', () => {
 });
 
 test('a command for zero is idle, not a watchdog stop, and needs no timer', () => {
-  const { guard, send } = driven();
+  const { guard, send } = drivenGuard();
   send(1000, 0.5);
   send(1020, 0);
   expect(guard.state(1021)).toBe('idle');
@@ -80,35 +32,17 @@ test('a command for zero is idle, not a watchdog stop, and needs no timer', () =
   expect(guard.state(5000)).toBe('idle');
 });
 
-test('a released grip stops at once', () => {
-  const { guard, send } = driven();
-  send(1000, 0.5);
-  expect(send(1020, 0.5, { deadMan: false })).toMatchObject({ reason: 'dead-man-released' });
-  expect(isZeroTwist(guard.velocityAt(1020))).toBe(true);
-});
-
 test('another operator’s released grip stops nobody', () => {
-  const { guard, send, lease } = driven();
+  const { guard, send, lease } = drivenGuard();
   const command = send(1000, 0.5);
   expect(command.accepted).toBe(true);
-  const other = guard.onCommand(
-    'b',
-    {
-      type: 'command',
-      sequence: 99,
-      timeMs: 0,
-      lease,
-      deadMan: false,
-      twist: { linear: { x: 1, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0 } },
-    },
-    1010,
-  );
+  const other = guard.onCommand('b', commandOf(1, 0, { sequence: 99, lease, deadMan: false }), 1010);
   expect(other).toMatchObject({ reason: 'not-lease-holder' });
   expect(guard.velocityAt(1010).linear.x).toBe(0.5);
 });
 
 test('reports blocked only for a robot that is asked to move', () => {
-  const { guard, send } = driven();
+  const { guard, send } = drivenGuard();
   expect(guard.state(0, true)).toBe('idle');
   send(0, 0.5);
   expect(guard.state(1, true)).toBe('blocked');
@@ -116,7 +50,7 @@ test('reports blocked only for a robot that is asked to move', () => {
 
 describe('emergency stop', () => {
   test('anyone latches it, only the holder releases it', () => {
-    const { guard, send } = driven();
+    const { guard, send } = drivenGuard();
     send(0, 0.5);
     guard.latchEstop('operator');
     expect(isZeroTwist(guard.velocityAt(0))).toBe(true);
@@ -127,40 +61,20 @@ describe('emergency stop', () => {
     expect(guard.releaseEstop('a')).toEqual({ released: false, reason: 'not-latched' });
     expect(guard.estopState()).toEqual({ type: 'estop', latched: false, latch: 1 });
   });
+});
 
-  test('requests from before the stop do not return with the release', () => {
-    const { guard, send } = driven();
-    send(0, 0.5);
-    guard.latchEstop('robot');
-    guard.releaseEstop('a');
-    expect(isZeroTwist(guard.velocityAt(2))).toBe(true);
-  });
-
-  test('a stick held through the release starts nothing until it is let go', () => {
-    const { guard, send } = driven();
-    guard.latchEstop('operator');
-    guard.releaseEstop('a');
-    expect(send(10, 0.5)).toMatchObject({ reason: 'estop-latched' });
-    expect(send(20, 0)).toMatchObject({ accepted: true });
-    expect(send(30, 0.5)).toMatchObject({ accepted: true });
-    expect(guard.velocityAt(30).linear.x).toBe(0.5);
-  });
-
-  test('stays latched when the holder leaves; the next holder releases it', () => {
-    const { guard } = driven();
-    guard.latchEstop('operator');
-    guard.operatorGone('a');
-    expect(guard.releaseEstop('a').released).toBe(false);
-    guard.onOpenHand('b');
-    guard.requestLease('b', false, 0);
-    expect(guard.releaseEstop('b').released).toBe(true);
-  });
+test('requests from before the emergency stop do not return with its release', () => {
+  const { guard, send } = drivenGuard();
+  send(0, 0.5);
+  guard.latchEstop('robot');
+  guard.releaseEstop('a');
+  expect(isZeroTwist(guard.velocityAt(2))).toBe(true);
 });
 
 describe('lease', () => {
   test('released, lost or taken: the robot stops at once, and the old lease no longer drives', () => {
     for (const end of ['release', 'gone', 'take'] as const) {
-      const { guard, send } = driven();
+      const { guard, send } = drivenGuard();
       send(0, 0.5);
       if (end === 'release') expect(guard.releaseLease('a')).toBe(true);
       if (end === 'gone') expect(guard.operatorGone('a')).toBe(true);
@@ -173,7 +87,7 @@ describe('lease', () => {
   });
 
   test('nobody can take over from an operator who is moving', () => {
-    const { guard, send } = driven();
+    const { guard, send } = drivenGuard();
     for (let t = 0; t < 20_000; t += 100) {
       send(t, 0.1);
       expect(guard.requestLease('b', true, t).granted).toBe(false);
@@ -181,13 +95,13 @@ describe('lease', () => {
   });
 
   test('commands for zero do not prevent the holder from becoming idle', () => {
-    const { guard, send } = driven();
+    const { guard, send } = drivenGuard();
     for (let t = 0; t <= 5000; t += 100) send(t, 0);
     expect(guard.requestLease('b', true, 5000).granted).toBe(true);
   });
 
   test('each operator gets its own view of it', () => {
-    const guard = guardWith();
+    const guard = makeGuard();
     expect(guard.leaseState('a')).toEqual({ type: 'lease', holder: 'nobody' });
     guard.onOpenHand('a');
     guard.requestLease('a', false, 0);
@@ -199,24 +113,14 @@ describe('lease', () => {
   });
 });
 
-test('an operator that returns under the same name restarts its sequence', () => {
-  const { guard, send } = driven();
-  send(0, 0.5, { sequence: 900 });
-  guard.operatorGone('a');
-  guard.onOpenHand('a');
-  const outcome = guard.requestLease('a', false, 10);
-  const lease = outcome.granted ? outcome.lease : '';
-  expect(send(20, 0.5, { sequence: 0, lease })).toMatchObject({ accepted: true });
-});
-
 test('clock probes reach the gate', () => {
-  const { guard, send } = driven();
+  const { guard, send } = drivenGuard();
   guard.onClockProbe('a', 1000, 1000);
   expect(send(1300, 0.5, { timeMs: 1100 })).toMatchObject({ reason: 'stale' });
 });
 
 test('malformed messages count against the rate and move nothing', () => {
-  const { guard, send } = driven();
+  const { guard, send } = drivenGuard();
   send(0, 0.5);
   expect(guard.onMalformed('a', 'twist.linear.x: expected number', 10)).toMatchObject({
     reason: 'malformed',
@@ -226,13 +130,13 @@ test('malformed messages count against the rate and move nothing', () => {
 
 test('neither the limits nor the velocity can be changed from outside', () => {
   const limits = { ...defaultDriveLimits };
-  const guard = new DriveGuard({ limits, randomBytes: randomBytes() });
+  const guard = makeGuard({ limits });
   limits.maxLinear = 100;
   expect(guard.limits.maxLinear).toBe(1);
   expect(() => {
     (guard.limits as { maxLinear: number }).maxLinear = 100;
   }).toThrow(TypeError);
-  const { guard: moving, send } = driven();
+  const { guard: moving, send } = drivenGuard();
   const verdict = send(0, 0.5);
   if (verdict.accepted) verdict.twist.linear.x = 100;
   moving.velocityAt(1).linear.x = 100;
@@ -240,7 +144,7 @@ test('neither the limits nor the velocity can be changed from outside', () => {
 });
 
 test('stands still at a time that is NaN', () => {
-  const { guard, send } = driven();
+  const { guard, send } = drivenGuard();
   send(0, 0.5);
   expect(isZeroTwist(guard.velocityAt(Number.NaN))).toBe(true);
 });
@@ -248,7 +152,7 @@ test('stands still at a time that is NaN', () => {
 describe('a supervisor', () => {
   test('takes the lease from an operator who is moving, but only when it asks to take it', () => {
     for (const takePolicy of ['never', 'idle', 'always'] as const) {
-      const guard = guardWith({ takePolicy });
+      const guard = makeGuard({ takePolicy });
       guard.onOpenHand('a');
       guard.requestLease('a', false, 0);
       expect(guard.requestLease('s', false, 1, true)).toMatchObject({ granted: false, reason: 'held' });
@@ -257,16 +161,8 @@ describe('a supervisor', () => {
     }
   });
 
-  test('stops the robot by taking the lease', () => {
-    const { guard, send } = driven();
-    send(0, 0.5);
-    guard.requestLease('s', true, 1, true);
-    expect(isZeroTwist(guard.velocityAt(1))).toBe(true);
-    expect(send(10, 0.5)).toMatchObject({ reason: 'not-lease-holder' });
-  });
-
   test('releases the emergency stop of another, whose held stick still starts nothing', () => {
-    const { guard, send } = driven();
+    const { guard, send } = drivenGuard();
     guard.latchEstop('operator');
     expect(guard.releaseEstop('s', true)).toEqual({ released: true });
     expect(guard.leaseHolder).toBe('a');
@@ -277,7 +173,7 @@ describe('a supervisor', () => {
 });
 
 test('stops at once when nothing takes its velocities any more, and moves again only for a hand that let go', () => {
-  const { guard, send } = driven();
+  const { guard, send } = drivenGuard();
   let fault: string | null = null;
   guard.watchWheels(() => fault);
   send(1000, 0.5);
@@ -288,25 +184,17 @@ test('stops at once when nothing takes its velocities any more, and moves again 
   fault = null;
   expect(isZeroTwist(guard.velocityAt(1030))).toBe(true);
   expect(send(1040, 0.5)).toMatchObject({ reason: 'let-go-first' });
+  expect(guard.mustLetGo(1040)).toBe(true);
   send(1060, 0);
   send(1080, 0.5);
+  expect(guard.mustLetGo(1081)).toBe(false);
   expect(guard.velocityAt(1081).linear.x).toBe(0.5);
 });
 
 test('what was read a while ago moves the robot for so much less', () => {
-  const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: randomBytes() });
-  guard.onOpenHand('a');
-  const outcome = guard.requestLease('a', false, 0);
-  const command = (sequence: number, timeMs: number): Command => ({
-    type: 'command',
-    sequence,
-    timeMs,
-    lease: outcome.granted ? outcome.lease : '',
-    deadMan: true,
-    twist: { ...zeroTwist(), linear: { x: 0.5, y: 0, z: 0 } },
-  });
-  guard.onCommand('a', command(0, 0), 1000);
-  expect(guard.onCommand('a', command(1, 20), 1120)).toMatchObject({ accepted: true, spentMs: 70 });
+  const { guard, send } = drivenGuard();
+  send(1000, 0.5, { timeMs: 0 });
+  expect(send(1120, 0.5, { timeMs: 20 })).toMatchObject({ accepted: true, spentMs: 70 });
   expect(guard.velocityAt(1199).linear.x).toBe(0.5);
   expect(guard.velocityAt(1200)).toEqual(zeroTwist());
 });

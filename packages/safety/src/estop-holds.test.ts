@@ -1,12 +1,8 @@
 /** The emergency stop as stops at the robot hold it. */
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { DriveGuard } from './drive-guard.ts';
-import { defaultDriveLimits } from './limits.ts';
 import { robotStops } from './robot-stop.ts';
-
-const makeGuard = () =>
-  new DriveGuard({ limits: defaultDriveLimits, randomBytes: (count) => new Uint8Array(count) });
+import { makeGuard } from './testing/driven-guard.ts';
 
 describe('a stop at the robot', () => {
   test('is released by nobody else, and tells every operator so', () => {
@@ -26,16 +22,6 @@ describe('a stop at the robot', () => {
     expect(guard.letGoEstop('key')).toBe(false);
     expect(guard.letGoEstop('gpio')).toBe(true);
     expect(guard.estopState()).toEqual({ type: 'estop', latched: false, latch: 1 });
-  });
-
-  test('holds until the last one lets go', () => {
-    const guard = makeGuard();
-    guard.holdEstop('gpio');
-    guard.holdEstop('topic');
-    guard.letGoEstop('gpio');
-    expect(guard.estopState().releasedAt).toBe('robot');
-    guard.letGoEstop('topic');
-    expect(guard.estopState().latched).toBe(false);
   });
 
   test.each([

@@ -31,11 +31,6 @@ export class EstopLatch {
     return this.#by !== null;
   }
 
-  /** Who latched it first. */
-  get by(): EstopSource | null {
-    return this.#by;
-  }
-
   /** Number of the latest latch, 0 before the first; wraps at 2³². A latch while it is latched counts as well. */
   get number(): number {
     return this.#number;

@@ -1,15 +1,12 @@
 /** Who counts as having latched the emergency stop, with the policy `latcher`. */
 import { beforeEach, describe, expect, test } from 'vitest';
-import { DriveGuard } from './drive-guard.ts';
+import type { DriveGuard } from './drive-guard.ts';
 import { Latchers } from './latchers.ts';
-import { defaultDriveLimits } from './limits.ts';
+import { makeGuard } from './testing/driven-guard.ts';
 
 let guard: DriveGuard;
 beforeEach(() => {
-  guard = new DriveGuard({
-    ...{ limits: defaultDriveLimits, estopRelease: 'latcher' },
-    randomBytes: (count) => new Uint8Array(count),
-  });
+  guard = makeGuard({ estopRelease: 'latcher' });
 });
 
 /** What becomes of the release, asked for while driving. */

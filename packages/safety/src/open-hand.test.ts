@@ -1,32 +1,18 @@
 /** Only a hand that has said that it is open moves the robot: at the beginning, after others, and after an emergency stop. */
 import { type Command, NO_LEASE, zeroTwist } from '@farpoint/protocol';
 import { describe, expect, test } from 'vitest';
-import { DriveGuard } from './drive-guard.ts';
-import { defaultDriveLimits } from './limits.ts';
+import { commandOf, makeGuard } from './testing/driven-guard.ts';
 
 const GAP_MS = 400;
 
 function setUp() {
-  let handles = 0;
-  const guard = new DriveGuard({
-    limits: defaultDriveLimits,
-    randomBytes: (count) => new Uint8Array(count).fill(++handles),
-    takePolicy: 'always',
-    letGoAfterMs: GAP_MS,
-  });
+  const guard = makeGuard({ takePolicy: 'always', letGoAfterMs: GAP_MS });
   let sequence = 0;
   const leaseOf = (by: string) => guard.leaseState(by).lease ?? NO_LEASE;
   /** A command at that time. @returns why it was refused; `null` if it was not */
   const says = (by: string, nowMs: number, x: number, more: Partial<Command> = {}) => {
-    const verdict = guard.onCommand(
-      by,
-      {
-        ...{ type: 'command', sequence: ++sequence, timeMs: nowMs, lease: leaseOf(by), deadMan: x !== 0 },
-        twist: { ...zeroTwist(), linear: { x, y: 0, z: 0 } },
-        ...more,
-      },
-      nowMs,
-    );
+    const said = { sequence: ++sequence, timeMs: nowMs, lease: leaseOf(by), deadMan: x !== 0, ...more };
+    const verdict = guard.onCommand(by, commandOf(x, 0, said), nowMs);
     return verdict.accepted ? null : verdict.reason;
   };
   return { guard, says, speed: (nowMs: number) => guard.velocityAt(nowMs).linear.x };

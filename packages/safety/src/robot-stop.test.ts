@@ -31,14 +31,6 @@ describe('a stop that repeats itself', () => {
     signal.lose();
     expect(signal.state(9000)).toBe('pressed');
   });
-
-  test('a contact that bounces releases nothing', () => {
-    const signal = repeating();
-    for (let t = 0; t < 5000; t += 100) {
-      signal.hear(t % 200 === 0, t);
-      expect(signal.state(t)).not.toBe('go');
-    }
-  });
 });
 
 test('a key speaks at changes only, and is remembered', () => {

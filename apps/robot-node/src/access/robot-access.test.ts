@@ -35,13 +35,23 @@ async function setUp() {
     const made: GuardedOperator = { messages, peer: { connected: true, close } };
     return { made, send, close };
   };
+  /** An operator of a new session, and its answer, which proves this grant. */
+  const showing = async ({ grant, key }: Awaited<ReturnType<typeof grantTo>>, session: string) => {
+    const fingerprint = Array.from({ length: 32 }, () => 'AB').join(':');
+    const sdp = `v=0\r\na=fingerprint:sha-256 ${fingerprint}\r\n`;
+    const { made, close } = operator(session);
+    access.offered(made, sdp);
+    const facts = { robot: 'r1', session, operatorFingerprint: fingerprint, robotFingerprint: fingerprint };
+    const proof = await makeProof(grant, facts, key, 1000);
+    return { made, close, admitted: () => access.admits(made, { session, sdp, grant, proof }) };
+  };
   const pass = (s: number) => {
     nowS += s;
     nowMs += s * 1000;
   };
   const tick = (made: GuardedOperator[], driver: string | null = null) =>
     access.tick(new Map(made.map((each) => [each.messages.id, each])), driver);
-  return { access, operator, pass, tick, log, refusals, file, issuer: first };
+  return { access, operator, showing, pass, tick, log, refusals, file, issuer: first };
 }
 
 const grant: RevocableGrant = { id: 'g1', subject: 'a', keyId: 'k1', issuedAtS: 900 };
@@ -127,24 +137,14 @@ it('after a reload, ends the sessions of keys that are gone, and no others', asy
 });
 
 it('admits an operator with what its grant says, unless its key is removed meanwhile', async () => {
-  const { access, operator, file, issuer, refusals } = await setUp();
-  const fingerprint = Array.from({ length: 32 }, () => 'AB').join(':');
-  const sdp = `v=0\r\na=fingerprint:sha-256 ${fingerprint}\r\n`;
-  const { grant, key } = await grantTo(issuer, 1000, { role: 'supervise' });
-  const ask = async (session: string) => {
-    const { made } = operator(session);
-    access.offered(made, sdp);
-    const fingerprints = { operatorFingerprint: fingerprint, robotFingerprint: fingerprint };
-    const proof = await makeProof(grant, { robot: 'r1', session, ...fingerprints }, key, 1000);
-    return { made, answer: { session, sdp, grant, proof } };
-  };
-  const first = await ask('s1');
-  expect(await access.admits(first.made, first.answer)).toBe(true);
+  const { access, showing, file, issuer, refusals } = await setUp();
+  const shown = await grantTo(issuer, 1000, { role: 'supervise' });
+  const [first, second] = [await showing(shown, 's1'), await showing(shown, 's2')];
+  expect(await first.admitted()).toBe(true);
   expect(first.made.messages.access).toMatchObject({ role: 'supervise', subject: 'ada', keyId: 'k1' });
   // An answer to a later offer, of an ICE restart.
   expect(await access.admits(first.made, { session: 's1', sdp: 'v=0' })).toBe(true);
-  const second = await ask('s2');
-  const pending = access.admits(second.made, second.answer);
+  const pending = second.admitted();
   file.keys = new Map();
   expect(await pending).toBe(false);
   expect([second.made.messages.access.role, refusals.get('grant-untrusted')]).toEqual(['watch', 1]);
@@ -176,19 +176,10 @@ describe('revocation', () => {
   });
 
   it('refuses a revoked grant, also if the list comes while its proof is being verified', async () => {
-    const { access, operator, issuer, refusals } = await setUp();
-    const fingerprint = Array.from({ length: 32 }, () => 'AB').join(':');
-    const sdp = `v=0\r\na=fingerprint:sha-256 ${fingerprint}\r\n`;
+    const { access, showing, issuer, refusals } = await setUp();
     const shown = await grantTo(issuer, 1000);
     const list = await listOf(issuer, [], ['ada']);
-    const ask = async (session: string) => {
-      const { made, close } = operator(session);
-      access.offered(made, sdp);
-      const facts = { robot: 'r1', session, operatorFingerprint: fingerprint, robotFingerprint: fingerprint };
-      const proof = await makeProof(shown.grant, facts, shown.key, 1000);
-      return { close, admitted: () => access.admits(made, { session, sdp, grant: shown.grant, proof }) };
-    };
-    const [first, second] = [await ask('s1'), await ask('s2')];
+    const [first, second] = [await showing(shown, 's1'), await showing(shown, 's2')];
     expect(await first.admitted()).toBe(true);
     await access.revocations.take(list, 'test');
     expect(await second.admitted()).toBe(false);

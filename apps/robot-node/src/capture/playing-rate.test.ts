@@ -8,13 +8,11 @@ import {
   START_NS,
   writeFile,
 } from '@farpoint/recording/testing';
-import { resolveOptions } from '@farpoint/service';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { EvenPace } from '@farpoint/timing';
 import { expect, test } from 'vitest';
 import { FramePlanner } from '../encode/plan.ts';
-import { toRobotOptions } from '../options/robot-options.ts';
-import { robotProgram } from '../options/robot-program.ts';
+import { robotOf } from '../options/testing/robot-of.ts';
 
 const folder = useFolder();
 
@@ -56,10 +54,8 @@ async function recording(name: string, times: readonly number[]): Promise<string
 async function play(
   path: string,
 ): Promise<{ framesPerSecond: number | null; played: number; taken: number }> {
-  const argv = ['--source', 'recording', '--path', path];
-  const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => null });
-  if (resolved.action !== 'run') throw new Error(resolved.action);
-  const { framesPerSecond: most } = toRobotOptions(resolved.values, resolved.where).sensors[0]!.capture;
+  const { sensors } = robotOf(['--source', 'recording', '--path', path]);
+  const { framesPerSecond: most } = sensors[0]!.capture;
   let nowMs = 0;
   const clock = {
     now: () => nowMs,

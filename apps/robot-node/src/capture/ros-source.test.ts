@@ -452,17 +452,6 @@ describe('RosSource', () => {
       }
       expect(faults[0]).toMatch('/points: its messages are more than a second old when they come');
     });
-
-    it('that is ahead, or not newer, says nothing: the cloud counts as old', async () => {
-      const { comes, pass, faults } = await begun();
-      pass(1000);
-      expect(comes(headerAt(1050))).toBe(6000);
-      expect(comes(headerAt(86_400_000))).toBe(5000);
-      expect(comes(headerAt(1050))).toBe(5000);
-      expect(faults).toHaveLength(2);
-      pass(100);
-      expect(comes(headerAt(1100))).toBeCloseTo(6100, 2);
-    });
   });
 
   it.each([

@@ -1,25 +1,18 @@
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { RecordingError } from '@farpoint/recording';
-import { resolveOptions, StartFailure } from '@farpoint/service';
+import { StartFailure } from '@farpoint/service';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { describe, expect, it } from 'vitest';
 import { CaptureError } from '../capture/capture.ts';
 import { openSource } from '../capture/open-source.ts';
-import { toRobotOptions } from '../options/robot-options.ts';
-import { robotProgram } from '../options/robot-program.ts';
+import { robotOf } from '../options/testing/robot-of.ts';
 import { startFailure } from './start-failure.ts';
 
 const folder = useFolder();
 const words = join(folder, 'words.txt');
 writeFileSync(words, 'no cloud, no recording\n');
 const missing = join(folder, 'missing');
-
-function optionsOf(argv: string[]) {
-  const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => null });
-  if (resolved.action !== 'run') throw new Error('printed');
-  return toRobotOptions(resolved.values, resolved.where);
-}
 
 describe('a robot that cannot start says what is wrong and what to do', () => {
   it.each([
@@ -30,7 +23,7 @@ describe('a robot that cannot start says what is wrong and what to do', () => {
     [['--source', 'recording', '--path', missing], `recording: ${missing} does not exist`, 'an MCAP file'],
     [['--source', 'recording', '--path', words], 'neither MCAP nor a ROS 1 bag', 'an MCAP file'],
   ])('%j', async (argv, detail, remedy) => {
-    const options = optionsOf(argv);
+    const options = robotOf(argv);
     const error: unknown = await openSource(options.sensors[0]!.capture.source).catch(
       (cause: unknown) => cause,
     );
@@ -46,14 +39,14 @@ describe('a robot that cannot start says what is wrong and what to do', () => {
     [words, `${words} already exists`, 'name another file'],
     [join(missing, 'a.mcap'), `${missing} is not a folder`, 'create it'],
   ])('--record %s', (path, detail, remedy) => {
-    const options = optionsOf(['--record', path]);
+    const options = robotOf(['--record', path]);
     const failure = startFailure(options, new RecordingError('unreadable', 'what the system says'));
     expect(failure).toMatchObject({ message: detail, remedy: expect.stringContaining(remedy) as string });
   });
 
   it('an error that the doctor cannot explain stays as it is', () => {
     const error = new Error('strange');
-    expect(startFailure(optionsOf([]), error)).toBe(error);
-    expect(startFailure(optionsOf([]), new CaptureError(7, 'no such sensor'))).toBeInstanceOf(CaptureError);
+    expect(startFailure(robotOf([]), error)).toBe(error);
+    expect(startFailure(robotOf([]), new CaptureError(7, 'no such sensor'))).toBeInstanceOf(CaptureError);
   });
 });

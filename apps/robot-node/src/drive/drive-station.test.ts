@@ -1,5 +1,6 @@
-import { type Command, type Twist, zeroTwist } from '@farpoint/protocol';
-import { DriveGuard, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
+import type { Twist } from '@farpoint/protocol';
+import { defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
+import { drivenGuard } from '@farpoint/safety/testing';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { DriveStation } from './drive-station.ts';
 
@@ -11,7 +12,7 @@ afterEach(() => {
 });
 
 function station() {
-  const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: (count) => new Uint8Array(count) });
+  const { guard, send } = drivenGuard();
   const applied: { atMs: number; twist: Twist }[] = [];
   const now = () => performance.now();
   const start = now();
@@ -20,26 +21,18 @@ function station() {
     (twist) => applied.push({ atMs: now() - start, twist }),
     now,
   );
-  guard.onOpenHand('op');
-  const outcome = guard.requestLease('op', false, now());
-  const lease = outcome.granted ? outcome.lease : '';
-  const command = (sequence: number, x: number): Command => ({
-    type: 'command',
-    sequence,
-    timeMs: now(),
-    lease,
-    deadMan: true,
-    twist: { ...zeroTwist(), linear: { x, y: 0, z: 0 } },
-  });
+  const command = (x: number) => {
+    send(now(), x);
+    drive.apply();
+  };
   const speeds = () => applied.map(({ twist }) => twist.linear.x);
-  return { guard, drive, applied, command, now, speeds };
+  return { guard, drive, applied, command, speeds };
 }
 
 describe('DriveStation', () => {
   it('applies a change immediately', () => {
-    const { guard, drive, command, now, speeds } = station();
-    guard.onCommand('op', command(0, 0.5), now());
-    drive.apply();
+    const { guard, drive, command, speeds } = station();
+    command(0.5);
     expect(speeds()).toEqual([0.5]);
     guard.latchEstop('operator');
     drive.apply();
@@ -48,9 +41,8 @@ describe('DriveStation', () => {
   });
 
   it('stops the wheels at the watchdog’s deadline, not at the next beat', () => {
-    const { guard, drive, applied, command, now } = station();
-    guard.onCommand('op', command(0, 0.5), now());
-    drive.apply();
+    const { drive, applied, command } = station();
+    command(0.5);
     vi.advanceTimersByTime(400);
     const stopped = applied.find(({ twist }) => twist.linear.x === 0);
     expect(stopped?.atMs).toBe(defaultDriveLimits.watchdogMs);
@@ -58,29 +50,25 @@ describe('DriveStation', () => {
   });
 
   it('repeats the velocity well within the wheels’ own watchdog', () => {
-    const { guard, drive, applied, command, now } = station();
-    guard.onCommand('op', command(0, 0.5), now());
-    drive.apply();
+    const { drive, applied, command } = station();
+    command(0.5);
     vi.advanceTimersByTime(100);
     expect(applied.filter(({ twist }) => twist.linear.x === 0.5).length).toBeGreaterThanOrEqual(3);
     drive.close();
   });
 
   it('moves nothing once halted, whatever the guard lets through', () => {
-    const { guard, drive, command, now, speeds } = station();
-    guard.onCommand('op', command(0, 0.5), now());
-    drive.apply();
+    const { drive, command, speeds } = station();
+    command(0.5);
     drive.halt();
-    guard.onCommand('op', command(1, 0.5), now());
-    drive.apply();
+    command(0.5);
     expect(speeds()).toEqual([0.5, 0, 0]);
     drive.close();
   });
 
   it('sends nothing once closed', () => {
-    const { guard, drive, applied, command, now } = station();
-    guard.onCommand('op', command(0, 0.5), now());
-    drive.apply();
+    const { drive, applied, command } = station();
+    command(0.5);
     drive.close();
     vi.advanceTimersByTime(1000);
     expect(applied).toHaveLength(1);

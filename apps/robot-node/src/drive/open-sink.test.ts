@@ -1,6 +1,7 @@
 import { rmSync } from 'node:fs';
-import { type Command, zeroTwist } from '@farpoint/protocol';
-import { DriveGuard, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
+import { zeroTwist } from '@farpoint/protocol';
+import { defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
+import { drivenGuard } from '@farpoint/safety/testing';
 import type { Logger } from '@farpoint/service';
 import { testFolder } from '@farpoint/service/testing/folder';
 import { isAvailable, ReferenceControlReader } from '@farpoint/shared-memory';
@@ -9,10 +10,10 @@ import { DriveStation } from './drive-station.ts';
 import { openSink } from './open-sink.ts';
 
 let folder: string;
-const open: { close(): void }[] = [];
 beforeEach(() => {
   folder = testFolder();
 });
+const open: { close(): void }[] = [];
 afterEach(() => {
   for (const each of open.splice(0)) void each.close();
 });
@@ -22,8 +23,8 @@ const log = { error: (detail: unknown) => errors.push(detail) } as unknown as Lo
 
 function setUp(silenceMs = 60_000) {
   const sink = openSink({ kind: 'shm', folder, mode: 0o600, silenceMs }, null, log);
-  const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: (count) => new Uint8Array(count) });
   let nowMs = 1000;
+  const { guard, send } = drivenGuard();
   const station = new DriveStation(
     new MotionSupervisor(guard),
     (twist) => sink.apply(twist, false),
@@ -31,21 +32,8 @@ function setUp(silenceMs = 60_000) {
   );
   const reader = new ReferenceControlReader(folder);
   open.push(station, sink, reader);
-  guard.onOpenHand('op');
-  const outcome = guard.requestLease('op', false, nowMs);
-  const lease = outcome.granted ? outcome.lease : '';
-  let sequence = 0;
   const drive = (x: number) => {
-    const twist = { ...zeroTwist(), linear: { x, y: 0, z: 0 } };
-    const command: Command = {
-      type: 'command',
-      sequence: sequence++,
-      timeMs: nowMs,
-      lease,
-      deadMan: true,
-      twist,
-    };
-    guard.onCommand('op', command, nowMs);
+    send(nowMs, x);
     station.apply();
   };
   const pass = (ms: number) => {

@@ -1,18 +1,14 @@
-import { resolveOptions } from '@farpoint/service';
 import { describe, expect, it } from 'vitest';
 import { mountOf } from '../obstacles/guarded-sensors.ts';
 import { opticalMount } from '../obstacles/sensor-mount.ts';
-import { toRobotOptions } from './robot-options.ts';
-import { robotProgram } from './robot-program.ts';
+import { robotOf } from './testing/robot-of.ts';
 
 function options(...argv: string[]) {
   return optionsIn('', ...argv);
 }
 
 function optionsIn(yaml: string, ...argv: string[]) {
-  const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => yaml });
-  if (resolved.action !== 'run') throw new Error(resolved.action);
-  const { obstacleGuard, sensors } = toRobotOptions(resolved.values, resolved.where);
+  const { obstacleGuard, sensors } = robotOf(argv, yaml);
   return { ...obstacleGuard, mount: sensors[0] && mountOf(sensors[0].capture.source) };
 }
 

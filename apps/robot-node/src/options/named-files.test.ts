@@ -1,7 +1,7 @@
 /** Every option of the robot that names a file to read: one that holds nothing is a mistake, never the same as none. */
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { OptionsError, resolveOptions } from '@farpoint/service';
+import { OptionsError } from '@farpoint/service';
 import { uselessFiles } from '@farpoint/service/testing/useless-files';
 import { describe, expect, it, test } from 'vitest';
 import { GrantKeysFile } from '../access/grant-keys-file.ts';
@@ -9,8 +9,7 @@ import { RobotKey } from '../access/robot-key-file.ts';
 import { openPcdSource } from '../capture/pcd-source.ts';
 import { RecordingSource } from '../capture/recording-source.ts';
 import { openRgbdSource } from '../capture/rgbd-source.ts';
-import { toRobotOptions } from './robot-options.ts';
-import { robotProgram } from './robot-program.ts';
+import { robotOf } from './testing/robot-of.ts';
 
 /** Self-signed; of nobody. */
 const CERTIFICATE = `-----BEGIN CERTIFICATE-----
@@ -30,11 +29,7 @@ const JWK = { kty: 'OKP', crv: 'Ed25519', kid: 'k', x: 'A'.repeat(43) };
 const useless = uselessFiles();
 const folder = join(useless[0]?.path ?? '', '..');
 
-function robot(...argv: string[]) {
-  const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => null });
-  if (resolved.action !== 'run') throw new Error('printed');
-  return toRobotOptions(resolved.values, resolved.where);
-}
+const robot = (...argv: string[]) => robotOf(argv);
 
 function refusal(...argv: string[]): string {
   try {

@@ -1,13 +1,5 @@
-import { resolveOptions } from '@farpoint/service';
 import { describe, expect, test } from 'vitest';
-import { toRobotOptions } from './robot-options.ts';
-import { robotProgram } from './robot-program.ts';
-
-function robot(argv: string[], text: string | null = null) {
-  const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => text });
-  if (resolved.action !== 'run') throw new Error('printed');
-  return toRobotOptions(resolved.values, resolved.where);
-}
+import { robotOf } from './testing/robot-of.ts';
 
 const ros = (pose: string, more = '') => `robot:
   source: { kind: ros2 }
@@ -21,8 +13,8 @@ const ros = (pose: string, more = '') => `robot:
 
 describe('a robot that drives back by itself', () => {
   test('does so only if it is told to', () => {
-    expect(robot([]).returns).toBe(undefined);
-    expect(robot(['--return']).returns).toEqual({
+    expect(robotOf([]).returns).toBe(undefined);
+    expect(robotOf(['--return']).returns).toEqual({
       options: {
         ...{ afterMs: 10_000, announceMs: 3000, maxM: 20, maxLinear: 0.2, maxAngular: 0.5 },
         ...{ toleranceM: 0.3, blockedMs: 20_000, longestMs: 300_000, unseen: 'stop' },
@@ -32,7 +24,7 @@ describe('a robot that drives back by itself', () => {
   });
 
   test('takes its bounds and its topic from the file', () => {
-    const { returns } = robot([], ros('nav_msgs/msg/Odometry', ', afterS: 60, maxM: 5, topic: /returning'));
+    const { returns } = robotOf([], ros('nav_msgs/msg/Odometry', ', afterS: 60, maxM: 5, topic: /returning'));
     expect(returns?.options).toMatchObject({ afterMs: 60_000, maxM: 5 });
     expect(returns?.topic).toMatchObject({ graph: { kind: 'ros2' }, topic: '/returning' });
   });
@@ -45,11 +37,11 @@ describe('a robot that drives back by itself', () => {
     [['--return-topic', 'returning'], /must be a topic’s full name/],
     [['--return-speed', '0.6'], /0.5/],
   ])('%j is refused', (args, why) => {
-    expect(() => robot(['--return', ...args])).toThrow(why);
+    expect(() => robotOf(['--return', ...args])).toThrow(why);
   });
 
   test('needs odometry that says when it was measured, and a sensor whose place is known', () => {
-    expect(() => robot([], ros('geometry_msgs/msg/PoseStamped'))).toThrow(/needs odometry/);
-    expect(() => robot(['--return', '--source', 'shm'])).toThrow(/needs the obstacle guard/);
+    expect(() => robotOf([], ros('geometry_msgs/msg/PoseStamped'))).toThrow(/needs odometry/);
+    expect(() => robotOf(['--return', '--source', 'shm'])).toThrow(/needs the obstacle guard/);
   });
 });

@@ -1,16 +1,9 @@
-import { OptionsError, resolveOptions } from '@farpoint/service';
+import { OptionsError } from '@farpoint/service';
 import { describe, expect, it } from 'vitest';
-import { toRobotOptions } from './robot-options.ts';
-import { robotProgram } from './robot-program.ts';
+import { robotOf } from './testing/robot-of.ts';
 
-const robot = (...argv: string[]) => resolve(argv, null);
-const file = (text: string) => resolve([], text);
-
-function resolve(argv: string[], text: string | null) {
-  const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => text });
-  if (resolved.action !== 'run') throw new Error('printed');
-  return toRobotOptions(resolved.values, resolved.where);
-}
+const robot = (...argv: string[]) => robotOf(argv);
+const file = (text: string) => robotOf([], text);
 
 describe('robot options', () => {
   it('make a simulated robot by default', () => {
@@ -38,16 +31,8 @@ describe('robot options', () => {
   });
 
   it('take a recorded source', () => {
-    const [{ capture } = { capture: null }] = robot(
-      '--source',
-      'pcd',
-      '--path',
-      'a.pcd',
-      '--pcd-frame',
-      'body',
-      '--fps',
-      '10',
-    ).sensors;
+    const argv = ['--source', 'pcd', '--path', 'a.pcd', '--pcd-frame', 'body', '--fps', '10'];
+    const [{ capture } = { capture: null }] = robot(...argv).sensors;
     expect(capture).toMatchObject({
       source: { kind: 'pcd', path: 'a.pcd', frame: 'body' },
       framesPerSecond: 10,

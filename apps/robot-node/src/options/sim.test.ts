@@ -1,13 +1,7 @@
-import { resolveOptions } from '@farpoint/service';
 import { expect, it } from 'vitest';
-import { toRobotOptions } from './robot-options.ts';
-import { robotProgram } from './robot-program.ts';
+import { robotOf } from './testing/robot-of.ts';
 
-function base(...argv: string[]) {
-  const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => null });
-  if (resolved.action !== 'run') throw new Error('printed');
-  return toRobotOptions(resolved.values, resolved.where).base;
-}
+const base = (...argv: string[]) => robotOf(argv).base;
 
 const things = (text: string) => base('--sim-things', text)?.things;
 

@@ -1,40 +1,24 @@
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { resolveOptions } from '@farpoint/service';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { describe, expect, test } from 'vitest';
-import { toRobotOptions } from './robot-options.ts';
-import { robotProgram } from './robot-program.ts';
+import { robotOf } from './testing/robot-of.ts';
 
 const folder = useFolder();
 
-function robot(argv: string[], text: string | null = null) {
-  const resolved = resolveOptions(robotProgram, { argv, env: {}, readFile: () => text });
-  if (resolved.action !== 'run') throw new Error('printed');
-  return toRobotOptions(resolved.values, resolved.where);
-}
-
 describe('stops at the robot', () => {
   test('are none by default', () => {
-    expect(robot([]).stops).toEqual({ key: false });
+    expect(robotOf([]).stops).toEqual({ key: false });
   });
 
   test('are a line, a file in shared memory, a key, and a topic of the robot’s graph', () => {
-    const args = [
-      '--stop-gpio',
-      'gpiochip1:17:active-low',
-      '--stop-shm',
-      'stop',
-      '--shm-folder',
-      '/x',
-      '--stop-key',
-    ];
-    expect(robot(args).stops).toEqual({
+    const args = '--stop-gpio gpiochip1:17:active-low --stop-shm stop --shm-folder /x --stop-key'.split(' ');
+    expect(robotOf(args).stops).toEqual({
       gpio: { chip: '/dev/gpiochip1', line: 17, activeLow: true },
       shm: { path: '/x/stop', owner: undefined, silentMs: 500 },
       key: true,
     });
-    const { stops } = robot(
+    const { stops } = robotOf(
       [],
       `robot:
   sink: { kind: ros2 }
@@ -52,7 +36,7 @@ describe('stops at the robot', () => {
     [['--stop-shm', '../stop'], /must be a file’s name without a folder/],
     [['--stop-silence-ms', '50'], /100/],
   ])('%j: %s', (args, message) => {
-    expect(() => robot(args)).toThrow(message);
+    expect(() => robotOf(args)).toThrow(message);
   });
 });
 
@@ -75,8 +59,8 @@ describe('a fence', () => {
   writeFileSync(broken, '{}');
 
   test('is none by default; a radius is enough', () => {
-    expect(robot([]).fence).toBeUndefined();
-    expect(robot(['--fence-radius-m', '5', '--fence-brake-mps2', '2']).fence).toMatchObject({
+    expect(robotOf([]).fence).toBeUndefined();
+    expect(robotOf(['--fence-radius-m', '5', '--fence-brake-mps2', '2']).fence).toMatchObject({
       ...{ fence: { radiusM: 5, allowed: [] }, fix: null, errorM: 0.1 },
       limits: { brakeMps2: 2, reactionMs: 200 },
     });
@@ -84,13 +68,13 @@ describe('a fence', () => {
 
   test('on the earth is placed by the origin, the simulator’s or its own', () => {
     const corner = (args: string[]) => {
-      const [area] = robot(['--fence', path, ...args]).fence?.fence.allowed ?? [];
+      const [area] = robotOf(['--fence', path, ...args]).fence?.fence.allowed ?? [];
       return area?.shape === 'polygon' ? area.rings[0]?.[0] : undefined;
     };
     expect(corner(['--fence-origin', '48,11'])).toEqual([0, 0]);
     expect(corner(['--fence-origin', '47.999,11,90'])).toEqual([expect.closeTo(111.2, 1), expect.closeTo(0)]);
     expect(corner(['--sim-origin', '47.999,11'])).toEqual([0, expect.closeTo(111.2, 1)]);
-    const byFix = robot(['--fence', path, '--fence-position', 'fix', '--sim-origin', '48,11']).fence;
+    const byFix = robotOf(['--fence', path, '--fence-position', 'fix', '--sim-origin', '48,11']).fence;
     expect(byFix?.fix?.topic).toBe('/fix');
   });
 
@@ -103,6 +87,6 @@ describe('a fence', () => {
     [['--fence-radius-m', '5', '--fence-position', 'fix'], /needs --fence-origin/],
     [['--fence-radius-m', '5', '--source', 'rgbd', '--path', 'x'], /needs odometry/],
   ])('%j: %s', (args, message) => {
-    expect(() => robot(args)).toThrow(message);
+    expect(() => robotOf(args)).toThrow(message);
   });
 });

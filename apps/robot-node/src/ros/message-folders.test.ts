@@ -2,12 +2,11 @@ import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { topicTableSchema } from '@farpoint/ros';
 import { MemoryGraph } from '@farpoint/ros/testing';
-import { OptionsError, resolveOptions } from '@farpoint/service';
+import { OptionsError } from '@farpoint/service';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { beforeAll, expect, it } from 'vitest';
 import { listen } from '../capture/ros-listener.ts';
-import { toRobotOptions } from '../options/robot-options.ts';
-import { robotProgram } from '../options/robot-program.ts';
+import { robotOf } from '../options/testing/robot-of.ts';
 import { describeTopics, readFrom, sourcedFolders } from './message-folders.ts';
 
 const folder = useFolder();
@@ -45,11 +44,7 @@ it('reads messages whose type is defined only in files', () => {
 });
 
 it('says at the start which file is missing, and where to configure its folder', () => {
-  const options = (text: string) => {
-    const resolved = resolveOptions(robotProgram, { argv: [], env: {}, readFile: () => text });
-    if (resolved.action !== 'run') throw new Error('printed');
-    return toRobotOptions(resolved.values, resolved.where);
-  };
+  const options = (text: string) => robotOf([], text);
   const file = (messages: string) =>
     `robot:\n  source: {kind: ros2}\n  ros: {messages: ${JSON.stringify(messages)}}\n  topics: ${JSON.stringify(TABLE)}\n`;
   expect(() => options(file('/nowhere'))).toThrow(OptionsError);

@@ -1,101 +1,11 @@
-import {
-  clockAnswerCodec,
-  decodeJson,
-  encodeBandwidth,
-  NO_LEASE,
-  type ProtocolError,
-  type RobotSessionMessage,
-  robotSessionCodec,
-  zeroTwist,
-} from '@farpoint/protocol';
-import { DriveGuard, defaultDriveLimits, MotionSupervisor, type RejectedCommand } from '@farpoint/safety';
+import { clockAnswerCodec, decodeJson, encodeBandwidth, NO_LEASE, zeroTwist } from '@farpoint/protocol';
 import fc from 'fast-check';
-import { describe, expect, it, onTestFinished } from 'vitest';
-import { DriveStation } from '../drive/drive-station.ts';
-import { OperatorMessages, type SessionHost } from './operator-messages.ts';
+import { describe, expect, it } from 'vitest';
+import { sessionRobot } from './testing/session-robot.ts';
 
-/** A robot with the real guard and two operators, on a simulated clock. */
 function robot() {
-  let nowMs = 1000;
-  let speed = 0;
-  const guard = new DriveGuard({
-    limits: defaultDriveLimits,
-    randomBytes: (count) => new Uint8Array(count).fill(7),
-  });
-  const drive = new DriveStation(
-    new MotionSupervisor(guard),
-    (twist) => {
-      speed = twist.linear.x;
-    },
-    () => nowMs,
-  );
-  onTestFinished(() => drive.close());
-  const tests: [string, number, number][] = [];
-  const refused: [string, string][] = [];
-  const rejected: RejectedCommand[] = [];
-  const limited = new Set<string>();
-  const operators = new Map<string, ReturnType<typeof operator>>();
-  const host: SessionHost = {
-    drive,
-    now: () => nowMs,
-    leaseChanged: () => {
-      for (const { session } of operators.values()) session.sendLease();
-    },
-    estopChanged: () => {
-      for (const { session } of operators.values()) session.sendEstop();
-    },
-    estopRenewed: () => host.estopChanged(),
-    latencyTestRequested: (session, id, commandMs) => tests.push([session.id, id, commandMs]),
-    commandAccepted: () => undefined,
-    commandRejected: (rejection) => rejected.push(rejection),
-    messageRefused: (channel: string, error: ProtocolError) => refused.push([channel, error.code]),
-    messageLimited: (kind) => limited.add(kind),
-  };
-  function operator(id: string) {
-    const inbox: RobotSessionMessage[] = [];
-    const control: string[] = [];
-    const session = new OperatorMessages(id, id, host, {
-      // The operator's own decoder must be able to read what the robot sends.
-      sendSession: (text) => inbox.push(decodeJson(robotSessionCodec, text)),
-      sendControl: (text) => control.push(text),
-    });
-    const send = (message: object) => session.onMessage('session', JSON.stringify(message));
-    const command = (sequence: number, lease: string, x: number, more: object = {}) =>
-      session.onMessage(
-        'control',
-        JSON.stringify({
-          type: 'command',
-          sequence,
-          timeMs: nowMs,
-          lease,
-          deadMan: true,
-          twist: { ...zeroTwist(), linear: { x, y: 0, z: 0 } },
-          ...more,
-        }),
-      );
-    const takeLease = () => {
-      guard.onOpenHand(id);
-      send({ type: 'leaseRequest', take: false });
-      const state = inbox.at(-1);
-      return state?.type === 'lease' ? (state.lease ?? '') : '';
-    };
-    return { session, inbox, control, send, command, takeLease };
-  }
-  for (const id of ['alice', 'bob']) operators.set(id, operator(id));
-  return {
-    alice: operators.get('alice')!,
-    bob: operators.get('bob')!,
-    guard,
-    tests,
-    refused,
-    rejected,
-    limited,
-    speed: () => speed,
-    pass: (ms: number) => {
-      nowMs += ms;
-      drive.apply();
-    },
-  };
+  const made = sessionRobot();
+  return { ...made, alice: made.operator('alice'), bob: made.operator('bob') };
 }
 
 describe('OperatorMessages', () => {
@@ -137,19 +47,6 @@ describe('OperatorMessages', () => {
     expect(reports.reduce((sum, report) => sum + report.count, 0)).toBe(5);
     expect(reports.length).toBeLessThan(4);
     expect(reports.every((report) => report.reason === 'not-lease-holder')).toBe(true);
-  });
-
-  it('stops at once when anyone presses the emergency stop, which only the driver can release', () => {
-    const { alice, bob, speed } = robot();
-    const lease = alice.takeLease();
-    alice.command(0, lease, 0.4);
-    bob.send({ type: 'estop', latch: true });
-    expect(speed()).toBe(0);
-    expect(alice.inbox.at(-1)).toEqual({ type: 'estop', latched: true, by: 'operator', latch: 1 });
-    bob.send({ type: 'estop', latch: false });
-    expect(bob.inbox.slice(-2).map((message) => message.type)).toEqual(['fault', 'estop']);
-    alice.send({ type: 'estop', latch: false, of: 1 });
-    expect(bob.inbox.at(-1)).toEqual({ type: 'estop', latched: false, latch: 1 });
   });
 
   it('stops when the lease is released', () => {
@@ -222,13 +119,13 @@ describe('OperatorMessages', () => {
   });
 
   it('reports a broken command as malformed and a broken request as a fault', () => {
-    const { alice, refused } = robot();
+    const { alice, unread } = robot();
     alice.session.onMessage('control', '{"type":"command"}');
     expect(alice.inbox.at(-1)).toMatchObject({ type: 'rejected', reason: 'malformed', count: 1 });
     alice.session.onMessage('session', '{"type":"dance"}');
     expect(alice.inbox.at(-1)).toMatchObject({ type: 'fault' });
     alice.session.onMessage('bandwidth', 'fast');
-    expect(refused.map(([channel]) => channel)).toEqual(['control', 'session', 'bandwidth']);
+    expect(unread.map(([channel]) => channel)).toEqual(['control', 'session', 'bandwidth']);
   });
 
   it('drops what exceeds an operator’s limits, by kind, and still takes its emergency stop', () => {
@@ -316,20 +213,5 @@ describe('roles', () => {
     a.session.access = granted('watch');
     a.session.onMessage('session', videos);
     expect(wanted).toEqual([true, false]);
-  });
-
-  it('a supervisor takes the lease from whoever drives, and releases what others latched', () => {
-    const { alice: a, bob: b, guard } = robot();
-    a.session.access = granted('drive');
-    b.session.access = granted('drive');
-    a.session.onMessage('session', leaseRequest(false));
-    b.session.onMessage('session', leaseRequest(true));
-    expect(guard.leaseHolder).toBe('alice');
-    b.session.access = granted('supervise');
-    a.session.onMessage('session', estop(true));
-    b.session.onMessage('session', estop(false));
-    expect(guard.estopState().latched).toBe(false);
-    b.session.onMessage('session', leaseRequest(true));
-    expect(guard.leaseHolder).toBe('bob');
   });
 });

@@ -1,4 +1,5 @@
-import { DriveGuard, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
+import { MotionSupervisor } from '@farpoint/safety';
+import { makeGuard } from '@farpoint/safety/testing';
 import { expect, onTestFinished, test } from 'vitest';
 import { DriveStation } from '../drive/drive-station.ts';
 import type { PeerEnd } from '../transport/peer-events.ts';
@@ -8,7 +9,7 @@ import { RobotSessionHost, type RobotSessionHostParts } from './robot-session-ho
 /** A robot that somebody has driven. */
 function driven() {
   let left = 0;
-  const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: (count) => new Uint8Array(count) });
+  const guard = makeGuard();
   const drive = new DriveStation(
     new MotionSupervisor(guard),
     () => undefined,

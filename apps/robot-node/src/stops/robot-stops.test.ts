@@ -1,4 +1,5 @@
-import { DriveGuard, defaultDriveLimits, type RobotStopState } from '@farpoint/safety';
+import type { RobotStopState } from '@farpoint/safety';
+import { makeGuard } from '@farpoint/safety/testing';
 import { afterEach, describe, expect, test, vi } from 'vitest';
 import { RobotStops } from './robot-stops.ts';
 import { stopReading } from './stop-reading.ts';
@@ -32,7 +33,7 @@ class Source implements StopSource {
 }
 
 function start(...sources: Source[]) {
-  const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: (count) => new Uint8Array(count) });
+  const guard = makeGuard();
   const heard: string[] = [];
   const lines: string[] = [];
   const log = {

@@ -1,5 +1,6 @@
 import { decodeJson, type NearField, nearFieldText, telemetryCodec, zeroTwist } from '@farpoint/protocol';
-import { DriveGuard, defaultDriveLimits, MotionSupervisor } from '@farpoint/safety';
+import { MotionSupervisor } from '@farpoint/safety';
+import { makeGuard } from '@farpoint/safety/testing';
 import { describe, expect, it } from 'vitest';
 import { MotionStatus } from '../drive/motion-status.ts';
 import type { OperatorSession } from '../session/operator-session.ts';
@@ -39,7 +40,7 @@ function secondAt(
     messages: { send: (message: unknown) => alarms.push(message) },
     status: (stages: unknown) => ({ stages, stream: STREAM }),
   } as unknown as OperatorSession;
-  const guard = new DriveGuard({ limits: defaultDriveLimits, randomBytes: (count) => new Uint8Array(count) });
+  const guard = makeGuard();
   const quantity = {
     type: 'quantity',
     number: 0,

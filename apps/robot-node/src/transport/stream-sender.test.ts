@@ -138,6 +138,13 @@ function stage(
   const recycled: ArrayBuffer[] = [];
   const share = (captured: ReadyFrame) =>
     new SharedFrame(captured, transport.overheadBytes, (buffer) => recycled.push(buffer));
+  /** Sends it to this operator only. */
+  const send = (captured: ReadyFrame) => {
+    const shared = share(captured);
+    sender.enqueue(shared);
+    shared.release();
+    return shared;
+  };
   /** Advances time as a timer would. */
   const runUntil = (endMs: number) => {
     while (sender.nextDueMs !== null && sender.nextDueMs <= endMs) {
@@ -146,15 +153,13 @@ function stage(
     }
     nowMs = endMs;
   };
-  return { transport, sender, recycled, share, runUntil };
+  return { transport, sender, recycled, share, send, runUntil };
 }
 
 describe('StreamSender', () => {
   it('sends every packet of a frame once, in order and evenly, with the last one marked and cut to length', () => {
-    const { transport, sender, share, runUntil } = stage();
-    const shared = share(frame(1510, 2000));
-    sender.enqueue(shared);
-    shared.release();
+    const { transport, sender, runUntil, send } = stage();
+    const shared = send(frame(1510, 2000));
     runUntil(1000);
     expect(transport.sent.map((packet) => packet.first)).toEqual([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10]);
     expect(transport.sent.map((packet) => packet.bytes)).toEqual(
@@ -206,10 +211,8 @@ describe('StreamSender', () => {
   });
 
   it('clears the queue when the stream stops', () => {
-    const { transport, sender, recycled, share, runUntil } = stage(1e6);
-    const shared = share(frame(1500));
-    sender.enqueue(shared);
-    shared.release();
+    const { transport, sender, recycled, runUntil, send } = stage(1e6);
+    send(frame(1500));
     runUntil(20);
     const before = transport.sent.length;
     expect(before).toBeGreaterThan(0);
@@ -221,30 +224,24 @@ describe('StreamSender', () => {
   });
 
   it('loses packets but survives while the path is closed', () => {
-    const { transport, sender, recycled, share, runUntil } = stage();
+    const { transport, sender, recycled, runUntil, send } = stage();
     transport.ready = false;
-    const shared = share(frame(300));
-    sender.enqueue(shared);
-    shared.release();
+    send(frame(300));
     runUntil(1000);
     expect(sender.counters).toMatchObject({ packetsSent: 0, packetsUnsent: 2 });
     expect(recycled).toHaveLength(1);
   });
 
   it('ignores an empty frame', () => {
-    const { sender, recycled, share } = stage();
-    const shared = share(frame(0));
-    sender.enqueue(shared);
-    shared.release();
+    const { sender, recycled, send } = stage();
+    send(frame(0));
     expect(sender.nextDueMs).toBeNull();
     expect(recycled).toHaveLength(1);
   });
 
   it('passes transport feedback to the controller, and survives malformed feedback', () => {
-    const { transport, sender, share, runUntil } = stage(1e6);
-    const shared = share(frame(15_000));
-    sender.enqueue(shared);
-    shared.release();
+    const { transport, sender, runUntil, send } = stage(1e6);
+    send(frame(15_000));
     runUntil(1300);
     // Reports packets 0–39 as lost: 40 packets, run-length chunk "not received".
     const feedback = Buffer.alloc(24);
@@ -271,10 +268,8 @@ describe('StreamSender', () => {
   it('stops while too much is in flight, and continues when that has changed', () => {
     const controller = new ScriptedController(10e6);
     controller.wanted.congestionWindowBytes = 5000;
-    const { transport, sender, share, runUntil } = stage(10e6, controller);
-    const shared = share(frame(3000));
-    sender.enqueue(shared);
-    shared.release();
+    const { transport, sender, runUntil, send } = stage(10e6, controller);
+    send(frame(3000));
     runUntil(100);
     expect(controller.inFlight).toBeGreaterThanOrEqual(5000);
     expect(transport.sent.length).toBeLessThan(7);
@@ -287,17 +282,13 @@ describe('StreamSender', () => {
   it('sends a probe train once, at the requested rate, in a frame that is large enough', () => {
     const controller = new ScriptedController(1e6);
     controller.wanted.probe = { clusterId: 7, bitsPerSecond: 10e6, bytes: 10_000 };
-    const { transport, sender, share, runUntil } = stage(1e6, controller);
-    const small = share(frame(150));
-    sender.enqueue(small);
-    small.release();
+    const { transport, sender, runUntil, send } = stage(1e6, controller);
+    send(frame(150));
     runUntil(100);
     expect(controller.clusters).toEqual([0]);
     expect(sender.probeWish?.clusterId).toBe(7);
 
-    const large = share(frame(3000));
-    sender.enqueue(large);
-    large.release();
+    send(frame(3000));
     expect(sender.probeWish).toBeNull();
     runUntil(1000);
     const train = controller.clusters.flatMap((cluster, i) =>
@@ -313,17 +304,13 @@ describe('StreamSender', () => {
   });
 
   it('drops the farthest points of a frame that takes too long', () => {
-    const { transport, sender, share, runUntil } = stage(1e6);
+    const { transport, sender, runUntil, send } = stage(1e6);
     const dropped: string[] = [];
     sender.onFrameDropped = (_, reason) => dropped.push(reason);
-    const slow = share({ ...frame(15_000), intervalMs: 40 });
-    sender.enqueue(slow);
-    slow.release();
+    send({ ...frame(15_000), intervalMs: 40 });
     for (const atMs of [40, 80]) {
       runUntil(atMs);
-      const next = share({ ...frame(150), intervalMs: 40 });
-      sender.enqueue(next);
-      next.release();
+      send({ ...frame(150), intervalMs: 40 });
     }
     expect(dropped).toEqual(['superseded', 'overdue'].toSorted());
     runUntil(200);

@@ -47,6 +47,14 @@ describe('VideoHub', () => {
     });
   });
 
+  /** Somebody watches the first camera, over a path that leaves it this rate. */
+  function watch(bitsPerSecond: number): FakeOperator {
+    const operator = new FakeOperator('a', bitsPerSecond);
+    operators = [operator];
+    hub.tick(0);
+    return operator;
+  }
+
   it('opens a camera while somebody watches, and no other', async () => {
     hub.tick(0);
     expect(encoders).toHaveLength(0);
@@ -66,9 +74,7 @@ describe('VideoHub', () => {
   });
 
   it('asks an encoder that gives too little for more, and begins anew when the rate changes', () => {
-    const operator = new FakeOperator('a', 800_000);
-    operators = [operator];
-    hub.tick(0);
+    const operator = watch(800_000);
     const encoder = encoders[0]!;
     // 2000 bytes of 3333.
     for (let i = 1; i <= 30; i++) encoder.picture(i * 33);
@@ -82,8 +88,7 @@ describe('VideoHub', () => {
   });
 
   it('claims nothing of the link for a camera without pictures', () => {
-    operators = [new FakeOperator('a', 800_000)];
-    hub.tick(0);
+    watch(800_000);
     expect(hub.mostBitsPerSecond(0, all)).toBe(1e6);
     encoders[0]!.events.onFault('unplugged');
     expect(hub.mostBitsPerSecond(0, all)).toBe(0);
@@ -114,9 +119,7 @@ describe('VideoHub', () => {
   });
 
   it('tells the encoder only of changes that matter', () => {
-    const operator = new FakeOperator('a', 800_000);
-    operators = [operator];
-    hub.tick(0);
+    const operator = watch(800_000);
     operator.bitsPerSecond = 810_000;
     hub.tick(1000);
     expect(encoders[0]!.formats).toHaveLength(1);
@@ -137,9 +140,7 @@ describe('VideoHub', () => {
   });
 
   it('sends nothing while the path carries no video, and a key frame after that', () => {
-    const operator = new FakeOperator('a', 800_000);
-    operators = [operator];
-    hub.tick(0);
+    const operator = watch(800_000);
     encoders[0]!.picture(10);
     operator.bitsPerSecond = 10_000;
     hub.tick(1000);
@@ -153,8 +154,7 @@ describe('VideoHub', () => {
   });
 
   it('says why there are no pictures, and that they are back, once each', () => {
-    operators = [new FakeOperator('a', 800_000)];
-    hub.tick(0);
+    watch(800_000);
     const { events } = encoders[0]!;
     events.onFault(null);
     expect(changes).toBe(0);
@@ -171,8 +171,7 @@ describe('VideoHub', () => {
   });
 
   it('drops what is no picture, and pictures that are not newer', () => {
-    operators = [new FakeOperator('a', 800_000)];
-    hub.tick(0);
+    watch(800_000);
     const [encoder] = encoders as [FakeEncoder];
     encoder.events.onPicture({ bytes: new Uint8Array(0), key: true, capturedAtMs: 1, width: 1, height: 1 });
     for (const capturedAtMs of [10, 10, 5, 11]) encoder.picture(capturedAtMs);
@@ -181,8 +180,7 @@ describe('VideoHub', () => {
   });
 
   it('ignores what a closed encoder still sends, and adds up what encoders skipped', async () => {
-    operators = [new FakeOperator('a', 800_000)];
-    hub.tick(0);
+    watch(800_000);
     encoders[0]!.dropped = 7;
     await hub.close();
     expect(encoders[0]!.closed).toBe(true);
@@ -194,8 +192,7 @@ describe('VideoHub', () => {
   });
 
   it('makes packets that fit a path, with the capture time as their timestamp', () => {
-    operators = [new FakeOperator('a', 800_000)];
-    hub.tick(0);
+    watch(800_000);
     encoders[0]!.picture(1000.5);
     const [frame] = operators[0]!.frames as [VideoFrame];
     expect(frame.packets).toBe(2);
@@ -224,8 +221,7 @@ describe('VideoHub', () => {
     });
 
     it('gets what operators get, encoded once', () => {
-      operators = [new FakeOperator('a', 500_000)];
-      hub.tick(0);
+      watch(500_000);
       encoders[0]!.picture(10);
       expect(encoders[0]!.formats.at(-1)?.bitsPerSecond).toBe(500_000);
       expect(operators[0]!.frames.map(({ capturedAtMs }) => capturedAtMs)).toEqual([10]);
@@ -233,9 +229,7 @@ describe('VideoHub', () => {
     });
 
     it('goes on at the full rate while the operator’s path carries no video', () => {
-      const operator = new FakeOperator('a', 10_000);
-      operators = [operator];
-      hub.tick(0);
+      const operator = watch(10_000);
       encoders[0]!.picture(10);
       expect(encoders[0]!.formats).toEqual([{ ...most, barcode: false }]);
       expect(operator.frames).toHaveLength(0);
@@ -249,8 +243,7 @@ describe('VideoHub', () => {
 
     it('of watched cameras only opens no other, and takes what is encoded', () => {
       recording = false;
-      operators = [new FakeOperator('a', 500_000)];
-      hub.tick(0);
+      watch(500_000);
       expect(encoders).toHaveLength(1);
       encoders[0]!.picture(10);
       expect(taken).toEqual([[0, 10]]);

@@ -1,3 +1,4 @@
+import { longProperty } from '@farpoint/network-sim/cases';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { RtpHeader, SrtpSession } from 'werift';
@@ -59,7 +60,7 @@ describe('SrtpOpener', () => {
         expect(opener.open(changed, 12)).toBeNull();
         expect(opener.open(packet, 12)).not.toBeNull();
       }),
-      { seed: 6, numRuns: 200 },
+      longProperty(6, 800),
     );
   });
 
@@ -71,7 +72,7 @@ describe('SrtpOpener', () => {
         const packet = Buffer.from(bytes);
         if (readRtpHeader(packet, 1, header)) expect(opener.open(packet, header.bytes)).toBeNull();
       }),
-      { seed: 7, numRuns: 2000 },
+      longProperty(7, 4000),
     );
   });
 });

@@ -44,13 +44,6 @@ describe('what another program demands', () => {
     }
   });
 
-  test('is not undone by an older message', () => {
-    const other = demand();
-    other.hear(0, 1000);
-    other.hear(Number.POSITIVE_INFINITY, 999);
-    expect(other.bound(go(1), 1000).factor).toBe(0);
-  });
-
   test('whatever is heard: the robot is never faster than the newest demand, nor moves when silent', () => {
     const any = fc.double();
     const event = fc.record({ most: any, atMs: fc.integer({ min: 0, max: 2000 }) });

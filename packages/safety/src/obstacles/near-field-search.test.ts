@@ -1,3 +1,4 @@
+import { longProperty } from '@farpoint/network-sim/cases';
 import { NEAR_REACH_M, NEAR_SECTORS, NEAR_UNSEEN_M, type NearSector, zeroTwist } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
@@ -158,7 +159,7 @@ test('any lone cell is told in its direction, within a cell of its distance; non
         expect(hit?.kind).toBe({ occupied: 'thing', dropOff: 'drop', unknown: undefined }[kind]);
       },
     ),
-    { seed: 1, numRuns: 60 },
+    longProperty(1, 60),
   );
 });
 

@@ -32,6 +32,33 @@ function ends(robot: ReturningRobot, end: string): void {
   expect(robot.base.pose.x).toBe(x);
 }
 
+/** Nothing takes its velocities, or no odometry comes, for so long. */
+function spoiledFor(robot: ReturningRobot, what: 'wheels' | 'odometry', seconds: number): void {
+  robot[what] = false;
+  robot.wait(seconds);
+  robot[what] = true;
+}
+
+function moved(base: ReturningRobot['base'], x: number, y: number): void {
+  base.pose = { ...base.pose, x: base.pose.x + x, y: base.pose.y + y };
+}
+
+/** It is moved so far in each of so many ticks. */
+function pushed(robot: ReturningRobot, ticks: number, x: number, y: number): void {
+  for (let i = 0; i < ticks; i++) {
+    moved(robot.base, x, y);
+    robot.tick();
+  }
+}
+
+function pinnedFor(robot: ReturningRobot, seconds: number): void {
+  const { pose } = robot.base;
+  robot.onTick = () => {
+    robot.base.pose = pose;
+  };
+  robot.wait(seconds);
+}
+
 describe('a robot that has lost its operators', () => {
   test('waits, says what it will do, and comes back to where it was first driven', () => {
     const robot = lost();
@@ -148,39 +175,22 @@ describe('it stands at once', () => {
     expect(waiting.back.phase).toBe('standby');
   });
 
-  test('when somebody takes the lease', () => {
+  test.each<[string, string, (robot: ReturningRobot) => void]>([
+    [
+      'when somebody takes the lease',
+      'service-back',
+      ({ guard, nowMs }) => void guard.requestLease('other', false, nowMs),
+    ],
+    ['when nothing takes the velocities', 'no-wheels', (robot) => spoiledFor(robot, 'wheels', 0.02)],
+    ['when odometry says nothing', 'odometry-silent', (robot) => spoiledFor(robot, 'odometry', 0.4)],
+    ['when odometry says something else', 'off-track', ({ base }) => moved(base, -base.pose.x, 0)],
+    ['when it is pushed off its track', 'off-track', (robot) => pushed(robot, 20, 0, 0.02)],
+    ['when its wheels do not move it', 'blocked', (robot) => pinnedFor(robot, 21)],
+  ])('%s', (_, end, happens) => {
     const robot = returning();
-    robot.guard.requestLease('other', false, robot.nowMs);
-    robot.wait(0.1);
-    ends(robot, 'service-back');
-  });
-
-  test('when nothing takes the velocities', () => {
-    const robot = returning();
-    robot.wheels = false;
+    happens(robot);
     robot.tick();
-    robot.wheels = true;
-    ends(robot, 'no-wheels');
-  });
-
-  test('when odometry says nothing, or something else', () => {
-    const robot = returning();
-    robot.odometry = false;
-    robot.wait(0.4);
-    ends(robot, 'odometry-silent');
-    const jumped = returning();
-    jumped.base.pose = { ...jumped.base.pose, x: 0 };
-    jumped.tick();
-    ends(jumped, 'off-track');
-  });
-
-  test('when it is pushed off its track', () => {
-    const robot = returning();
-    for (let i = 0; i < 20; i++) {
-      robot.base.pose = { ...robot.base.pose, y: robot.base.pose.y + 0.02 };
-      robot.tick();
-    }
-    ends(robot, 'off-track');
+    ends(robot, end);
   });
 
   test('when a sensor says nothing, and goes on when it does', () => {
@@ -223,16 +233,6 @@ describe('it stands at once', () => {
     ends(robot, 'blocked');
   });
 
-  test('when its wheels do not move it', () => {
-    const robot = returning();
-    const { pose } = robot.base;
-    robot.onTick = () => {
-      robot.base.pose = pose;
-    };
-    robot.wait(21);
-    ends(robot, 'blocked');
-  });
-
   test('when it was on its way for too long', () => {
     const robot = lost({ longestMs: 5000 });
     robot.wait(18.2);
@@ -245,42 +245,16 @@ describe('it does not begin', () => {
     [
       'while a sensor is silent',
       'sensor-silent',
-      ({ lookout }) => {
-        lookout.isLive = false;
-      },
+      ({ lookout }) => void Object.assign(lookout, { isLive: false }),
     ],
-    [
-      'without odometry',
-      'odometry-silent',
-      (robot) => {
-        robot.odometry = false;
-      },
-    ],
+    ['without odometry', 'odometry-silent', (robot) => void Object.assign(robot, { odometry: false })],
     [
       'while nothing takes the velocities',
       'no-wheels',
-      (robot) => {
-        robot.wheels = false;
-      },
+      (robot) => void Object.assign(robot, { wheels: false }),
     ],
-    [
-      'after something else has moved it',
-      'moved',
-      (robot) => {
-        robot.onTick = () => {
-          robot.base.pose = { ...robot.base.pose, x: robot.base.pose.x + 0.001 };
-        };
-        robot.wait(4);
-        robot.onTick = null;
-      },
-    ],
-    [
-      'without a track',
-      'no-track',
-      (robot) => {
-        robot.base.pose = { x: 90, y: 0, yaw: 0 };
-      },
-    ],
+    ['after something else has moved it', 'moved', (robot) => pushed(robot, 200, 0.001, 0)],
+    ['without a track', 'no-track', ({ base }) => moved(base, 90 - base.pose.x, 0)],
   ])('%s', (_, end, spoil) => {
     const robot = lost();
     spoil(robot);

@@ -7,13 +7,12 @@ import { Footprint } from '../obstacles/footprint.ts';
 import { ObstacleGuard } from '../obstacles/obstacle-guard.ts';
 import { PaintedGrid } from '../obstacles/testing/painted-grid.ts';
 import type { Lookout } from './return-drive.ts';
-import type { ReturnOptions } from './return-options.ts';
 import { ReturningRobot, TICK_MS } from './testing/returning-robot.ts';
 
 const RADIUS = 0.25;
 const CLOUD_MS = 60;
 
-/** Sensors that see everything around the robot, or nothing behind it. */
+/** Sensors that see everything around the robot. */
 class Eyes implements Lookout, MotionGuard {
   readonly guard = new ObstacleGuard(Footprint.disc(RADIUS), 1);
   live(nowMs: number): boolean {
@@ -28,20 +27,17 @@ class Eyes implements Lookout, MotionGuard {
 }
 
 /** A robot that was driven 3 m along x and has lost its driver. */
-function lost(options: Partial<ReturnOptions> = {}) {
+function lost() {
   const eyes = new Eyes();
-  const robot = new ReturningRobot(options, eyes);
+  const robot = new ReturningRobot({}, eyes);
   /** From x to x, in its way. */
-  const way: { person: [number, number] | null; behind: boolean; clouds: boolean } = {
-    ...{ person: null, behind: true, clouds: true },
-  };
+  const way: { person: [number, number] | null } = { person: null };
   let ticks = 0;
   const look = () => {
     const { x, y, yaw } = robot.base.pose;
     eyes.guard.moved({ x, y, yaw }, robot.velocity, robot.nowMs);
-    if (!way.clouds || ++ticks % (CLOUD_MS / TICK_MS) !== 0) return;
+    if (++ticks % (CLOUD_MS / TICK_MS) !== 0) return;
     const grid = new PaintedGrid(robot.nowMs, x, y);
-    if (!way.behind) grid.paint('unknown', x - 4, x, y - 4, y + 4);
     if (way.person !== null) grid.paint('occupied', ...way.person, -0.2, 0.2);
     eyes.guard.see(0, grid);
   };
@@ -54,13 +50,6 @@ function lost(options: Partial<ReturnOptions> = {}) {
 }
 
 describe('under the obstacle guard', () => {
-  test('it comes back', () => {
-    const { robot } = lost();
-    robot.wait(35);
-    expect(robot.back.end).toBe('track-end');
-    expect(Math.abs(robot.base.pose.x)).toBeLessThan(0.1);
-  });
-
   test('it stands before somebody in its way, goes on when the way is free, and gives up otherwise', () => {
     const { robot, way } = lost();
     way.person = [1, 1.4];
@@ -87,28 +76,5 @@ describe('under the obstacle guard', () => {
     robot.wait(2);
     expect(isZeroTwist(robot.velocity)).toBe(true);
     expect(robot.base.pose.x - RADIUS - (x - 0.4)).toBeGreaterThan(0.05);
-  });
-
-  test('it stays where no sensor sees behind it, unless it is told to go on', () => {
-    const { robot, way } = lost();
-    way.behind = false;
-    robot.wait(40);
-    expect(robot.back.end).toBe('unseen');
-    // What was seen a moment ago counts as free for 3 s.
-    expect(robot.back.metres).toBeLessThan(0.01);
-    const bold = lost({ unseen: 'slow' });
-    bold.way.behind = false;
-    bold.robot.wait(35);
-    expect(bold.robot.back.end).toBe('track-end');
-  });
-
-  test('it stands as soon as the sensor is silent', () => {
-    const { robot, way } = lost();
-    robot.wait(16);
-    way.clouds = false;
-    const { x } = robot.base.pose;
-    robot.wait(25);
-    expect(robot.back.end).toBe('sensor-silent');
-    expect(x - robot.base.pose.x).toBeLessThan(0.12);
   });
 });
