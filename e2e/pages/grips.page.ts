@@ -99,16 +99,3 @@ test('a command says what is on the screen, not what has arrived', async ({ stag
   await stage.run(200);
   expect((await seen()) - frozen).toBeGreaterThan(400_000);
 });
-
-test('a robot that says that what is seen is too old: the page says why it stands', async ({ stage }) => {
-  const page = await stage.open({ state: 'view-too-old' });
-  const bounded = page.locator('#motion-state');
-  await stage.run(300);
-  await expect(bounded).toHaveText('Held: what you see is too old. Let go, then drive');
-  await expect(page.locator('#facts')).toContainText('Held: what you see is too old');
-  await stage.script(({ robot }) => {
-    robot.telemetry = {};
-  });
-  await stage.run(600);
-  await expect(bounded).toBeHidden();
-});

@@ -55,20 +55,6 @@ test('the room stays where it is while the robot turns; the other stick turns th
   expect(await stage.state()).toMatchObject({ driving: false, velocity: { linear: 0, angular: 0 } });
 });
 
-test('set to turn with the robot: the view does, and its edge is dark meanwhile', async ({ stage }) => {
-  const headset = await enterVr(stage, {}, { turn: 'robot', vignette: 1 });
-  const { yaw } = await shownIn(stage);
-  await headset.button('right', 'squeeze', 1);
-  await headset.thumbstick('right', -1, 0);
-  await stage.run(800);
-  const turning = await shownIn(stage);
-  expect(turning.yaw - yaw).toBeGreaterThan(0.3);
-  expect(turning.darkness).toBeGreaterThan(0.5);
-  await headset.button('right', 'squeeze', 0);
-  await stage.run(3000);
-  expect((await shownIn(stage)).darkness).toBe(0);
-});
-
 test('recentring puts the eyes at the robot’s camera and looks along its heading', async ({ stage }) => {
   const headset = await enterVr(stage);
   expect(await away(stage)).toBeLessThan(EYE_M);

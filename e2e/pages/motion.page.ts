@@ -68,6 +68,7 @@ test('a robot that is held before something says so, in words, at the speed and 
   await stage.run(400);
   await expect(bounded).toHaveText('Held: something is in the way');
   await expect(page.locator('#speed')).toContainText('held: something is in the way');
+  await expect(page.locator('#facts')).toContainText('Held: something is in the way');
   await expect(edge).toBeVisible();
   expect((await stage.state()).near.blocked).toBeCloseTo(0, 1);
   // Whoever looks to the left has it at the right.

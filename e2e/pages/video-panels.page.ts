@@ -139,15 +139,6 @@ test('panels are moved by hand and by keys, keep their shape and their place, an
   await page.getByRole('button', { name: 'Reset panels' }).click();
   expect(await boxOf(page, 'Front')).toEqual(docked);
   await expect(page.getByRole('button', { name: 'Reset panels' })).toBeHidden();
-
-  // What it cannot read counts as nothing.
-  await page.evaluate(() =>
-    localStorage.setItem('farpoint.panels', '{"panels":[{"name":"video:Front","x":7}]}'),
-  );
-  await stage.reload();
-  await stage.run(800);
-  await expect(panel('Front')).toHaveAttribute('data-floating', 'false');
-  expect(await boxOf(page, 'Front')).toEqual(docked);
 });
 
 test('one key lets a camera fill the screen and puts the cloud into its panel; driving and stopping go on', async ({

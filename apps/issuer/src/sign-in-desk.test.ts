@@ -150,16 +150,8 @@ describe('a sign-in', () => {
   });
 
   it('does not begin for a page that is not ours, nor for a request that is none', async () => {
-    for (const page of [
-      'https://evil.example/',
-      'http://teleop.example/',
-      'javascript:alert(1)',
-      'https://teleop.example@evil.example/',
-    ])
-      expect([page, await desk.begin(asked({ return: page }), caller(), NOW)]).toEqual([
-        page,
-        expect.objectContaining({ status: 400 }),
-      ]);
+    const evil = asked({ return: 'https://evil.example/' });
+    expect(await desk.begin(evil, caller(), NOW)).toMatchObject({ status: 400 });
     expect(answerOf(await desk.begin(asked({ key: 'x' }), caller(), NOW))).toMatchObject({
       error: 'bad-request',
     });
@@ -201,6 +193,9 @@ it.each([
   [['https://a.example/'], 'https://a.example/?y=1', true],
   [['https://a.example/'], 'https://a.example/x?y=1', false],
   [['https://a.example/'], 'https://b.example/', false],
+  [['https://a.example/'], 'http://a.example/', false],
+  [['https://a.example/'], 'javascript:alert(1)', false],
+  [['https://a.example/'], 'https://a.example@b.example/', false],
   [['https://a.example/'], 'https://a.example:8443/', false],
   [['https://a.example'], 'https://a.example/', true],
   [['https://a.example'], 'https://a.example/x', false],

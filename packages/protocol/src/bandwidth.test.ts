@@ -1,13 +1,13 @@
-import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { decodeBandwidth, encodeBandwidth } from './bandwidth.ts';
 import { ProtocolError } from './errors.ts';
+import { readVectors } from './testing/vectors.ts';
 
-const vectors = JSON.parse(readFileSync(new URL('../vectors/bandwidth.json', import.meta.url), 'utf8')) as {
+const vectors = readVectors<{
   decode: { hex: string; bitsPerSecond?: number; error?: string }[];
   encode: { bitsPerSecond: number; hex: string }[];
-};
+}>('bandwidth');
 
 test.each(vectors.decode)('decode %j', ({ hex, bitsPerSecond, error }) => {
   const bytes = new Uint8Array(Buffer.from(hex, 'hex'));

@@ -1,15 +1,13 @@
-import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { captureStampNal, readCaptureStamp, writeCaptureStamp } from './capture-stamp.ts';
+import { readVectors } from './testing/vectors.ts';
 import type { VideoCodec } from './video-media.ts';
 
-const vectors = JSON.parse(
-  readFileSync(new URL('../vectors/capture-stamp.json', import.meta.url), 'utf8'),
-) as {
+const vectors = readVectors<{
   write: { name: string; nanoseconds: string; hex: string }[];
   read: { name: string; codec: VideoCodec; hex: string; nanoseconds?: string }[];
-};
+}>('capture-stamp');
 const bytesOf = (hex: string) => Uint8Array.from(Buffer.from(hex, 'hex'));
 
 describe('conformance vectors', () => {

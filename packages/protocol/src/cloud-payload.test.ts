@@ -1,10 +1,10 @@
-import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { type CloudPayloadFault, MAX_CLOUD_PAYLOAD_BYTES, readCloudPayload } from './cloud-payload.ts';
 import type { Quaternion, Vector3 } from './geometry.ts';
 import { emptyPlacement } from './placement.ts';
 import { emptyPointPacketHeader, type PointPacketHeader } from './point-packet.ts';
+import { readVectors } from './testing/vectors.ts';
 
 interface Vector {
   name: string;
@@ -13,9 +13,7 @@ interface Vector {
   placement?: { position: Vector3; orientation: Quaternion; captureTimeUs: number };
   fault?: CloudPayloadFault;
 }
-const { payloads } = JSON.parse(
-  readFileSync(new URL('../vectors/cloud-payload.json', import.meta.url), 'utf8'),
-) as { payloads: Vector[] };
+const { payloads } = readVectors<{ payloads: Vector[] }>('cloud-payload');
 
 function read(bytes: Uint8Array) {
   const header = emptyPointPacketHeader();

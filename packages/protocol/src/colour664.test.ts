@@ -1,4 +1,3 @@
-import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import {
   LATENCY_TEST_COLOUR,
@@ -7,12 +6,13 @@ import {
   unpackGreen664,
   unpackRed664,
 } from './colour664.ts';
+import { readVectors } from './testing/vectors.ts';
 
 type Rgb = [number, number, number];
-const vectors = JSON.parse(readFileSync(new URL('../vectors/colour664.json', import.meta.url), 'utf8')) as {
+const vectors = readVectors<{
   pack: { rgb: Rgb; colour: number }[];
   unpack: { colour: number; rgb: Rgb }[];
-};
+}>('colour664');
 
 const unpack = (colour: number): Rgb => [unpackRed664(colour), unpackGreen664(colour), unpackBlue664(colour)];
 

@@ -1,20 +1,18 @@
-import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, it, test } from 'vitest';
 import { BARCODE_HEIGHT, BARCODE_WIDTH, drawBarcode } from './latency-barcode.ts';
 import { type BarcodeFault, readBarcode } from './latency-barcode-reader.ts';
 import { blurred, changed, fillRectangle, generator, rgbaOf } from './testing/pictures.ts';
+import { readVectors } from './testing/vectors.ts';
 
 interface Squares {
   name: string;
   squares: string[];
 }
-const vectors = JSON.parse(
-  readFileSync(new URL('../vectors/latency-barcode.json', import.meta.url), 'utf8'),
-) as {
+const vectors = readVectors<{
   draw: (Squares & { hi: number; lo: number })[];
   read: (Squares & { black: number; white: number; hi?: number; lo?: number; fault?: BarcodeFault })[];
-};
+}>('latency-barcode');
 
 const WIDTH = 160;
 const HEIGHT = 64;

@@ -1,5 +1,4 @@
 /** Checks every JSON codec against its conformance vectors, then against noise. */
-import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { broadcastCodec } from './broadcast.ts';
@@ -27,6 +26,7 @@ import {
   referenceServiceToRobotCodec,
 } from './signaling/reference.ts';
 import { driveStates, telemetryCodec } from './telemetry.ts';
+import { readVectors } from './testing/vectors.ts';
 
 const codecs: [file: string, codec: JsonCodec<unknown>][] = [
   ['operator-control', operatorControlCodec],
@@ -52,11 +52,7 @@ interface MessageVectors {
   invalid: { name: string; text?: string; hex?: string; padTo?: number; code: string; path: string }[];
 }
 
-function vectorsOf(file: string): MessageVectors {
-  return JSON.parse(
-    readFileSync(new URL(`../vectors/${file}.json`, import.meta.url), 'utf8'),
-  ) as MessageVectors;
-}
+const vectorsOf = (file: string) => readVectors<MessageVectors>(file);
 
 /** What the decoder returns: `message`, or the error's code and path. Any other exception fails the test. */
 function outcomeOf(codec: JsonCodec<unknown>, data: MessageData): { code: string; path: string } {

@@ -1,4 +1,3 @@
-import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import {
@@ -12,6 +11,7 @@ import {
   readPictureChunk,
   writePictureChunk,
 } from './picture-chunk.ts';
+import { readVectors } from './testing/vectors.ts';
 
 interface ReadVector {
   name: string;
@@ -20,12 +20,10 @@ interface ReadVector {
   dataBytes?: number;
   fault?: PictureChunkFault;
 }
-const vectors = JSON.parse(
-  readFileSync(new URL('../vectors/picture-chunk.json', import.meta.url), 'utf8'),
-) as {
+const vectors = readVectors<{
   read: ReadVector[];
   pictures: { name: string; header: PictureHeader; pictureHex: string; chunksHex: string[] }[];
-};
+}>('picture-chunk');
 
 function chunksOf(header: PictureHeader, picture: Uint8Array): Uint8Array[] {
   return Array.from({ length: pictureChunks(picture.length) }, (_, index) => {

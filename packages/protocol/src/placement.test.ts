@@ -1,4 +1,3 @@
-import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { CLOUD_FORMATS } from './cloud-format.ts';
@@ -11,6 +10,7 @@ import {
   readPlacement,
   writePlacement,
 } from './placement.ts';
+import { readVectors } from './testing/vectors.ts';
 
 interface PlacementVector extends Omit<Placement, 'pose'> {
   position: Vector3;
@@ -22,10 +22,10 @@ interface Vector {
   placement?: PlacementVector;
   fault?: PlacementFault;
 }
-const vectors = JSON.parse(readFileSync(new URL('../vectors/placement.json', import.meta.url), 'utf8')) as {
+const vectors = readVectors<{
   read: Vector[];
   write: Vector[];
-};
+}>('placement');
 
 function toPlacement({ position, orientation, ...rest }: PlacementVector): Placement {
   return { pose: { position, orientation }, ...rest };

@@ -1,4 +1,3 @@
-import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import {
@@ -14,6 +13,7 @@ import {
   readPointPacketHeader,
   writePointPacketHeader,
 } from './point-packet.ts';
+import { readVectors } from './testing/vectors.ts';
 
 interface PayloadVector {
   name: string;
@@ -22,9 +22,7 @@ interface PayloadVector {
   header?: PointPacketHeader;
   fault?: PointPacketFault;
 }
-const { payloads } = JSON.parse(
-  readFileSync(new URL('../vectors/point-packet.json', import.meta.url), 'utf8'),
-) as { payloads: PayloadVector[] };
+const { payloads } = readVectors<{ payloads: PayloadVector[] }>('point-packet');
 
 function payloadOf({ headerHex, payloadBytes }: PayloadVector): DataView {
   const bytes = new Uint8Array(payloadBytes);

@@ -1,4 +1,3 @@
-import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import {
@@ -8,6 +7,7 @@ import {
   readPoints64Block,
   writePoints64Block,
 } from './points64.ts';
+import { readVectors } from './testing/vectors.ts';
 
 interface Block {
   name: string;
@@ -16,10 +16,10 @@ interface Block {
   saturated: number;
   hex: string;
 }
-const vectors = JSON.parse(readFileSync(new URL('../vectors/points64.json', import.meta.url), 'utf8')) as {
+const vectors = readVectors<{
   quantise: { metres: number; millimetres: number; saturated: boolean }[];
   blocks: Block[];
-};
+}>('points64');
 
 /** Writes the block at `offset`, from points that do not begin at the arrays' start. */
 function written({ metres, colours }: Pick<Block, 'metres' | 'colours'>, offset = 0): [Uint8Array, number] {

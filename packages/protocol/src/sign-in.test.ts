@@ -1,4 +1,3 @@
-import { readFileSync } from 'node:fs';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import {
@@ -13,15 +12,16 @@ import {
   signInErrors,
   signInUrlSchema,
 } from './sign-in.ts';
+import { readVectors } from './testing/vectors.ts';
 
-const vectors = JSON.parse(readFileSync(new URL('../vectors/sign-in.json', import.meta.url), 'utf8')) as {
+const vectors = readVectors<{
   requests: { address: string; request: SignInRequest }[];
   faults: { query: string; fault: SignInRequestFault; return: string | null }[];
   answers: { hash: string; answer: SignInAnswer }[];
   others: string[];
   'good addresses': string[];
   'bad addresses': string[];
-};
+}>('sign-in');
 const KEY = 'k'.repeat(43);
 const handle = fc.stringMatching(/^[A-Za-z0-9_-]{1,64}$/);
 

@@ -16,13 +16,6 @@ export class EventLog {
   get text(): string {
     return `${this.#lines.join('\n')}\n`;
   }
-
-  /** Times at which this happened, ms since the run began. */
-  timesOf(what: string): number[] {
-    return this.#lines
-      .filter((line) => line.split(' ')[1] === what)
-      .map((line) => Number(line.split(' ')[0]));
-  }
 }
 
 function textOf(value: unknown): string {

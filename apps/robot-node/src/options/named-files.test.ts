@@ -47,32 +47,29 @@ function marked(name: string, text: string): string {
   return path;
 }
 
-describe.each(['--fence', '--urdf', '--tls-ca', '--grant-keys'])('%s', (option) => {
-  it.each(useless)('refuses a file that is $what', ({ path, words }) => {
-    const message = refusal(option, path);
+const keys = marked('own-keys', JSON.stringify({ keys: [JWK] }));
+/** Each, after the options without which it is none. */
+const naming: [option: string, ...others: string[]][] = [
+  ['--fence'],
+  ['--urdf'],
+  ['--tls-ca'],
+  ['--grant-keys'],
+  ['--revocations', '--grant-keys', keys],
+];
+describe.each(naming)('%s', (option, ...others) => {
+  // Revocations will be made where there are none.
+  const all = option === '--revocations' ? useless.filter(({ what }) => what !== 'missing') : useless;
+  it.each(all)('refuses a file that is $what', ({ path, words }) => {
+    const message = refusal(...others, option, path);
     expect(message.startsWith(`${option} `)).toBe(true);
     expect(message).toContain(path);
     expect(message).toContain(words);
   });
 });
 
-describe('--revocations', () => {
-  const keys = marked('own-keys', JSON.stringify({ keys: [JWK] }));
-
-  it.each(useless.filter(({ what }) => what !== 'missing'))(
-    'refuses a file that is $what',
-    ({ path, words }) => {
-      const message = refusal('--grant-keys', keys, '--revocations', path);
-      expect(message.startsWith('--revocations ')).toBe(true);
-      expect(message).toContain(path);
-      expect(message).toContain(words);
-    },
-  );
-
-  it('may name one that will be made', () => {
-    const path = join(folder, 'later');
-    expect(robot('--grant-keys', keys, '--revocations', path).revocations).toEqual([path]);
-  });
+test('revocations may be a file that will be made', () => {
+  const path = join(folder, 'later');
+  expect(robot('--grant-keys', keys, '--revocations', path).revocations).toEqual([path]);
 });
 
 /** Files that are opened when the robot starts, and what opens them. */

@@ -69,10 +69,6 @@ describe('robot options', () => {
     expect(robot().sink).toEqual({ kind: 'base' });
   });
 
-  it('take UDP ports as a range', () => {
-    expect(robot('--udp-ports', '40000-40010').portRange).toEqual([40_000, 40_010]);
-  });
-
   it('take servers by address, as JSON, and with credentials from the file', () => {
     const urls = 'turn:turn.example.org?transport=tcp';
     expect(robot('--ice-servers', `stun:a:3478, ${urls}`).iceServers).toEqual([

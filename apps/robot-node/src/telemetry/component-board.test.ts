@@ -1,3 +1,4 @@
+import { longProperty } from '@farpoint/network-sim/cases';
 import { type DiagnosticReport, decodeJson, encodeJson, telemetryCodec } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
@@ -53,7 +54,7 @@ describe('ComponentBoard', () => {
         const message = board.next(1e9);
         expect(decodeJson(telemetryCodec, encodeJson(telemetryCodec, message!))).toEqual(message);
       }),
-      { numRuns: 200 },
+      longProperty(5, 200),
     );
   });
 });

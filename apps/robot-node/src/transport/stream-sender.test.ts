@@ -342,12 +342,6 @@ describe('StreamSender', () => {
     expect(sender.counters.feedbackMalformed).toBe(1);
   });
 
-  it('obeys the receiver’s limit', () => {
-    const { sender } = stage(10e6);
-    sender.onReceiverLimit(2e6);
-    expect(sender.targetBitsPerSecond).toBe(2e6);
-  });
-
   describe('receiver reports', () => {
     const block = '00000001 05000003 000000c7 0000005a 00000000 00000000';
     const report = Buffer.from(`81c90007 00000009 ${block}`.replaceAll(' ', ''), 'hex');

@@ -5,13 +5,14 @@ import { effect } from '@preact/signals-core';
 import { describe, expect, test } from 'vitest';
 import { PanelPlacements } from '../panels/panel-placements.ts';
 import type { PageStats } from '../status/page-stats.ts';
+import { RobotVoice } from '../testing/robot-voice.ts';
 import { Notices } from './notices.ts';
 import { PageState } from './page-state.ts';
 
 type Phase = RobotEvents['phase'];
 
 /** Stands in for the client: returns the values that a test puts in, and emits events on demand. */
-class Client {
+class Client extends RobotVoice {
   chosenRobotId: string | null = null;
   pointsAtMs = 0;
   readonly session = {
@@ -45,12 +46,7 @@ class Client {
   readonly watchedVideos: (readonly number[])[] = [];
   readonly shares: [cloud: number, videos: readonly number[]][] = [];
   readonly clouds: (readonly number[])[] = [];
-  readonly #listeners: [keyof RobotEvents, (event: never) => void][] = [];
 
-  readonly on: RobotClient['on'] = (type, listener) => {
-    this.#listeners.push([type, listener]);
-    return () => undefined;
-  };
   watch(cameras: readonly number[]): void {
     this.watched.push(cameras);
   }
@@ -63,9 +59,6 @@ class Client {
   }
   wantClouds(sensors: readonly number[]): void {
     this.clouds.push(sensors);
-  }
-  say<Type extends keyof RobotEvents>(type: Type, event: RobotEvents[Type]): void {
-    for (const [heard, listener] of this.#listeners) if (heard === type) listener(event as never);
   }
   enter(phase: Phase): void {
     this.link.phase = phase;

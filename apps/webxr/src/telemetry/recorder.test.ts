@@ -1,23 +1,10 @@
-import type { RobotEvents } from '@farpoint/operator';
 import type { Telemetry, Welcome } from '@farpoint/protocol';
 import { expect, test } from 'vitest';
+import { RobotVoice } from '../testing/robot-voice.ts';
 import { OWN, TelemetryRecorder } from './recorder.ts';
 
-class Bench {
-  readonly #listeners: [string, (event: never) => void][] = [];
-  readonly recorder = new TelemetryRecorder(
-    {
-      on: (type, listener) => {
-        this.#listeners.push([type, listener]);
-        return () => undefined;
-      },
-    },
-    () => 7,
-  );
-
-  say<Type extends keyof RobotEvents>(type: Type, event: RobotEvents[Type]): void {
-    for (const [heard, listener] of this.#listeners) if (heard === type) listener(event as never);
-  }
+class Bench extends RobotVoice {
+  readonly recorder = new TelemetryRecorder(this, () => 7);
 
   begin(robotId: string): void {
     this.say('session', 1);

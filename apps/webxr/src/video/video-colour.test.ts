@@ -3,6 +3,7 @@ import type { Batch, RobotClient, VideoDescription } from '@farpoint/operator';
 import { signal } from '@preact/signals-core';
 import { describe, expect, test } from 'vitest';
 import { Switches } from '../state/switches.ts';
+import { RobotVoice } from '../testing/robot-voice.ts';
 import { VideoColour } from './video-colour.ts';
 import type { VideoFeed } from './video-feed.ts';
 import type { VideoImage } from './video-image.ts';
@@ -26,7 +27,7 @@ class FakePaint {
   }
 }
 
-class Bench {
+class Bench extends RobotVoice {
   readonly paint = new FakePaint();
   readonly view = { paint: this.paint, isSurface: true, colouring: { mode: 'captured' } };
   readonly wanted = signal(true);
@@ -34,22 +35,17 @@ class Bench {
   readonly hold = { exact: false };
   readonly feed: Pick<VideoFeed, 'onFrame'> = { onFrame: null };
   readonly colour: VideoColour;
-  readonly #listeners: [string, (event: never) => void][] = [];
 
   constructor({ synchronised = true, videos = [FRONT, DEPTH] } = {}) {
-    const on = (type: string, listener: (event: never) => void) => this.#listeners.push([type, listener]);
+    super();
     this.colour = new VideoColour({
-      ...{ client: { on } as unknown as RobotClient, feed: this.feed, hold: this.hold, synchronised },
+      ...{ client: this as unknown as RobotClient, feed: this.feed, hold: this.hold, synchronised },
       ...{ views: { switches: this.switches }, wanted: this.wanted },
       clouds: signal([this.view as unknown as CloudView]),
     });
     this.say('session', 1);
     this.switches.set(videos);
     this.say('videos', videos);
-  }
-
-  say(type: string, event: unknown): void {
-    for (const [heard, listener] of this.#listeners) if (heard === type) listener(event as never);
   }
 
   cloud(captureTimeUs: number): void {

@@ -1,7 +1,8 @@
-import type { Batch, RobotClient, RobotEvents, VideoCodec, VideoDescription } from '@farpoint/operator';
+import type { Batch, RobotClient, VideoCodec, VideoDescription } from '@farpoint/operator';
 import { signal } from '@preact/signals-core';
 import { describe, expect, test } from 'vitest';
 import { PresentedInstant } from '../telemetry/presented-instant.ts';
+import { RobotVoice } from '../testing/robot-voice.ts';
 import type { ReadFrame } from './open-reader.ts';
 import { VideoFeed } from './video-feed.ts';
 import { VideoViews } from './video-views.ts';
@@ -9,7 +10,7 @@ import { VideoViews } from './video-views.ts';
 const OFFSET_MS = 500_000;
 
 /** A feed with stand-ins for the client and for the readers of tracks. */
-class Bench {
+class Bench extends RobotVoice {
   readonly views = new VideoViews(
     signal(0),
     () => ({ width: 0, height: 0, getContext: () => null }) as unknown as HTMLCanvasElement,
@@ -21,13 +22,10 @@ class Bench {
   readonly presented = new PresentedInstant();
   open = 0;
   closed = 0;
-  readonly #listeners: [string, (event: never) => void][] = [];
 
   constructor(options: { synchronised?: boolean; canRead?: boolean } = {}) {
-    const client = {
-      on: (type: string, listener: (event: never) => void) => this.#listeners.push([type, listener]),
-      link: { session: { clock: { offsetMs: OFFSET_MS } } },
-    };
+    super();
+    const client = { on: this.on, link: { session: { clock: { offsetMs: OFFSET_MS } } } };
     this.feed = new VideoFeed({
       client: client as unknown as RobotClient,
       views: this.views,
@@ -39,10 +37,6 @@ class Bench {
           ? null
           : { name: 'native', open: ({ track }, { onFrame }) => this.#read(track.id, onFrame) },
     });
-  }
-
-  say<Type extends keyof RobotEvents>(type: Type, event: RobotEvents[Type]): void {
-    for (const [heard, listener] of this.#listeners) if (heard === type) listener(event as never);
   }
 
   /** Lists two cameras, and gives the tracks `t0` and `t1`. */

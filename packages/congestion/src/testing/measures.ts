@@ -37,16 +37,6 @@ export function queueQuantiles(
   return quantiles(flow.queueMs, flow, fromMs, toMs, at);
 }
 
-/** The same for the age of a packet's picture on arrival, ms. */
-export function ageQuantiles(
-  flow: FlowRecord,
-  fromMs: number,
-  toMs: number,
-  at: readonly number[],
-): number[] {
-  return quantiles(flow.ageMs, flow, fromMs, toMs, at);
-}
-
 /**
  * How long packets that waited for more than `limitMs` kept arriving, ms: the sum of the gaps below 100 ms between such
  * arrivals.

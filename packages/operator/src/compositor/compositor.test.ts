@@ -1,3 +1,4 @@
+import { longProperty } from '@farpoint/network-sim/cases';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { type Run, runCompositor, type SimulatedSource } from '../testing/compositor-run.ts';
@@ -52,7 +53,7 @@ describe('simultaneously triggered cameras', () => {
         expect(run.presentations.length).toBeGreaterThan(270);
         expectAllOut(run, 2);
       }),
-      { seed: 1, numRuns: 60 },
+      longProperty(1, 60),
     );
   });
 
@@ -72,7 +73,7 @@ describe('simultaneously triggered cameras', () => {
         expect(shareInStep(run, ['a', 'b'])).toBeGreaterThan(1 - 5 * loss ** 2 - 0.06);
         expectAllOut(run, 2);
       }),
-      { seed: 2, numRuns: 60 },
+      longProperty(2, 60),
     );
   });
 
@@ -101,7 +102,7 @@ describe('simultaneously triggered cameras', () => {
         expect(fast?.presented).toBeGreaterThan(480);
         expectAllOut(run, 3);
       }),
-      { seed: 3, numRuns: 60 },
+      longProperty(3, 60),
     );
   });
 });
@@ -120,7 +121,7 @@ test('nobody waits longer than an interval of the slowest source and 10 ms', () 
       expect(Math.max(...run.waitedMs)).toBeLessThanOrEqual(bound);
       expectAllOut(run, 3);
     }),
-    { seed: 4, numRuns: 60 },
+    longProperty(4, 60),
   );
 });
 
@@ -142,7 +143,7 @@ test('a source that stops is waited for shortly, then no more; when it returns, 
       expect(equal.length / after.length).toBeGreaterThanOrEqual(0.98);
       expectAllOut(run, 2);
     }),
-    { seed: 5, numRuns: 40 },
+    longProperty(5, 40),
   );
 });
 

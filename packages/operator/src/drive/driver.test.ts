@@ -19,6 +19,16 @@ function bench() {
   return { commands, messages, hand, driver, told: () => told };
 }
 
+/** One that drives ahead since 0 ms. */
+function driving() {
+  const made = bench();
+  made.driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+  made.hand.held = true;
+  made.hand.wish.forward = 1;
+  made.driver.tick(0);
+  return made;
+}
+
 describe('Driver', () => {
   test('pressing the grip requests the lease, after which commands are sent', () => {
     const { commands, messages, hand, driver } = bench();
@@ -45,11 +55,7 @@ describe('Driver', () => {
   });
 
   test('the grip counts as released while the page is hidden', () => {
-    const { commands, hand, driver } = bench();
-    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
-    hand.held = true;
-    hand.wish.forward = 1;
-    driver.tick(0);
+    const { commands, driver } = driving();
     driver.suspended = true;
     for (let now = 25; now < 1000; now += 25) driver.tick(now);
     expect(commands.slice(1).every((command) => !command.deadMan && command.twist.linear.x === 0)).toBe(true);
@@ -57,11 +63,7 @@ describe('Driver', () => {
   });
 
   test('letting go stops, releases the lease, and ignores a grip that stays held', () => {
-    const { commands, messages, hand, driver } = bench();
-    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
-    hand.held = true;
-    hand.wish.forward = 1;
-    driver.tick(0);
+    const { commands, messages, hand, driver } = driving();
     driver.letGo(25);
     expect(commands.map(({ deadMan, twist }) => [deadMan, twist.linear.x])).toEqual([
       [true, 1],
@@ -82,11 +84,7 @@ describe('Driver', () => {
   });
 
   test('a grip held while the path is lost moves nothing until it is released', () => {
-    const { commands, hand, driver } = bench();
-    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
-    hand.held = true;
-    hand.wish.forward = 1;
-    driver.tick(0);
+    const { commands, hand, driver } = driving();
     expect(commands.splice(0).map(({ deadMan }) => deadMan)).toEqual([true]);
     driver.onPath(1000);
     for (let now = 1025; now < 5000; now += 25) driver.tick(now);

@@ -26,11 +26,17 @@ function look(keeping: MemoryKeeping, frames: number): void {
     keeping.onMessage({ type: 'frame', buffer: frameOfRoom(cameraAt(1, 0, 0), i * 350).buffer });
 }
 
+/** A memory that has seen the room. */
+function seen(options: Partial<ConstructorParameters<typeof MemoryKeeping>[1]> = {}) {
+  const port = new Port();
+  const keeping = new MemoryKeeping(port, { pages: 512, ...options });
+  look(keeping, 3);
+  return { port, keeping };
+}
+
 describe('MemoryKeeping', () => {
   test('hands changes on as long as it has buffers, and the rest when one comes back', () => {
-    const port = new Port();
-    const keeping = new MemoryKeeping(port, { pages: 512 });
-    look(keeping, 3);
+    const { port, keeping } = seen();
     for (let i = 0; i < 5; i++) keeping.onMessage({ type: 'resend' });
     const all = port.take();
     const pages = all.filter((message) => message.type === 'pages');
@@ -46,9 +52,7 @@ describe('MemoryKeeping', () => {
   });
 
   test('says when it has forgotten, also because of a jump', () => {
-    const port = new Port();
-    const keeping = new MemoryKeeping(port, { pages: 512, limits: { linear: 1, angular: 1 } });
-    look(keeping, 3);
+    const { port, keeping } = seen({ limits: { linear: 1, angular: 1 } });
     port.take();
     keeping.onMessage({ type: 'frame', buffer: frameOfRoom(cameraAt(4.5, 0, 0), 1100).buffer });
     expect(port.take()[0]).toEqual({ type: 'forgotten', jumped: true });
@@ -58,9 +62,7 @@ describe('MemoryKeeping', () => {
   });
 
   test('looks from above', () => {
-    const port = new Port();
-    const keeping = new MemoryKeeping(port, { pages: 512 });
-    look(keeping, 3);
+    const { port, keeping } = seen();
     port.take();
     const buffer = new ArrayBuffer(TOP_VIEW_BYTES);
     const area = { x: 3, y: 0, ground: 0, ceiling: 2 };
@@ -72,9 +74,7 @@ describe('MemoryKeeping', () => {
   });
 
   test.each(POINT_FILE_FORMATS)('loads what it has saved as %s, as old as it is', (format) => {
-    const port = new Port();
-    const keeping = new MemoryKeeping(port, { pages: 512 });
-    look(keeping, 3);
+    const { port, keeping } = seen();
     port.take();
     keeping.onMessage({ type: 'save', ticket: 7, nowMs: 5000, savedAt: '2026-01-01T00:00:00Z', format });
     const saved = port.take()[0] as FromMemoryWorker & { type: 'saved' };
