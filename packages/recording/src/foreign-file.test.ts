@@ -2,10 +2,9 @@ import { mkdirSync, mkdtempSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { describe, expect, it } from 'vitest';
-import { CloudPlayer } from './cloud-player.ts';
 import { openRecording } from './open-recording.ts';
-import { FakeClock } from './testing/fake-clock.ts';
 import { mcapOfTopics } from './testing/files.ts';
+import { playClouds } from './testing/play-clouds.ts';
 
 const folder = useFolder();
 const text = (words: string) => new TextEncoder().encode(words);
@@ -46,8 +45,7 @@ it('a message that its schema does not allow is reported in words, not as a vali
   const type = 'sensor_msgs/msg/PointCloud2';
   const path = join(folder, 'json.mcap');
   writeFileSync(path, await mcapOfTopics([{ topic: '/points', type, messageEncoding: 'json', messages }]));
-  const options = { path, topic: null, rate: 1, fromS: 0, atEnd: 'stop', axes: 'auto' } as const;
-  await expect(CloudPlayer.open(options, new FakeClock())).rejects.toThrow(
+  await expect(playClouds({ path })).rejects.toThrow(
     /\/points: byte \d+: header\.stamp: [^{}[\]]+, and \d+ more$/,
   );
 });

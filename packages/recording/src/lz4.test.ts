@@ -8,23 +8,8 @@ function frame(block: number[], { stored = false, flags = 0x40 } = {}): Uint8Arr
   const size = [block.length & 0xff, block.length >> 8, 0, stored ? 0x80 : 0];
   const checks = (flags & 16) === 0 ? [] : [9, 9, 9, 9];
   const end = (flags & 4) === 0 ? [] : [8, 8, 8, 8];
-  return Uint8Array.from([
-    0x04,
-    0x22,
-    0x4d,
-    0x18,
-    flags,
-    0x40,
-    0,
-    ...size,
-    ...block,
-    ...checks,
-    0,
-    0,
-    0,
-    0,
-    ...end,
-  ]);
+  const header = [0x04, 0x22, 0x4d, 0x18, flags, 0x40, 0];
+  return Uint8Array.from([...header, ...size, ...block, ...checks, 0, 0, 0, 0, ...end]);
 }
 
 const text = (bytes: Uint8Array) => new TextDecoder().decode(bytes);

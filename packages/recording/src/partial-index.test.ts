@@ -2,10 +2,9 @@
 import { join } from 'node:path';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { describe, expect, it } from 'vitest';
-import { CloudPlayer } from './cloud-player.ts';
 import { openRecording } from './open-recording.ts';
-import { FakeClock } from './testing/fake-clock.ts';
 import { cloudMessage, mcapOf, START_NS, type Summary, writeFile } from './testing/files.ts';
+import { playClouds } from './testing/play-clouds.ts';
 
 const CLOUDS = 20;
 const folder = useFolder();
@@ -48,18 +47,6 @@ describe.each(left)('a recording without %s', (_, summary) => {
   });
 
   it('is played', async () => {
-    const path = await make();
-    const player = await CloudPlayer.open(
-      { path, topic: null, rate: 1, fromS: 0, atEnd: 'stop', axes: 'auto' },
-      new FakeClock(),
-    );
-    const into = new Float32Array(player.stream.capacity * 4);
-    let shown = 0;
-    player.onCloud = () => {
-      if (player.take(into) !== null) shown++;
-    };
-    await player.run();
-    await player.close();
-    expect(shown).toBe(CLOUDS);
+    expect((await playClouds({ path: await make() })).shown).toHaveLength(CLOUDS);
   });
 });

@@ -11,6 +11,7 @@ import type { RecordedMessage } from './recording.ts';
 import { POINT_CLOUD2_SCHEMA } from './ros-schemas.ts';
 import { FakeClock } from './testing/fake-clock.ts';
 import { cloudMessage, mcapOfTopics, START_NS, writeFile } from './testing/files.ts';
+import { PLAY_ALL } from './testing/play-clouds.ts';
 
 const folder = useFolder();
 
@@ -21,9 +22,14 @@ const text = (value: object) => new TextEncoder().encode(JSON.stringify(value));
 const json = { messageEncoding: 'json', schemaEncoding: 'jsonschema' };
 const path = join(folder, 'drive.mcap');
 
-/** 10 clouds per second for 2 s, and texts on two topics; those of /left state their own time, ms. */
+/** 10 clouds per second. */
+const cloudTopic = (count: number) => ({
+  ...{ topic: '/points', type: 'sensor_msgs/msg/PointCloud2', schema: POINT_CLOUD2_SCHEMA },
+  messages: Array.from({ length: count }, (_, k) => ({ logNs: at(k * 100), data: cloudMessage(k, 3) })),
+});
+
+/** Clouds for 2 s, and texts on two topics; those of /left state their own time, ms. */
 beforeAll(async () => {
-  const clouds = Array.from({ length: CLOUDS }, (_, k) => ({ logNs: at(k * 100), data: cloudMessage(k, 3) }));
   const left = Array.from({ length: 67 }, (_, n) => ({
     logNs: at(n * 30 - 15),
     data: text({ ms: n * 30 - 15 }),
@@ -32,12 +38,7 @@ beforeAll(async () => {
   writeFile(
     path,
     await mcapOfTopics([
-      {
-        topic: '/points',
-        type: 'sensor_msgs/msg/PointCloud2',
-        schema: POINT_CLOUD2_SCHEMA,
-        messages: clouds,
-      },
+      cloudTopic(CLOUDS),
       { topic: '/left', type: 'left', ...json, messages: left },
       { topic: '/right', type: 'right', ...json, messages: right },
     ]),
@@ -53,17 +54,7 @@ interface Event {
   ageMs: number;
 }
 
-const PLAY: PlayOptions = {
-  ...{
-    path,
-    topic: null,
-    rate: 1,
-    fromS: 0,
-    atEnd: 'stop',
-    axes: 'auto',
-    along: ['/left', '/right', '/none'],
-  },
-};
+const PLAY: PlayOptions = { ...PLAY_ALL, path, along: ['/left', '/right', '/none'] };
 
 /** Plays it, takes every cloud, and returns what was shown when. @param onEvent may control the player */
 async function play(
@@ -234,22 +225,13 @@ describe('messages played along', () => {
   });
 
   it('reports an unreadable message with topic and byte, and plays the rest', async () => {
-    const clouds = Array.from({ length: 10 }, (_, k) => ({ logNs: at(k * 100), data: cloudMessage(k, 3) }));
     const bad = Array.from({ length: 10 }, (_, k) => ({
       logNs: at(k * 100 + 50),
       data: k % 2 === 0 ? text({ ms: k * 100 + 50 }) : new TextEncoder().encode('{"ms"'),
     }));
     const broken = writeFile(
       join(folder, 'broken.mcap'),
-      await mcapOfTopics([
-        {
-          topic: '/points',
-          type: 'sensor_msgs/msg/PointCloud2',
-          schema: POINT_CLOUD2_SCHEMA,
-          messages: clouds,
-        },
-        { topic: '/left', type: 'left', ...json, messages: bad },
-      ]),
+      await mcapOfTopics([cloudTopic(10), { topic: '/left', type: 'left', ...json, messages: bad }]),
     );
     const { events, faults } = await play({ path: broken });
     expect(of(events, 'cloud')).toHaveLength(10);

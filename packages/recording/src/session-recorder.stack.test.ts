@@ -11,9 +11,11 @@ import * as z from 'zod';
 import { CloudPlayer } from './cloud-player.ts';
 import { CloudTap } from './cloud-tap.ts';
 import { openRecording } from './open-recording.ts';
+import type { Recording } from './recording.ts';
 import { SessionRecorder } from './session-recorder.ts';
 import { FakeClock } from './testing/fake-clock.ts';
 import { Peers } from './testing/peers.ts';
+import { PLAY_ALL } from './testing/play-clouds.ts';
 
 const folder = useFolder();
 
@@ -53,6 +55,20 @@ const written = (tap: CloudTap) => eventually(() => tap.pending === 0);
 type RecorderOptions = Parameters<typeof SessionRecorder.open>[0];
 const open = (path: string, more: Partial<RecorderOptions> = {}) =>
   SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n, ...more });
+
+/** Captures 10,000 points. */
+const capture = (tap: CloudTap, points: Float32Array<ArrayBuffer>, capturedAtMs: number) =>
+  tap.captured(
+    { form: 'points', points, count: 10_000, cameraPose: poseAt(0), capturedAtMs },
+    { width: 10_000, height: 1, camera: null },
+  );
+
+/** When the messages of a topic were recorded, ms. */
+async function timesOf(recording: Recording, topic: string): Promise<number[]> {
+  const times: number[] = [];
+  for await (const { logNs } of recording.messages([topic], 0n)) times.push(Number(logNs / 1_000_000n));
+  return times;
+}
 
 /** A recorder with a file of its own. @returns it, and what it has written, once it is closed */
 async function recorderOf(name: string, more: Partial<RecorderOptions> = {}) {
@@ -137,10 +153,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     expect(recorder.messages).toBe(FRAMES * 9 + FRAMES / 3 + (counts['/farpoint/recorder'] ?? 0));
 
     const clock = new FakeClock();
-    const player = await CloudPlayer.open(
-      { path, topic: null, rate: 1, fromS: 0, atEnd: 'stop', axes: 'auto', along: [FRONT, REAR] },
-      clock,
-    );
+    const player = await CloudPlayer.open({ ...PLAY_ALL, path, along: [FRONT, REAR] }, clock);
     const pictures: [string, number, number][] = [];
     player.onAlong = ({ topic, data }) => {
       const image = foxgloveCompressedImageSchema.parse(topic.decode(data));
@@ -219,18 +232,12 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       let pushed = 0;
       while (!ended) {
         recorder.json('telemetry', pushed, { pushed });
-        tap.captured(
-          { form: 'points', points, count: 10_000, cameraPose: poseAt(0), capturedAtMs: pushed++ },
-          { ...GRID, camera: null },
-        );
+        capture(tap, points, pushed++);
         await written(tap);
       }
       // Later messages are discarded.
       recorder.json('telemetry', pushed, {});
-      tap.captured(
-        { form: 'points', points, count: 10_000, cameraPose: poseAt(0), capturedAtMs: pushed },
-        { ...GRID, camera: null },
-      );
+      capture(tap, points, pushed);
       expect(tap.pending).toBe(0);
       expect(tap.dropped).toBe(0);
       const recording = await reopen(tap);
@@ -240,8 +247,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       expect(recorder.bytes).toBe(size);
       expect(recording.warning).toBeNull();
       const messages = new Map(recording.topics.map((topic) => [topic.name, topic.messages]));
-      let clouds = 0;
-      for await (const _ of recording.messages(['/farpoint/captured'], 0n)) clouds++;
+      const { length: clouds } = await timesOf(recording, '/farpoint/captured');
       expect(clouds).toBe(messages.get('/farpoint/captured'));
       expect(clouds).toBeGreaterThan(5);
     },
@@ -255,22 +261,13 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     });
     const points = new Float32Array(40_000);
     // All in one turn, so that no answer can arrive in between.
-    for (let k = 0; k < 50; k++) {
-      const cloud = { form: 'points' as const, points, count: 10_000 };
-      tap.captured(
-        { ...cloud, cameraPose: poseAt(0), capturedAtMs: k },
-        { width: 10_000, height: 1, camera: null },
-      );
-    }
+    for (let k = 0; k < 50; k++) capture(tap, points, k);
     for (let k = 0; k < 10_000; k++) recorder.json('telemetry', k, { k });
     expect(tap.dropped).toBe(50 - 6);
     expect(recorder.dropped.events).toBe(10_000 - 256 - 4096);
     const recording = await reopen(tap);
-    const sequences: number[] = [];
-    for await (const { logNs } of recording.messages(['/farpoint/captured'], 0n))
-      sequences.push(Number(logNs / 1_000_000n));
     // The first two were in progress at once; the newest four waited.
-    expect(sequences).toEqual([0, 1, 46, 47, 48, 49]);
+    expect(await timesOf(recording, '/farpoint/captured')).toEqual([0, 1, 46, 47, 48, 49]);
     expect(recording.topics.find(({ name }) => name === '/farpoint/telemetry')?.messages).toBe(256 + 4096);
   });
 
@@ -317,9 +314,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
     expect(asked).toEqual([0]);
     recorder.video({ video: 0, capturedAtMs: 700, key: true, format: 'h264', bytes: frameOf(0, 700) });
     const recording = await reopen();
-    const times: number[] = [];
-    for await (const { logNs } of recording.messages([VIDEOS[0]!], 0n))
-      times.push(Number(logNs / 1_000_000n));
+    const times = await timesOf(recording, VIDEOS[0]!);
     expect(times).toEqual([...Array.from({ length: keptFirst }, (_, k) => k), 700]);
   });
 

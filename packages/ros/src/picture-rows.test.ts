@@ -1,4 +1,5 @@
 import { longProperty } from '@farpoint/network-sim/cases';
+import { thrown } from '@farpoint/service/testing/thrown';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { compressedPicture } from './compressed-picture.ts';
@@ -181,21 +182,16 @@ describe('pictureRows', () => {
 
   it('says what is wrong', () => {
     const image = imageOf({ width: 4, height: 4, padding: 0 }, 'rgb8', 3, false, () => {});
-    expect(() => pictureRows({ ...image, encoding: 'nv21' })).toThrow(
-      'a picture as nv21; the encodings are rgb8',
-    );
-    expect(() => pictureRows({ ...image, step: 11 })).toThrow('a row of 11 bytes for 4 pixels of 3');
-    expect(() => pictureRows({ ...image, data: image.data.subarray(0, 47) })).toThrow(
-      'byte 47: the data ends',
-    );
-    expect(() => pictureRows({ ...image, width: 0 })).toThrow('0 × 4 pixels');
-    expect(() => pictureRows({ ...image, width: 9000, height: 9000 })).toThrow(
-      '9000 × 9000 pixels, room for',
-    );
-    expect(() => pictureRows({ ...image, encoding: 'yuyv', width: 3 })).toThrow('whose sides are even');
-    expect(() => pictureRows({ ...image, encoding: 'bayer_rggb8', height: 3 })).toThrow(
-      'whose sides are even',
-    );
+    const saying: [Partial<Image>, string][] = [
+      [{ encoding: 'nv21' }, 'a picture as nv21; the encodings are rgb8'],
+      [{ step: 11 }, 'a row of 11 bytes for 4 pixels of 3'],
+      [{ data: image.data.subarray(0, 47) }, 'byte 47: the data ends'],
+      [{ width: 0 }, '0 × 4 pixels'],
+      [{ width: 9000, height: 9000 }, '9000 × 9000 pixels, room for'],
+      [{ encoding: 'yuyv', width: 3 }, 'whose sides are even'],
+      [{ encoding: 'bayer_rggb8', height: 3 }, 'whose sides are even'],
+    ];
+    for (const [change, words] of saying) expect(() => pictureRows({ ...image, ...change })).toThrow(words);
   });
 });
 
@@ -217,14 +213,8 @@ describe('compressedPicture', () => {
   });
 
   it('refuses by name and by size', () => {
-    const refused = (message: Parameters<typeof compressedPicture>[0]) => {
-      try {
-        compressedPicture(message);
-      } catch (error) {
-        return (error as RosFault).code;
-      }
-      return null;
-    };
+    const refused = (message: Parameters<typeof compressedPicture>[0]) =>
+      thrown(RosFault, () => compressedPicture(message)).code;
     expect(refused({ ...png(320, 200), format: '16UC1; compressedDepth' })).toBe('unsupported');
     expect(refused({ format: 'webp', data: new Uint8Array(30) })).toBe('unsupported');
     expect(refused(png(0, 200))).toBe('bad-image');

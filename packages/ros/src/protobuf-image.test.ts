@@ -1,4 +1,4 @@
-import fc from 'fast-check';
+import { thrown } from '@farpoint/service/testing/thrown';
 import { describe, expect, it } from 'vitest';
 import { RosFault } from './fault.ts';
 import {
@@ -20,16 +20,6 @@ const readCompressed = (bytes: Uint8Array) =>
 const readRaw = (bytes: Uint8Array) =>
   foxgloveRawImageSchema.parse(imageFromProtobuf('foxglove.RawImage')?.(bytes));
 const hex = (text: string) => Uint8Array.from(Buffer.from(text, 'hex'));
-
-function faultOf(act: () => unknown): RosFault | null {
-  try {
-    act();
-    return null;
-  } catch (error) {
-    if (error instanceof RosFault) return error;
-    throw error;
-  }
-}
 
 describe('imageFromProtobuf', () => {
   it('reads what the schemas’ own library writes', () => {
@@ -73,36 +63,13 @@ describe('imageFromProtobuf', () => {
     // Between two fields, it is a complete message with fewer fields.
     const between = [0, 14, 19, 25, 32];
     for (let length = 0; length <= whole.length; length++) {
-      const fault = faultOf(() => readCompressed(whole.subarray(0, length)));
-      expect(fault?.code ?? 'whole', `${length} bytes`).toBe(
-        between.includes(length) ? 'whole' : 'bad-message',
-      );
-      if (fault !== null) expect(fault.offset).toBeLessThanOrEqual(length);
+      const read = () => readCompressed(whole.subarray(0, length));
+      if (between.includes(length)) expect(read, `${length} bytes`).not.toThrow();
+      else {
+        const { code, offset } = thrown(RosFault, read);
+        expect(code).toBe('bad-message');
+        expect(offset).toBeLessThanOrEqual(length);
+      }
     }
-  });
-
-  it('any bytes give an image or a typed fault', () => {
-    const outcomes = new Map<string, number>();
-    const good = fc.constantFrom(hex(COMPRESSED), hex(RAW));
-    fc.assert(
-      fc.property(
-        good,
-        fc.array(fc.tuple(fc.nat(60), fc.nat(255)), { minLength: 1, maxLength: 4 }),
-        fc.uint8Array({ maxLength: 12 }),
-        (whole, changes, tail) => {
-          const bytes = Uint8Array.from([...whole, ...tail]);
-          for (const [at, value] of changes) bytes[at % bytes.length] = value;
-          for (const name of ['foxglove.CompressedImage', 'foxglove.RawImage']) {
-            const fault = faultOf(() => imageFromProtobuf(name)?.(bytes));
-            const outcome = fault?.code ?? 'read';
-            outcomes.set(outcome, (outcomes.get(outcome) ?? 0) + 1);
-          }
-        },
-      ),
-      { seed: 1, numRuns: 2000 },
-    );
-    expect(outcomes.get('bad-message')).toBeGreaterThan(200);
-    expect(outcomes.get('read')).toBeGreaterThan(100);
-    expect([...outcomes.keys()].sort()).toEqual(['bad-message', 'read']);
   });
 });

@@ -19,6 +19,11 @@ const odometry = (ms: number, x: number, { parent = 'odom', child = 'base_link' 
   pose: { pose: { position: { x, y: 0, z: 0 }, orientation: NO_TURN } },
   twist: { twist: { linear: { x: 0.5, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0 } } },
 });
+/** At 2 m, at 1000 ms. */
+const posed = (frame: string) => ({
+  header: header(1000, frame),
+  pose: { position: { x: 2, y: 0, z: 0 }, orientation: NO_TURN },
+});
 const transform = (ms: number, parent: string, child: string, x: number, rotation = NO_TURN) => ({
   header: header(ms, parent),
   child_frame_id: child,
@@ -51,10 +56,7 @@ describe('pose, velocity and time', () => {
 
   test('of a pose alone have no velocity, which is not zero', () => {
     const world = new WorldState();
-    world.take(POSE, {
-      header: header(1000, 'map'),
-      pose: { position: { x: 2, y: 0, z: 0 }, orientation: NO_TURN },
-    });
+    world.take(POSE, posed('map'));
     expect(world.base).toMatchObject({ pose: { position: { x: 2 } }, twist: null, timeMs: 1000 });
   });
 });
@@ -119,10 +121,7 @@ describe('odometry whose frames', () => {
       'its child_frame_id is its frame_id',
     );
     expect(world.base.timeMs).toBeNull();
-    const place = { position: { x: 2, y: 0, z: 0 }, orientation: NO_TURN };
-    expect(world.take(POSE, { header: header(1000, 'base_link'), pose: place })).toMatch(
-      'its frame_id is base_link',
-    );
+    expect(world.take(POSE, posed('base_link'))).toMatch('its frame_id is base_link');
   });
 });
 
@@ -204,14 +203,8 @@ describe('a sensor', () => {
 
   test('is not placed by poses that are too old for its cloud, or too young', () => {
     const world = moved();
-    expect([
-      world.place('lidar', 1250, 'body', mount).base,
-      world.place('lidar', 800, 'body', mount).base,
-    ]).toEqual([expect.anything(), expect.anything()]);
-    expect([
-      world.place('lidar', 1350, 'body', mount).base,
-      world.place('lidar', 600, 'body', mount).base,
-    ]).toEqual([null, null]);
+    const placed = [600, 800, 1250, 1350].map((ms) => world.place('lidar', ms, 'body', mount).base !== null);
+    expect(placed).toEqual([false, true, true, false]);
   });
 });
 
@@ -233,16 +226,15 @@ describe('the base’s frame', () => {
     },
   );
 
-  test('is the usual one where that is in the same tree as what odometry positions', () => {
-    const world = new WorldState();
-    world.take(STATIC, tf(transform(0, 'tracker', 'base_link', -0.3)));
-    world.take(ODOM, odometry(1000, 1, { child: 'tracker' }));
-    expect(x(world)).toBeCloseTo(0.7);
-    const below = new WorldState();
-    below.take(STATIC, tf(transform(0, 'tracker', 'base_footprint', -0.2)));
-    below.take(ODOM, odometry(1000, 1, { child: 'tracker' }));
-    expect(x(below)).toBeCloseTo(0.8);
-  });
+  test.each(['base_link', 'base_footprint'])(
+    'is %s where that is in the tree of what odometry positions',
+    (name) => {
+      const world = new WorldState();
+      world.take(STATIC, tf(transform(0, 'tracker', name, -0.3)));
+      world.take(ODOM, odometry(1000, 1, { child: 'tracker' }));
+      expect(x(world)).toBeCloseTo(0.7);
+    },
+  );
 
   test('is the usual one without odometry', () => {
     const world = new WorldState();
@@ -282,11 +274,8 @@ describe('the base’s frame', () => {
     const world = new WorldState(undefined, 'body');
     world.take(ODOM, odometry(1000, 1, { parent: '', child: '' }));
     expect(x(world)).toBe(1);
-    const posed = new WorldState(undefined, 'body');
-    posed.take(POSE, {
-      header: header(1000, 'map'),
-      pose: { position: { x: 2, y: 0, z: 0 }, orientation: NO_TURN },
-    });
-    expect(x(posed)).toBe(2);
+    const told = new WorldState(undefined, 'body');
+    told.take(POSE, posed('map'));
+    expect(x(told)).toBe(2);
   });
 });

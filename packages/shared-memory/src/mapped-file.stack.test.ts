@@ -36,17 +36,19 @@ describe.skipIf(ADDON_SUITE.skip)(`mapped file (${ADDON_SUITE.note})`, () => {
   });
 
   it('is created for its owner alone or for a group, never for everybody, whatever the umask', () => {
-    const before = process.umask(0);
+    const before = process.umask();
+    const cases: [umask: number, asked: { mode?: number }, mode: number][] = [
+      [0, {}, 0o600],
+      [0, { mode: 0o660 }, 0o660],
+      [0, { mode: 0o666 }, 0o660],
+      [0o077, { mode: 0o660 }, 0o660],
+    ];
     try {
-      MappedFile.open(path, { bytes: 1, create: true }).close();
-      expect(statSync(path).mode & 0o777).toBe(0o600);
-      MappedFile.open(`${path}2`, { bytes: 1, create: true, mode: 0o660 }).close();
-      expect(statSync(`${path}2`).mode & 0o777).toBe(0o660);
-      MappedFile.open(`${path}3`, { bytes: 1, create: true, mode: 0o666 }).close();
-      expect(statSync(`${path}3`).mode & 0o777).toBe(0o660);
-      process.umask(0o077);
-      MappedFile.open(`${path}4`, { bytes: 1, create: true, mode: 0o660 }).close();
-      expect(statSync(`${path}4`).mode & 0o777).toBe(0o660);
+      for (const [n, [umask, asked, mode]] of cases.entries()) {
+        process.umask(umask);
+        MappedFile.open(`${path}${n}`, { bytes: 1, create: true, ...asked }).close();
+        expect(statSync(`${path}${n}`).mode & 0o777).toBe(mode);
+      }
     } finally {
       process.umask(before);
     }

@@ -4,14 +4,16 @@ import { readdirSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { packColour664, quantiseMillimetres } from '@farpoint/protocol';
 import { beforeAll, beforeEach, describe, expect, it } from 'vitest';
-import { CloudReader, type FrameRoom } from './cloud/cloud-reader.ts';
+import { CloudReader } from './cloud/cloud-reader.ts';
 import { cloudFile } from './cloud/layout.ts';
 import { ReferenceFrameConsumer } from './reference/frame-consumer.ts';
 import { MAX_POINTS, referenceFiles } from './reference/layout.ts';
 import {
   ADDON_SUITE,
+  compile,
   EXAMPLES,
   findPython,
+  roomFor,
   runs,
   scratchFolder,
   scratchFolderOfFile,
@@ -19,7 +21,7 @@ import {
 } from './testing/helpers.ts';
 
 const SOURCE = join(import.meta.dirname, 'testing', 'producer.c');
-const STRICT = ['-Wall', '-Wextra', '-Wpedantic', '-Werror', '-O2'];
+const CAMERA = join(EXAMPLES, 'synthetic_camera.py');
 const COMPILERS = {
   'C (gcc)': { program: 'gcc', args: ['-std=c11'] },
   'C++ (g++)': { program: 'g++', args: ['-std=c++17', '-x', 'c++'] },
@@ -43,11 +45,7 @@ const producers = [
   ...Object.entries(COMPILERS).map(([name, { program, args }]) => ({
     name,
     there: runs(program, '--version'),
-    command: (): string[] => {
-      const binary = join(built, program);
-      run([program, ...args, ...STRICT, SOURCE, '-o', binary]);
-      return [binary];
-    },
+    command: () => compile(built, program, args, SOURCE),
   })),
   {
     name: 'Python',
@@ -56,11 +54,7 @@ const producers = [
   },
 ];
 
-const room: FrameRoom = {
-  points: new Float32Array(MAX_POINTS * 4),
-  depth: new Float32Array(MAX_POINTS),
-  colour: new Uint32Array(MAX_POINTS),
-};
+const room = roomFor(MAX_POINTS);
 const header = {
   ...{ frame: 6, points: 12, capturedAtMs: 123.456789, width: 4, height: 3, latencyTest: true },
   pose: { position: { x: 1.5, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } },
@@ -161,15 +155,7 @@ describe.skipIf(python === null || ADDON_SUITE.skip)('Python packing (needs nump
 
 describe.skipIf(python === null || ADDON_SUITE.skip)('examples (need numpy and the addon)', () => {
   const synthetic = (...args: string[]) =>
-    run([
-      python as string,
-      join(EXAMPLES, 'synthetic_camera.py'),
-      '--folder',
-      folder,
-      '--size',
-      '64',
-      ...args,
-    ]);
+    run([python as string, CAMERA, '--folder', folder, '--size', '64', ...args]);
 
   it.each(['points', 'depth16', 'depth32'])('the synthetic camera produces %s', (format) => {
     synthetic('--frames', '3', '--fps', '1000', '--format', format);

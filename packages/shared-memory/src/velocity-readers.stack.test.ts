@@ -1,5 +1,5 @@
 /** The C header and the Python module that read velocities, and the examples with a robot's writer that is killed. */
-import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
+import { type ChildProcess, spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { chmodSync, chownSync, readFileSync, renameSync, rmSync, truncateSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -8,9 +8,10 @@ import { afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import { type ReferenceFiles, referenceFiles } from './reference/layout.ts';
 import {
   ADDON_SUITE,
+  compile,
+  controlVectors,
   EXAMPLES,
   fromHex,
-  readVectors,
   runs,
   scratchFolder,
   scratchFolderOfFile,
@@ -18,17 +19,8 @@ import {
 
 const SILENCE_MS = 200;
 const TESTING = join(import.meta.dirname, 'testing');
-const STRICT = ['-Wall', '-Wextra', '-Wpedantic', '-Werror', '-O2'];
 const STILL = '0 0 0 0 0 0';
 const isRoot = process.geteuid?.() === 0;
-
-interface ControlVector {
-  counter: number;
-  linear: [number, number, number];
-  angular: [number, number, number];
-  hex: string;
-}
-const vectors = readVectors<{ control: ControlVector[] }>('reference.json').control;
 
 const built = scratchFolderOfFile();
 let folder: string;
@@ -58,19 +50,10 @@ function start(command: readonly string[]) {
   return { child, line: async () => ((await lines.next()).value ?? 'it has ended') as string };
 }
 
-function compile(program: string, args: readonly string[], source: string): string[] {
-  const binary = join(built, `${program}-${source.split('/').at(-1)}`);
-  const { status, stderr } = spawnSync(program, [...args, ...STRICT, source, '-o', binary], {
-    encoding: 'utf8',
-  });
-  if (status !== 0) throw new Error(stderr);
-  return [binary];
-}
-
 const compiled = (name: string, program: string, args: readonly string[]) => ({
   name,
   there: runs(program, '--version'),
-  reader: () => compile(program, args, join(TESTING, 'velocity_reader.c')),
+  reader: () => compile(built, program, args, join(TESTING, 'velocity_reader.c')),
 });
 const readers = [
   compiled('C99 (gcc)', 'gcc', ['-std=c99', '-ffast-math']),
@@ -117,7 +100,17 @@ describe.each(readers)('reader in $name', ({ there, reader }) => {
       return { read: (nowMs: number) => ask(String(nowMs)), answer: () => ask('answer') };
     }
 
-    it.each(vectors)('reads $hex', async ({ counter, linear, angular, hex }) => {
+    /** One that has read 0.5 m/s at 1020 ms, with the counter 2. */
+    async function driven() {
+      make(block(1, 0.5));
+      const reading = await open();
+      await reading.read(1000);
+      write(block(2, 0.5));
+      expect(await reading.read(1020)).toBe('fresh 0.5 0 0 0 0 0');
+      return reading;
+    }
+
+    it.each(controlVectors())('reads $hex', async ({ counter, linear, angular, hex }) => {
       make(block(counter - 1, 0));
       const { read } = await open();
       await read(1000);
@@ -137,11 +130,7 @@ describe.each(readers)('reader in $name', ({ there, reader }) => {
     });
 
     it('is zero after the silence, and moves again when the robot writes again', async () => {
-      make(block(1, 0.5));
-      const { read } = await open();
-      await read(1000);
-      write(block(2, 0.5));
-      expect(await read(1020)).toBe('fresh 0.5 0 0 0 0 0');
+      const { read } = await driven();
       for (const now of [1100, 1200, 1215]) expect(await read(now)).toBe('fresh 0.5 0 0 0 0 0');
       expect(await read(1225)).toBe(`silent ${STILL}`);
       // The same counter with other values is no sign of life.
@@ -152,11 +141,7 @@ describe.each(readers)('reader in $name', ({ there, reader }) => {
     });
 
     it('keeps the last complete velocity while one is written, for no longer than the silence', async () => {
-      make(block(1, 0.5));
-      const { read } = await open();
-      await read(1000);
-      write(block(2, 0.5));
-      await read(1020);
+      const { read } = await driven();
       // Killed in the middle of a write.
       writeFileSync(files.busy, Uint8Array.of(1, 0, 0, 0, 0), { flag: 'r+' });
       write(block(3, 9));
@@ -166,11 +151,7 @@ describe.each(readers)('reader in $name', ({ there, reader }) => {
     });
 
     it('believes nothing that was written while it did not look', async () => {
-      make(block(1, 0.5));
-      const { read } = await open();
-      await read(1000);
-      write(block(2, 0.5));
-      expect(await read(1020)).toMatch('fresh');
+      const { read } = await driven();
       write(block(3, 0.5));
       expect(await read(2000)).toBe(`unheard ${STILL}`);
       expect(await read(2020)).toBe(`unheard ${STILL}`);
@@ -180,11 +161,7 @@ describe.each(readers)('reader in $name', ({ there, reader }) => {
     });
 
     it.each([Number.NaN, Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY])('is zero for %d', async (x) => {
-      make(block(1, 0.5));
-      const { read } = await open();
-      await read(1000);
-      write(block(2, 0.5));
-      await read(1020);
+      const { read } = await driven();
       write(block(3, x));
       expect(await read(1040)).toBe(`invalid ${STILL}`);
       write(block(4, 0.5));
@@ -257,7 +234,7 @@ const examples = [
   {
     name: 'wheels.c',
     there: runs('gcc', '--version'),
-    command: () => compile('gcc', ['-std=gnu99'], join(EXAMPLES, 'wheels.c')),
+    command: () => compile(built, 'gcc', ['-std=gnu99'], join(EXAMPLES, 'wheels.c')),
     options: (path: string) => [path, String(SILENCE_MS)],
   },
   {

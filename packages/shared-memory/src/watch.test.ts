@@ -35,9 +35,8 @@ function watchOutcomes(futex: boolean) {
 }
 
 describe.skipIf(ADDON_SUITE.skip)(`watch (${ADDON_SUITE.note})`, () => {
-  it.each([true, false])(
-    'reports an earlier change, and one that happens later (futex: %s)',
-    async (futex) => {
+  describe.each([true, false])('futex: %s', (futex) => {
+    it('reports an earlier change, and one that happens later', async () => {
       const { watch, next } = watchOutcomes(futex);
       file.store8(8, 5);
       watch.arm({ value: 0, timeoutMs: 60_000 });
@@ -48,12 +47,9 @@ describe.skipIf(ADDON_SUITE.skip)(`watch (${ADDON_SUITE.note})`, () => {
         file.wake(8);
       });
       expect(await next()).toBe('changed');
-    },
-  );
+    });
 
-  it.each([true, false])(
-    'reports once each time it is armed, and nothing without a change (futex: %s)',
-    async (futex) => {
+    it('reports once each time it is armed, and nothing without a change', async () => {
       const { watch, next, outcomes } = watchOutcomes(futex);
       watch.arm({ value: 0, timeoutMs: 3 });
       expect(await next()).toBe('timeout');
@@ -62,14 +58,14 @@ describe.skipIf(ADDON_SUITE.skip)(`watch (${ADDON_SUITE.note})`, () => {
       watch.arm({ value: 9, timeoutMs: 3 });
       expect(await next()).toBe('timeout');
       expect(outcomes).toEqual([]);
-    },
-  );
+    });
 
-  it.each([true, false])('survives truncation of the file while it waits (futex: %s)', async (futex) => {
-    const { watch, next } = watchOutcomes(futex);
-    watch.arm({ value: 0, timeoutMs: 60_000 });
-    truncateSync(path, 0);
-    expect(await next()).toBe('fault');
+    it('survives truncation of the file while it waits', async () => {
+      const { watch, next } = watchOutcomes(futex);
+      watch.arm({ value: 0, timeoutMs: 60_000 });
+      truncateSync(path, 0);
+      expect(await next()).toBe('fault');
+    });
   });
 
   it('is silent once closed', async () => {

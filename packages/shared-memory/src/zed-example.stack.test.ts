@@ -2,18 +2,14 @@
 import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
 import { beforeEach, describe, expect, it } from 'vitest';
-import { CloudReader, type FrameRoom } from './cloud/cloud-reader.ts';
+import { CloudReader } from './cloud/cloud-reader.ts';
 import { ReferenceFrameConsumer } from './reference/frame-consumer.ts';
 import { MAX_POINTS } from './reference/layout.ts';
-import { ADDON_SUITE, EXAMPLES, findPython, scratchFolder } from './testing/helpers.ts';
+import { ADDON_SUITE, EXAMPLES, findPython, roomFor, scratchFolder } from './testing/helpers.ts';
 
 const SIZE = 64;
 const python = findPython();
-const room: FrameRoom = {
-  points: new Float32Array(MAX_POINTS * 4),
-  depth: new Float32Array(MAX_POINTS),
-  colour: new Uint32Array(MAX_POINTS),
-};
+const room = roomFor(MAX_POINTS);
 let folder: string;
 beforeEach(() => {
   folder = scratchFolder();

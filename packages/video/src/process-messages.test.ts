@@ -1,4 +1,3 @@
-import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { parseEncoders, parseError, parseLogLine, parseState } from './process-messages.ts';
 import { videoFailure, withoutPasswords } from './video-failure.ts';
@@ -20,25 +19,13 @@ describe('what the process says', () => {
     expect(() => parseEncoders(bytes({ gstreamer: '1.22.0' }))).toThrow(VideoWireError);
   });
 
-  it('throws nothing but its own error', () => {
-    fc.assert(
-      fc.property(
-        fc.oneof(
-          fc.uint8Array(),
-          fc.json().map((text) => new TextEncoder().encode(text)),
-        ),
-        (payload) => {
-          for (const parse of [parseState, parseError, parseEncoders]) {
-            try {
-              parse(payload);
-            } catch (error) {
-              expect(error).toBeInstanceOf(VideoWireError);
-            }
-          }
-        },
-      ),
-    );
-  });
+  it.each(['', '\xff', '{"a', 'null', '7', '[]', '{"__proto__":{}}'])(
+    'is refused by a typed error: %j',
+    (text) => {
+      for (const parse of [parseState, parseError, parseEncoders])
+        expect(() => parse(new TextEncoder().encode(text))).toThrow(VideoWireError);
+    },
+  );
 
   it('on the standard error may be anything', () => {
     expect(parseLogLine('{"level":"error","msg":"x"}')).toEqual({ level: 'error', msg: 'x' });

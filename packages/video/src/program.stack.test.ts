@@ -31,6 +31,19 @@ function start(source: 'frames' | 'test'): ChildProcessWithoutNullStreams {
   return started;
 }
 
+/** Takes its output until there is enough. */
+async function read(program: ChildProcessWithoutNullStreams, enough: (frames: EncodedFrame[]) => boolean) {
+  const frames: EncodedFrame[] = [];
+  const parser = new MessageParser();
+  while (!enough(frames)) {
+    const [chunk] = (await once(program.stdout, 'data')) as [Buffer];
+    parser.push(chunk, ({ type, payload }) => {
+      if (type === FROM_PROCESS.encoded) frames.push(parseEncoded(payload));
+    });
+  }
+  return frames;
+}
+
 describe(`farpoint-video (${VIDEO_SUITE.note})`, { skip: VIDEO_SUITE.skip }, () => {
   it.each([
     ['its input ends', (of: ChildProcessWithoutNullStreams) => void of.stdin.end()],
@@ -62,34 +75,20 @@ describe(`farpoint-video (${VIDEO_SUITE.note})`, { skip: VIDEO_SUITE.skip }, () 
 
   it('goes on after raw pictures that make no sense', async () => {
     const program = start('frames');
-    const frames: EncodedFrame[] = [];
-    const parser = new MessageParser();
     program.stdin.write(writeMessage(4, new Uint8Array(3)));
     program.stdin.write(writeMessage(4, new Uint8Array(30)));
     program.stdin.write(writeMessage(4, new Uint8Array(10_000).fill(255)));
     program.stdin.write(writeMessage(99, new Uint8Array(10_000)));
     await pushNoise(program, 1);
-    while (frames.length === 0) {
-      const [chunk] = (await once(program.stdout, 'data')) as [Buffer];
-      parser.push(chunk, ({ type, payload }) => {
-        if (type === FROM_PROCESS.encoded) frames.push(parseEncoded(payload));
-      });
-    }
+    const frames = await read(program, ({ length }) => length > 0);
     expect(frames[0]?.key).toBe(true);
   });
 
   it('drops pictures before the encoder while nobody takes its output, and then goes on with the newest', async () => {
     const program = start('frames');
-    const frames: EncodedFrame[] = [];
-    const parser = new MessageParser();
     // Nobody reads: the output's buffer takes a few pictures, and all of these are read from the input nevertheless.
     const newest = await pushNoise(program, 200);
-    while (frames.at(-1)?.captureNs !== newest) {
-      const [chunk] = (await once(program.stdout, 'data')) as [Buffer];
-      parser.push(chunk, ({ type, payload }) => {
-        if (type === FROM_PROCESS.encoded) frames.push(parseEncoded(payload));
-      });
-    }
+    const frames = await read(program, (all) => all.at(-1)?.captureNs === newest);
     expect(frames.length).toBeLessThan(100);
     expect(frames.filter(({ key }) => key)).toHaveLength(1);
     const times = frames.map(({ captureNs }) => captureNs);

@@ -267,32 +267,21 @@ describe(`the video process (${VIDEO_SUITE.note})`, { skip: VIDEO_SUITE.skip }, 
     expect(video.failures).toEqual([]);
   });
 
-  it('comes back after it was killed, with a key frame first', async () => {
+  it.each([
+    ['was killed', 'SIGKILL', 'process-lost', /./],
+    ['hung', 'SIGSTOP', 'process-hung', /^the video process hung: it has said nothing for \d+ s$/],
+  ] as const)('comes back after it %s, with a key frame first', async (_, signal, reason, words) => {
     const video = watch({ source: SMALL });
     await video.next(3);
-    const killed = video.process.pid!;
-    process.kill(killed, 'SIGKILL');
+    const lost = video.process.pid!;
+    process.kill(lost, signal);
     await video.until(() => video.failures.length === 1);
-    expect(video.failures[0]).toMatchObject({ reason: 'process-lost', retried: true });
+    expect(video.failures[0]).toMatchObject({ reason, retried: true });
+    expect(video.failures[0]?.sentence).toMatch(words);
     const [first] = await video.next(1);
     expect(first?.key).toBe(true);
-    expect(video.process.pid).not.toBe(killed);
-    expect(video.process.starts).toBe(2);
-  });
-
-  it('comes back after it hung, with a key frame first', async () => {
-    const video = watch({ source: SMALL });
-    await video.next(3);
-    const hung = video.process.pid!;
-    process.kill(hung, 'SIGSTOP');
-    await video.until(() => video.failures.length === 1);
-    const [failure] = video.failures;
-    expect(failure).toMatchObject({ reason: 'process-hung', retried: true });
-    expect(failure?.sentence).toMatch(/^the video process hung: it has said nothing for \d+ s$/);
-    // It is gone, although it took no friendly signal.
-    expect(() => process.kill(hung, 0)).toThrow(/ESRCH/);
-    const [first] = await video.next(1);
-    expect(first?.key).toBe(true);
+    // It is gone, although one that hangs takes no friendly signal.
+    expect(() => process.kill(lost, 0)).toThrow(/ESRCH/);
     expect(video.process.starts).toBe(2);
   });
 
@@ -364,32 +353,17 @@ describe(`the video process (${VIDEO_SUITE.note})`, { skip: VIDEO_SUITE.skip }, 
         source: { kind: 'frames' },
         settings: { bitsPerS: 2_000_000, barcode: 'monotonic' },
       });
-      for (let i = 0; i < 3; i++) {
+      const shown = async (bytes: Uint8Array) => {
         const next = video.next(1);
-        const bytes = Uint8Array.from({ length: width * height }, (_, at) => (at * 31 + i * 7) & 255);
-        video.process.pushFrame({
-          captureNs: process.hrtime.bigint(),
-          format: 'gray',
-          width,
-          height,
-          stride: width,
-          bytes,
-        });
+        const captureNs = process.hrtime.bigint();
+        video.process.pushFrame({ captureNs, format: 'gray', width, height, stride: width, bytes });
         await next;
-      }
+      };
+      for (let i = 0; i < 3; i++)
+        await shown(Uint8Array.from({ length: width * height }, (_, at) => (at * 31 + i * 7) & 255));
       video.process.configure({ barcode: 'unix' });
-      const next = video.next(1);
-      const bytes = new Uint8Array(width * height);
       const beginMs = Date.now();
-      video.process.pushFrame({
-        captureNs: process.hrtime.bigint(),
-        format: 'gray',
-        width,
-        height,
-        stride: width,
-        bytes,
-      });
-      await next;
+      await shown(new Uint8Array(width * height));
       const endMs = Date.now();
       const pictures = decodeLuma(Buffer.concat(video.frames.map((frame) => frame.bytes)), width, height);
       const times = pictures.map((luma) => barcodeTime(luma, width));

@@ -1,6 +1,7 @@
 /** Helpers for this package's tests. */
 import { reserveNumberNow } from '@farpoint/local-stack/reserved-numbers';
 import { RosFault } from '@farpoint/ros';
+import { thrown } from '@farpoint/service/testing/thrown';
 import { isAvailable } from '../addon.ts';
 
 /** Tests that need the addon are skipped without it, and then name the command that builds it. */
@@ -20,15 +21,7 @@ export function testDomain(): number {
 }
 
 /** The fault that an action throws. */
-export function faultOf(action: () => unknown): RosFault {
-  try {
-    action();
-  } catch (error) {
-    if (error instanceof RosFault) return error;
-    throw error;
-  }
-  throw new Error('it was accepted');
-}
+export const faultOf = (action: () => unknown): RosFault => thrown(RosFault, action);
 
 /** A message with `content`, in little-endian CDR. */
 export function cdr(...content: number[]): Uint8Array {

@@ -1,4 +1,5 @@
 import type { ModelLink, ModelShape } from '@farpoint/protocol';
+import { thrown } from '@farpoint/service/testing/thrown';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { type RobotModel, readUrdf } from './read-urdf.ts';
@@ -12,16 +13,6 @@ const HALF = Number(Math.SQRT1_2.toFixed(4));
 const ball = visual('<sphere radius="0.1"/>');
 const linksOf = ({ parts }: RobotModel) => parts.filter((part): part is ModelLink => part.part === 'link');
 const shapesOf = ({ parts }: RobotModel) => parts.filter((part): part is ModelShape => part.part === 'shape');
-
-function faultOf(text: string): UrdfFaultCode {
-  try {
-    readUrdf(text);
-  } catch (error) {
-    if (error instanceof UrdfFault) return error.code;
-    throw error;
-  }
-  throw new Error('it was read');
-}
 
 describe('a description', () => {
   it('gives moving links and shapes; links that do not move against each other are one', () => {
@@ -292,7 +283,7 @@ describe('hostile text is refused with what is wrong', () => {
     ['too few numbers', pair(joint('x', 'revolute', 'a', 'b', '<axis xyz="0 0"/>')), 'bad-value'],
     ['a joint like a prototype', pair(joint('x', 'toString', 'a', 'b')), 'bad-value'],
   ])('%s', (_, text, code) => {
-    expect(faultOf(text)).toBe(code);
+    expect(thrown(UrdfFault, () => readUrdf(text)).code).toBe(code);
   });
 
   it('names the line', () => {
@@ -324,14 +315,7 @@ describe('any text', () => {
     expect(model.joints).toHaveLength(links.length);
   }
 
-  it('gives a model or a fault', () => {
-    fc.assert(
-      fc.property(fc.string({ unit: 'binary', maxLength: 200 }), (text) => check(text)),
-      { numRuns: 300 },
-    );
-  });
-
-  it('that was a description before something was changed, cut or repeated, too', () => {
+  it('that was a description before something was changed, cut or repeated gives a model or a fault', () => {
     const whole =
       robot(`<material name="m"><color rgba="1 0.5 0 1"/></material><link name="base_link">${ball}</link>
       <link name="a">${visual('<box size="1 2 0.5"/>', '<origin xyz="0 -1 2" rpy="1 0 -2.5"/>')}</link><link name="b"/>

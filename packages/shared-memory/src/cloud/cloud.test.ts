@@ -2,10 +2,10 @@ import { chmodSync, readFileSync, rmSync, statSync, truncateSync, writeFileSync 
 import fc from 'fast-check';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { MappedFile } from '../mapped-file.ts';
-import { ADDON_SUITE, codeOf, errorOf, scratchFolder } from '../testing/helpers.ts';
+import { ADDON_SUITE, codeOf, errorOf, roomFor, scratchFolder } from '../testing/helpers.ts';
 import { Watch } from '../watch.ts';
 import { CloudProducer } from './cloud-producer.ts';
-import { CloudReader, type FrameRoom } from './cloud-reader.ts';
+import { CloudReader } from './cloud-reader.ts';
 import { cloudFile, PUBLISHED_OFFSET } from './layout.ts';
 
 let folder: string;
@@ -27,12 +27,8 @@ const producer = (maxPoints = 100) => keep(new CloudProducer({ folder, format: '
 const reader = () => keep(CloudReader.open(folder));
 
 const FRAME = { capturedAtMs: null, height: 1, pose: null, lens: null, latencyTest: false };
-const words = new Uint32Array(400);
-const room: FrameRoom = {
-  points: new Float32Array(words.buffer),
-  depth: new Float32Array(100),
-  colour: new Uint32Array(100),
-};
+const room = roomFor(100);
+const words = new Uint32Array(room.points.buffer);
 
 function publish(to: CloudProducer, value: number, points = 100): void {
   to.publish({ points: new Uint32Array(points * 4).fill(value) }, { ...FRAME, width: points });

@@ -3,18 +3,10 @@ import { type Twist, zeroTwist } from '@farpoint/protocol';
 import { eventually } from '@farpoint/service/testing/eventually';
 import fc from 'fast-check';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
-import { ADDON_SUITE, errorOf, fromHex, readVectors, scratchFolder, toHex } from '../testing/helpers.ts';
+import { ADDON_SUITE, controlVectors, errorOf, fromHex, scratchFolder, toHex } from '../testing/helpers.ts';
 import { ReferenceControlReader } from './control-reader.ts';
 import { ReferenceControlWriter } from './control-writer.ts';
 import { type ReferenceFiles, referenceFiles } from './layout.ts';
-
-interface ControlVector {
-  counter: number;
-  linear: [number, number, number];
-  angular: [number, number, number];
-  hex: string;
-}
-const vectors = readVectors<{ control: ControlVector[] }>('reference.json').control;
 
 let folder: string;
 let files: ReferenceFiles;
@@ -52,7 +44,7 @@ describe.skipIf(ADDON_SUITE.skip)(`command block (${ADDON_SUITE.note})`, () => {
     expect(statSync(files.control).mode & 0o777).toBe(0o600);
   });
 
-  it.each(vectors)('reads and writes $hex', ({ counter, linear, angular, hex }) => {
+  it.each(controlVectors())('reads and writes $hex', ({ counter, linear, angular, hex }) => {
     const before = new Uint8Array(52);
     new DataView(before.buffer).setInt32(0, counter - 1, true);
     writeFileSync(files.control, before, { mode: 0o600 });

@@ -154,21 +154,15 @@ describe.skipIf(ADDON_SUITE.skip)(`reference frames (${ADDON_SUITE.note})`, () =
   });
 
   it('names a file that is missing, of another size or open to everybody', () => {
-    truncateSync(files.flags, 7);
-    expect(errorOf(() => ReferenceFrameConsumer.open(folder))).toMatchObject({
-      code: 'wrong-size',
-      file: files.flags,
-    });
-    rmSync(files.flags);
-    expect(errorOf(() => ReferenceFrameConsumer.open(folder))).toMatchObject({
-      code: 'absent',
-      file: files.flags,
-    });
-    chmodSync(files.cloud, 0o646);
-    expect(errorOf(() => ReferenceFrameConsumer.open(folder))).toMatchObject({
-      code: 'unsafe-permissions',
-      file: files.cloud,
-    });
+    const faults: [() => void, string, string][] = [
+      [() => truncateSync(files.flags, 7), 'wrong-size', files.flags],
+      [() => rmSync(files.flags), 'absent', files.flags],
+      [() => chmodSync(files.cloud, 0o646), 'unsafe-permissions', files.cloud],
+    ];
+    for (const [spoil, code, file] of faults) {
+      spoil();
+      expect(errorOf(() => ReferenceFrameConsumer.open(folder))).toMatchObject({ code, file });
+    }
   });
 
   it('continues after a producer was killed: before it set the flag, or after', () => {

@@ -2,9 +2,11 @@
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { basename, join } from 'node:path';
 import { testFolder, useFolder } from '@farpoint/service/testing/folder';
+import { thrown } from '@farpoint/service/testing/thrown';
 import { isAvailable } from '../addon.ts';
+import type { FrameRoom } from '../cloud/cloud-reader.ts';
 import { SharedMemoryError, type SharedMemoryErrorCode } from '../errors.ts';
 
 /** Tests that need the addon are skipped without it, and then name the command that builds it. */
@@ -27,16 +29,40 @@ export function readVectors<T>(name: string): T {
   return JSON.parse(readFileSync(join(import.meta.dirname, '..', '..', 'vectors', name), 'utf8')) as T;
 }
 
-/** The error that an action throws. */
-export function errorOf(action: () => unknown): SharedMemoryError {
-  try {
-    action();
-  } catch (error) {
-    if (error instanceof SharedMemoryError) return error;
-    throw error;
-  }
-  throw new Error('it was accepted');
+/** A command block, and what it says. */
+export interface ControlVector {
+  counter: number;
+  linear: [number, number, number];
+  angular: [number, number, number];
+  hex: string;
 }
+export const controlVectors = (): ControlVector[] =>
+  readVectors<{ control: ControlVector[] }>('reference.json').control;
+
+/** Memory for frames of so many points, whatever their form. */
+export function roomFor(points: number): FrameRoom {
+  return {
+    points: new Float32Array(points * 4),
+    depth: new Float32Array(points),
+    colour: new Uint32Array(points),
+  };
+}
+
+/** Flags for C and C++ that let nothing doubtful pass. */
+const STRICT = ['-Wall', '-Wextra', '-Wpedantic', '-Werror', '-O2'];
+
+/** @param folder where the binary goes @returns the command that runs it */
+export function compile(folder: string, compiler: string, args: readonly string[], source: string): string[] {
+  const binary = join(folder, `${compiler}-${basename(source)}`);
+  const { status, stderr } = spawnSync(compiler, [...args, ...STRICT, source, '-o', binary], {
+    encoding: 'utf8',
+  });
+  if (status !== 0) throw new Error(stderr);
+  return [binary];
+}
+
+/** The error that an action throws. */
+export const errorOf = (action: () => unknown): SharedMemoryError => thrown(SharedMemoryError, action);
 
 export function codeOf(action: () => unknown): SharedMemoryErrorCode {
   return errorOf(action).code;

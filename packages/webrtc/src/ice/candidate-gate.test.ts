@@ -80,15 +80,10 @@ describe('CandidateGate', () => {
   it('leaves out invalid candidates and those that are not UDP, with or without a description', () => {
     const gate = new CandidateGate();
     for (let round = 0; round < 2; round++) {
-      for (const text of [
-        'x',
-        'candidate:',
-        'candidate:1 1 udp 1 192.0.2.1 typ host',
-        `${'x'.repeat(999)}`,
-      ]) {
+      const injected = `${candidate().candidate}\r\na=ice-ufrag:x`;
+      const portless = 'candidate:1 1 udp 1 192.0.2.1 typ host';
+      for (const text of ['x', 'candidate:', portless, 'x'.repeat(999), injected])
         expect(gate.take({ candidate: text })).toBe('malformed');
-      }
-      expect(gate.take({ candidate: `${candidate().candidate}\r\na=ice-ufrag:x` })).toBe('malformed');
       expect(gate.take(candidate('a', { transport: 'TCP' }))).toBe('not-udp');
       gate.open(['a']);
     }

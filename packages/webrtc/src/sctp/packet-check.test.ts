@@ -1,4 +1,3 @@
-import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { isSctpPacket } from './packet-check.ts';
 
@@ -45,19 +44,5 @@ describe('isSctpPacket', () => {
     ['a gap that runs backwards', packet(chunk(3, [...zeros(8), 0, 1, 0, 0, 0, 9, 0, 1]))],
   ])('refuses %s', (_, bytes) => {
     expect(isSctpPacket(bytes)).toBe(false);
-  });
-
-  it('never throws, and always terminates', () => {
-    fc.assert(
-      fc.property(
-        fc.constantFrom(0, 1, 3, 4, 9, 130, 192),
-        fc.uint8Array({ maxLength: 60 }),
-        (type, bytes) => {
-          isSctpPacket(Buffer.from(bytes));
-          isSctpPacket(packet(chunk(type, [...bytes])));
-        },
-      ),
-      { seed: 6, numRuns: 2000 },
-    );
   });
 });

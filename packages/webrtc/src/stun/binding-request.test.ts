@@ -1,4 +1,3 @@
-import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { isAuthenticRequest, stunKind } from './binding-request.ts';
 
@@ -46,19 +45,6 @@ describe('isAuthenticRequest', () => {
     const appended = Buffer.concat([SAMPLE_REQUEST.subarray(0, SAMPLE_REQUEST.length - 8), useCandidate]);
     appended.writeUInt16BE(appended.length - 20, 2);
     expect(isAuthenticRequest(appended, passwordOf)).toBe(false);
-  });
-
-  it('never throws', () => {
-    const header = Buffer.from('00010000', 'hex');
-    fc.assert(
-      fc.property(fc.uint8Array({ maxLength: 60 }), fc.boolean(), (bytes, fits) => {
-        const datagram = Buffer.concat([header, SAMPLE_REQUEST.subarray(4, 20), bytes]);
-        if (fits) datagram.writeUInt16BE(bytes.length, 2);
-        expect(isAuthenticRequest(datagram, passwordOf)).toBe(false);
-        stunKind(Buffer.from(bytes));
-      }),
-      { seed: 5, numRuns: 2000 },
-    );
   });
 });
 

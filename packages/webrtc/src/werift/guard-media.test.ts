@@ -32,14 +32,21 @@ let srtp: ReturnType<typeof session>;
 let srtcp: ReturnType<typeof session>;
 let refusals: Refusals;
 
+/** A transport whose media have begun. */
+function guarded(rtpSession: object, rtcpSession: object, asked = true): RTCDtlsTransport {
+  const shape = { srtp: rtpSession, srtcp: rtcpSession, startSrtp: () => undefined };
+  const made = shape as unknown as RTCDtlsTransport;
+  guardMedia(made, refusals, new PeerBudget(), asked);
+  made.startSrtp();
+  return made;
+}
+
 beforeEach(() => {
   // A budget fills as time goes on, which it does not within a test.
   vi.useFakeTimers({ toFake: ['performance'] });
   [srtp, srtcp, refusals] = [session(), session(), new Refusals()];
   for (const one of [srtp, srtcp]) one.decrypt = one.decrypt.bind(one);
-  transport = { srtp, srtcp, startSrtp: () => undefined } as unknown as RTCDtlsTransport;
-  guardMedia(transport, refusals, new PeerBudget());
-  transport.startSrtp();
+  transport = guarded(srtp, srtcp);
 });
 
 afterEach(() => void vi.useRealTimers());
@@ -95,9 +102,7 @@ describe('RTCP under AES-GCM', () => {
       if (sealed[8] === 9) throw new Error('not authentic');
       return sealed.subarray(0, 8);
     };
-    const other = { srtp, srtcp: session, startSrtp: () => undefined } as unknown as RTCDtlsTransport;
-    guardMedia(other, refusals, new PeerBudget());
-    other.startSrtp();
+    guarded(srtp, session);
     // One that is forged, with a number to come, does not make that number old.
     const forged = numbered(1);
     forged[8] = 9;
@@ -120,13 +125,11 @@ describe('RTP', () => {
   });
 
   it('is not even deciphered if none was asked for', () => {
-    const [unasked, media] = [new Refusals(), session()];
-    const other = { srtp: media, srtcp, startSrtp: () => undefined } as unknown as RTCDtlsTransport;
-    guardMedia(other, unasked, new PeerBudget(), false);
-    other.startSrtp();
+    const media = session();
+    guarded(media, srtcp, false);
     expect(media.decrypt(rtp(1))).not.toEqual(rtp(1));
     expect(media.deciphered).toBe(0);
-    expect(unasked.get('rtp-unasked')).toBe(1);
+    expect(refusals.get('rtp-unasked')).toBe(1);
   });
 
   it('that is not authentic makes no source known', () => {
