@@ -7,6 +7,7 @@ import { eventually } from '@farpoint/service/testing/eventually';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { JanusViewer } from '../testing/janus-viewer.ts';
+import { metricOf } from '../testing/metric-of.ts';
 
 const address = Object.values(networkInterfaces())
   .flat()
@@ -45,10 +46,8 @@ describe.skipIf(findJanus() === null || address === undefined)(
       await eventually(sees);
     }
 
-    const metric = async (name: string): Promise<number> => {
-      const text = await (await fetch(`${stack.robotAdminUrl('sim-1')}/metrics`)).text();
-      return Number(new RegExp(`^farpoint_robot_broadcast_${name} (\\S+)$`, 'm').exec(text)?.[1]);
-    };
+    const metric = (name: string) =>
+      metricOf(stack.robotAdminUrl('sim-1'), `farpoint_robot_broadcast_${name}`);
 
     it('carries clouds', seeClouds);
 

@@ -1,4 +1,5 @@
 /** The real robot program with a microphone and a loudspeaker. */
+
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Sound } from '@farpoint/protocol';
@@ -7,6 +8,7 @@ import { Microphone, opusDurationMs } from '@farpoint/sound';
 import { ADDON_FILE, BUILD_REMEDY } from '@farpoint/sound/build';
 import { samplesOf, toneShare } from '@farpoint/sound/testing';
 import { describe, expect, it, onTestFinished } from 'vitest';
+import { metricOf } from '../testing/metric-of.ts';
 import type { OperatorClient } from '../testing/operator-client.ts';
 import { useRobot } from '../testing/use-robot.ts';
 
@@ -69,10 +71,7 @@ describe.skipIf(!existsSync(ADDON_FILE))(`sound (needs: ${BUILD_REMEDY})`, { tim
     ...['--config', config, '--sim-size', '64', '--max-points', '600'],
     ...['--rate-control', 'fixed', '--bitrate-mbps', '10'],
   ]);
-  const metric = async (name: string) => {
-    const text = await (await fetch(`${robot.stack.robotAdminUrl('sim-1')}/metrics`)).text();
-    return Number(new RegExp(`^farpoint_robot_${name} (\\d+)`, 'm').exec(text)?.[1]);
-  };
+  const metric = (name: string) => metricOf(robot.stack.robotAdminUrl('sim-1'), `farpoint_robot_${name}`);
 
   it('is captured only while somebody listens, and reaches everybody who does', async () => {
     const { client } = await robot.connect();

@@ -1,4 +1,5 @@
 /** A viewer for tests and benchmarks: a werift peer that watches a mountpoint as a browser would. */
+
 import { JanusFailure, StreamingClient } from '@farpoint/janus';
 import {
   type Broadcast,
@@ -10,6 +11,7 @@ import {
   readCloudPayload,
 } from '@farpoint/protocol';
 import { VideoDepacketiser } from '@farpoint/rtp';
+import { Waiters } from '@farpoint/service/testing/waiters';
 import {
   type MediaStreamTrack,
   RTCPeerConnection,
@@ -51,7 +53,7 @@ export class JanusViewer {
   broadcast: Broadcast | null = null;
   readonly #options: JanusViewerOptions;
   readonly #connection: RTCPeerConnection;
-  readonly #waiters = new Set<() => void>();
+  readonly #waiters = new Waiters();
   #client: StreamingClient | null = null;
 
   private constructor(options: JanusViewerOptions) {
@@ -81,15 +83,7 @@ export class JanusViewer {
 
   /** Resolves once the condition holds. */
   until(holds: () => boolean): Promise<void> {
-    if (holds()) return Promise.resolve();
-    return new Promise((resolve) => {
-      const check = (): void => {
-        if (!holds()) return;
-        this.#waiters.delete(check);
-        resolve();
-      };
-      this.#waiters.add(check);
-    });
+    return this.#waiters.until(holds);
   }
 
   /** Asks for a key frame of each video, as a decoder does that has lost its picture. */
@@ -154,16 +148,12 @@ export class JanusViewer {
 
   #describe(metadata: string): void {
     this.broadcast = decodeJson(broadcastCodec, metadata);
-    this.#changed();
+    this.#waiters.changed();
   }
 
   #end(reason: string): void {
     this.ended ??= reason;
-    this.#changed();
-  }
-
-  #changed(): void {
-    for (const waiter of [...this.#waiters]) waiter();
+    this.#waiters.changed();
   }
 
   #onTrack(track: MediaStreamTrack): void {
@@ -172,7 +162,7 @@ export class JanusViewer {
       track.onReceiveRtp.subscribe(({ payload }) => {
         this.packets++;
         if (this.#options.light !== true) this.#onCloud(payload);
-        this.#changed();
+        this.#waiters.changed();
       });
   }
 
@@ -198,7 +188,7 @@ export class JanusViewer {
           if (seen.timestamps.length > KEPT) seen.timestamps.shift();
         }
       }
-      this.#changed();
+      this.#waiters.changed();
     });
   }
 

@@ -1,4 +1,5 @@
 /** An operator for tests: a werift peer that answers the robot's offer as a browser would. */
+
 import {
   channels,
   decodeJson,
@@ -22,6 +23,7 @@ import {
   type WholePicture,
 } from '@farpoint/protocol';
 import { ABS_CAPTURE_TIME_URI } from '@farpoint/rtp';
+import { Waiters } from '@farpoint/service/testing/waiters';
 import { helloAtOnce, mendSctp } from '@farpoint/webrtc/testing';
 import {
   type RTCDataChannel,
@@ -86,7 +88,7 @@ export class OperatorClient {
   readonly readings = new Map<string, Reading>();
   packets = 0;
   malformedPackets = 0;
-  readonly #waiters = new Set<() => void>();
+  readonly #waiters = new Waiters();
   readonly #bandwidth: RTCDataChannel;
   readonly #helloAtOnce: boolean;
   #sessionChannel: RTCDataChannel | null = null;
@@ -116,8 +118,8 @@ export class OperatorClient {
       ...(keys === undefined ? {} : { dtls: { keys } }),
     });
     const { connection } = this;
-    this.#video = new VideoReception(connection, () => this.#changed());
-    this.sound = new SoundReception(connection, () => this.#changed());
+    this.#video = new VideoReception(connection, () => this.#waiters.changed());
+    this.sound = new SoundReception(connection, () => this.#waiters.changed());
     connection.onTrack.subscribe((track) => {
       if (track.kind === 'video') this.#video.add(track);
       else if (!this.sound.add(track))
@@ -134,7 +136,7 @@ export class OperatorClient {
         if (channel.label === 'session') this.session.push(decodeJson(robotSessionCodec, data));
         else if (channel.label === 'pictures') this.#onPicture(data);
         else if (channel.label === 'telemetry') this.#onTelemetry(decodeJson(telemetryCodec, data));
-        this.#changed();
+        this.#waiters.changed();
       });
     });
     const { control, bandwidth } = channels;
@@ -146,9 +148,9 @@ export class OperatorClient {
     this.#bandwidth = connection.createDataChannel(bandwidth.label, { ordered: bandwidth.ordered });
     // A browser loses nothing of what is reliable.
     if (connection.sctpTransport !== undefined) mendSctp(connection.sctpTransport);
-    this.control.stateChanged.subscribe(() => this.#changed());
-    this.control.onMessage.subscribe(() => this.#changed());
-    connection.connectionStateChange.subscribe(() => this.#changed());
+    this.control.stateChanged.subscribe(() => this.#waiters.changed());
+    this.control.onMessage.subscribe(() => this.#waiters.changed());
+    connection.connectionStateChange.subscribe(() => this.#waiters.changed());
   }
 
   /** @returns the SDP answer */
@@ -162,15 +164,7 @@ export class OperatorClient {
 
   /** Resolves as soon as `is` returns true. It is evaluated whenever something arrives. */
   until(is: () => boolean): Promise<void> {
-    return new Promise((resolve) => {
-      const look = () => {
-        if (!is()) return;
-        this.#waiters.delete(look);
-        resolve();
-      };
-      this.#waiters.add(look);
-      look();
-    });
+    return this.#waiters.until(is);
   }
 
   /** Resolves with the latest message of a type, waiting for the first if necessary. */
@@ -271,7 +265,7 @@ export class OperatorClient {
     const view = new DataView(payload.buffer, payload.byteOffset, payload.byteLength);
     if (readCloudPayload(view, header, placement) !== null) {
       this.malformedPackets++;
-      this.#changed();
+      this.#waiters.changed();
       return;
     }
     this.onCloudPacket?.(payload);
@@ -288,10 +282,6 @@ export class OperatorClient {
     frame.complete = frame.points === pointsOfBytes(frameLength);
     frames.set(frameNumber, frame);
     if (frames.size > 1000) frames.delete(frames.keys().next().value as number);
-    this.#changed();
-  }
-
-  #changed(): void {
-    for (const look of [...this.#waiters]) look();
+    this.#waiters.changed();
   }
 }

@@ -1,4 +1,5 @@
 /** An operator for tests that finds its robot through the real signaling service. */
+
 import {
   decodeJson,
   encodeJson,
@@ -9,6 +10,7 @@ import {
   serviceToOperatorCodec,
   signalingEndpoint,
 } from '@farpoint/protocol';
+import { Waiters } from '@farpoint/service/testing/waiters';
 import { WebSocket } from 'ws';
 import { OperatorClient, type OperatorClientOptions } from './operator-client.ts';
 
@@ -30,7 +32,7 @@ export class SignaledOperator {
   #socket: WebSocket;
   readonly #sockets: WebSocket[] = [];
   readonly #log: ServiceToOperator[] = [];
-  readonly #waiters = new Set<() => void>();
+  readonly #waiters = new Waiters();
   #session = '';
   /** `null` once it was shown. */
   #credentials: Credentials | null;
@@ -102,15 +104,7 @@ export class SignaledOperator {
 
   /** Resolves once a matching message has arrived. */
   until(is: (message: ServiceToOperator) => boolean): Promise<void> {
-    return new Promise((resolve) => {
-      const look = () => {
-        if (!this.#log.some(is)) return;
-        this.#waiters.delete(look);
-        resolve();
-      };
-      this.#waiters.add(look);
-      look();
-    });
+    return this.#waiters.until(() => this.#log.some(is));
   }
 
   closeSession(): void {
@@ -149,7 +143,7 @@ export class SignaledOperator {
       const message = decodeJson(serviceToOperatorCodec, data.toString());
       this.#log.push(message);
       void this.#onMessage(message);
-      for (const look of [...this.#waiters]) look();
+      this.#waiters.changed();
     });
     return socket;
   }

@@ -1,7 +1,9 @@
 /** A TURN server (RFC 8656) that says whatever a test wants. */
+
 import { createSocket, type Socket } from 'node:dgram';
 import { once } from 'node:events';
 import type { AddressInfo } from 'node:net';
+import { Waiters } from '@farpoint/service/testing/waiters';
 
 export const TURN = { allocate: 0x003, refresh: 0x004, permission: 0x008, channelBind: 0x009 } as const;
 const [SUCCESS, ERROR] = [0x100, 0x110];
@@ -51,7 +53,7 @@ export class HostileTurn {
   readonly port: number;
   readonly #socket: Socket;
   readonly #requests: number[] = [];
-  readonly #waiting = new Set<() => void>();
+  readonly #waiters = new Waiters();
 
   private constructor(socket: Socket, answer: (request: Buffer, method: number) => readonly Buffer[]) {
     this.#socket = socket;
@@ -61,7 +63,7 @@ export class HostileTurn {
       const method = request.readUInt16BE(0);
       this.#requests.push(method);
       for (const datagram of answer(request, method)) socket.send(datagram, port, address);
-      for (const wake of this.#waiting) wake();
+      this.#waiters.changed();
     });
   }
 
@@ -77,8 +79,8 @@ export class HostileTurn {
   }
 
   /** Resolves once this many requests of the method have arrived. */
-  async asked(method: number, times = 1): Promise<void> {
-    while (this.count(method) < times) await new Promise<void>((resolve) => this.#waiting.add(resolve));
+  asked(method: number, times = 1): Promise<void> {
+    return this.#waiters.until(() => this.count(method) >= times);
   }
 
   /** A request of somebody else, and its answer. */

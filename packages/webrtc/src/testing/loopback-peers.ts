@@ -1,4 +1,5 @@
 /** For tests: a guarded peer that offers, and an unguarded werift peer that answers and may misbehave. */
+import { Waiters } from '@farpoint/service/testing/waiters';
 import {
   MediaStream,
   type RTCDataChannel,
@@ -43,7 +44,7 @@ export class LoopbackPeers {
   toGuarded!: RTCDataChannel;
   /** May throw inside the guarded peer's listener. */
   onHeard: ((text: string) => void) | null = null;
-  readonly #waiters = new Set<() => void>();
+  readonly #waiters = new Waiters();
 
   private constructor({ keys, drives }: LoopbackOptions) {
     const common = {
@@ -56,18 +57,18 @@ export class LoopbackPeers {
     this.other = new RTCPeerConnection({ ...common, ...(keys === undefined ? {} : { dtls: { keys } }) });
     this.refusals = guardConnection(this.guarded, {
       drives: () => drives?.() === true,
-      onRefused: () => this.#changed(),
+      onRefused: () => this.#waiters.changed(),
       onUnproven: (error) => {
         this.unproven = error;
-        this.#changed();
+        this.#waiters.changed();
       },
       onFault: (error) => {
         this.faults.push(error);
-        this.#changed();
+        this.#waiters.changed();
       },
     });
     for (const peer of [this.guarded, this.other]) {
-      peer.connectionStateChange.subscribe(() => this.#changed());
+      peer.connectionStateChange.subscribe(() => this.#waiters.changed());
     }
   }
 
@@ -80,7 +81,7 @@ export class LoopbackPeers {
       channel.onMessage.subscribe((data) => {
         peers.onHeard?.(data.toString());
         peers.heard.push(data.toString());
-        peers.#changed();
+        peers.#waiters.changed();
       });
     });
     offerer.addTransceiver('audio', { direction: 'sendonly', streams: [new MediaStream({ id: 's' })] });
@@ -152,22 +153,10 @@ export class LoopbackPeers {
   }
 
   until(is: () => boolean): Promise<void> {
-    return new Promise((resolve) => {
-      const look = () => {
-        if (!is()) return;
-        this.#waiters.delete(look);
-        resolve();
-      };
-      this.#waiters.add(look);
-      look();
-    });
+    return this.#waiters.until(is);
   }
 
   async close(): Promise<void> {
     await Promise.all([this.guarded.close(), this.other.close()]);
-  }
-
-  #changed(): void {
-    for (const look of [...this.#waiters]) look();
   }
 }

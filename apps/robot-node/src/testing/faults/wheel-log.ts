@@ -1,3 +1,4 @@
+import { Waiters } from '@farpoint/service/testing/waiters';
 import { ReferenceControlReader } from '@farpoint/shared-memory';
 
 const POLL_MS = 2;
@@ -14,7 +15,7 @@ export class WheelLog {
   readonly #block: ReferenceControlReader;
   readonly #samples: Sample[] = [];
   readonly #timer: NodeJS.Timeout;
-  readonly #waiters = new Set<() => void>();
+  readonly #waiters = new Waiters();
   /** The highest speed that was ever asked of the wheels. */
   fastest = 0;
 
@@ -29,15 +30,9 @@ export class WheelLog {
 
   /** Resolves as soon as `is` holds for the newest velocity. */
   until(is: (sample: Sample) => boolean): Promise<void> {
-    return new Promise((resolve) => {
-      const look = () => {
-        const newest = this.#samples.at(-1);
-        if (newest === undefined || !is(newest)) return;
-        this.#waiters.delete(look);
-        resolve();
-      };
-      this.#waiters.add(look);
-      look();
+    return this.#waiters.until(() => {
+      const newest = this.#samples.at(-1);
+      return newest !== undefined && is(newest);
     });
   }
 
@@ -93,6 +88,6 @@ export class WheelLog {
     this.fastest = Math.max(this.fastest, Math.abs(linear), Math.abs(block.twist.angular.z));
     this.#samples.push({ atMs: performance.now(), linear, counter: block.counter });
     if (this.#samples.length > KEPT) this.#samples.shift();
-    for (const look of [...this.#waiters]) look();
+    this.#waiters.changed();
   }
 }
