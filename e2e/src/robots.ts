@@ -1,11 +1,11 @@
 /** The simulated robots of the tests with real programs. */
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { RobotSpec } from '@farpoint/local-stack';
 import { ADDON_FILE } from '@farpoint/sound/build';
 import { samplesOf } from '@farpoint/sound/testing';
 import { availableEncoders } from '@farpoint/video';
+import { processFolder } from './process-folder.ts';
 import { AUDIO_RATE } from './voice.ts';
 
 /** Whether GStreamer and the program that encodes are there; without them, tests of videos are skipped. */
@@ -55,8 +55,7 @@ export interface MediaRobot {
 
 /** A robot with two cameras, of which one is H.264 only, a microphone that hears a tone of 600 Hz, and a loudspeaker. */
 export function mediaRobot(): MediaRobot {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-media-'));
-  process.once('exit', () => rmSync(folder, { recursive: true, force: true }));
+  const folder = processFolder();
   const file = join(folder, 'heard.raw');
   const played = `audio/x-raw,format=S16LE,rate=${AUDIO_RATE},channels=1`;
   const pipeline = `${played} ! filesink location=${file} buffer-mode=unbuffered`;

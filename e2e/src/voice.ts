@@ -1,7 +1,7 @@
 /** What the browser's microphone hears in tests. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { processFolder } from './process-folder.ts';
 
 /** Samples a second. */
 export const AUDIO_RATE = 48_000;
@@ -33,9 +33,7 @@ export function voiceFlags(): string[] {
   header.writeUInt16LE(16, 34);
   header.write('data', 36);
   header.writeUInt32LE(samples.byteLength, 40);
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-voice-'));
-  process.once('exit', () => rmSync(folder, { recursive: true, force: true }));
-  const file = join(folder, 'voice.wav');
+  const file = join(processFolder(), 'voice.wav');
   writeFileSync(file, Buffer.concat([header, Buffer.from(samples.buffer)]));
   return [
     '--use-fake-ui-for-media-stream',
