@@ -33,3 +33,17 @@ it('follows a system clock that is set, forwards and backwards, by however much'
     }),
   );
 });
+
+it('is not misled by what takes the processor between two readings', () => {
+  const clocks = { monotonicMs: 5000.25, pauseMs: 0 };
+  const wall = new WallClock(
+    () => {
+      clocks.monotonicMs += clocks.pauseMs;
+      clocks.pauseMs = 0;
+      return Math.floor(clocks.monotonicMs);
+    },
+    () => clocks.monotonicMs,
+  );
+  clocks.pauseMs = 50;
+  expect(Math.abs(wall.offsetMs)).toBeLessThanOrEqual(1);
+});

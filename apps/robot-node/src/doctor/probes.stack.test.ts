@@ -3,7 +3,7 @@ import { createHmac } from 'node:crypto';
 import { createSocket, type Socket } from 'node:dgram';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { createServer as createHttpsServer } from 'node:https';
-import type { AddressInfo } from 'node:net';
+import { type AddressInfo, createServer } from 'node:net';
 import { join } from 'node:path';
 import { freePorts, hasTurnServer, LocalStack, TURN_REMEDY, TurnServer } from '@farpoint/local-stack';
 import { Secret } from '@farpoint/service';
@@ -91,6 +91,17 @@ describe('something else at the address of signaling', () => {
   const closers: (() => void)[] = [];
   afterAll(() => {
     for (const close of closers) close();
+  });
+
+  it('does not block the doctor if it accepts connections and says nothing', async () => {
+    const server = createServer(() => undefined).listen(0, 'localhost');
+    closers.push(() => server.close());
+    await new Promise((resolve) => server.once('listening', resolve));
+    const { port } = server.address() as AddressInfo;
+    // Without a limit of time, there would be no answer.
+    expect(['silent', 'unreachable']).toContain((await probeSignaling(target(port), SOON_MS, now)).outcome);
+    expect(await askTime(target(port), SOON_MS, Date.now)).toBeNull();
+    expect((await findRunningRobot('127.0.0.1', port, SOON_MS)).state).not.toBe('runs');
   });
 
   it.each([
