@@ -137,5 +137,7 @@ function projectOf(file: string): string {
 
 function failed(outcomes: readonly Outcome[]): string[] {
   if (outcomes.every(({ status }) => status === 'skipped')) throw new Error('no test ran');
-  return outcomes.filter(({ status }) => status === 'failed').map(nameOf);
+  // Files that have not begun when the first test fails are reported as failed, without a reason.
+  const isReal = ({ status, title, reason }: Outcome) => status === 'failed' && `${title}${reason}` !== '';
+  return outcomes.filter(isReal).map(nameOf);
 }
