@@ -2,7 +2,7 @@
  * `pnpm soak`: what takes too long for every change: every test in its long form, tests beside busy programs, other seeds,
  * faults that tests must find, benchmarks. For the night, and before a release.
  */
-import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { parseArgs, stripVTControlCharacters } from 'node:util';
 import * as z from 'zod';
@@ -10,6 +10,7 @@ import { root, run } from './lib/run.ts';
 import { readWorkspaceFile } from './lib/workspace-files.ts';
 import { type Figures, farFromMedians, figuresIn, withNewest } from './soak/figures.ts';
 import { PARTS, planSoak, type SoakPart, stepsOf } from './soak/plan.ts';
+import { readRecord, type SoakRecord } from './soak/record.ts';
 import { expiredQuarantine, type PartResult, resultsPage } from './soak/results.ts';
 import { cacheFolder } from './test/proven.ts';
 import { readQuarantine } from './test/quarantine.ts';
@@ -18,7 +19,7 @@ import { STEPS } from './test/steps.ts';
 const LIST = PARTS.map(
   ({ name, what, minutes }) => `  ${name.padEnd(11)} ${`${minutes} min`.padStart(6)}  ${what}`,
 ).join('\n');
-const HELP = `pnpm soak [PART…] [--without PART[,PART…]] [--mutants] [--seed N] [--list]
+const HELP = `pnpm soak [PART…] [--without PART[,PART…]] [--mutants] [--seed N] [--resume] [--list]
 
 ${LIST}
 
@@ -26,6 +27,7 @@ ${LIST}
   --without  all parts but these
   --mutants  only the part mutants
   --seed N   of properties; default: another one each day
+  --resume   goes on with a soak of the same commit that was ended: without the parts that have passed, with its seed
   --list     say which parts would run, and how long they take
 
 It ends with one page of results, which is also in .farpoint/soak.md, and fails if a part has failed. Figures of benchmarks
@@ -37,6 +39,7 @@ const { values, positionals } = parseArgs({
     without: { type: 'string' },
     mutants: { type: 'boolean', default: false },
     seed: { type: 'string' },
+    resume: { type: 'boolean', default: false },
     list: { type: 'boolean', default: false },
     help: { type: 'boolean', short: 'h' },
   },
@@ -48,7 +51,6 @@ if (values.help) {
 
 const DAY_MS = 86_400_000;
 const LAST_LINES = 40;
-const seed = readSeed();
 const plan = readPlan();
 if (values.list) {
   for (const { name, minutes, what } of plan) console.log(`${name.padEnd(11)} ${minutes} min  ${what}`);
@@ -57,8 +59,11 @@ if (values.list) {
 }
 
 const figuresFile = join(cacheFolder(), 'soak-figures.json');
-const results: PartResult[] = [];
+const recordFile = join(root, '.farpoint', 'soak.json');
+const commit = await readCommit();
+const { seed, results } = readEarlier();
 for (const [index, part] of plan.entries()) {
+  if (results.some(({ name }) => name === part.name)) continue;
   console.log(`\n[${index + 1}/${plan.length}] ${part.name}: ${part.what}`);
   const began = performance.now();
   const result = await runPart(part);
@@ -71,8 +76,10 @@ console.log(`\n${savePage()}`);
 process.exit(results.some(({ outcome }) => outcome === 'failed') ? 1 : 0);
 
 function savePage(): string {
-  const page = resultsPage(results, seed, new Date());
+  const inOrder = PARTS.flatMap(({ name }) => results.find((result) => result.name === name) ?? []);
+  const page = resultsPage(inOrder, { commit, seed, at: new Date() });
   mkdirSync(join(root, '.farpoint'), { recursive: true });
+  writeFileSync(recordFile, JSON.stringify({ commit, seed, results } satisfies SoakRecord));
   writeFileSync(join(root, '.farpoint', 'soak.md'), page);
   return page;
 }
@@ -140,6 +147,25 @@ function readFigures(): Record<string, Figures[]> {
     // Without earlier soaks there are no medians.
     return {};
   }
+}
+
+/** `null` if something is not committed, or if this is no clone. */
+async function readCommit(): Promise<string | null> {
+  const [head, changes] = [
+    await run('git', ['rev-parse', 'HEAD']),
+    await run('git', ['status', '--porcelain']),
+  ];
+  return head.code === 0 && changes.code === 0 && changes.output === '' ? head.output.trim() : null;
+}
+
+/** The soak that goes on, or an empty one. */
+function readEarlier(): SoakRecord {
+  const nothing: SoakRecord = { commit, seed: readSeed(), results: [] };
+  if (!values.resume) return nothing;
+  const earlier = readRecord(existsSync(recordFile) ? readFileSync(recordFile, 'utf8') : null, commit);
+  if (typeof earlier !== 'string') return earlier;
+  console.log(`Everything runs from the beginning: ${earlier}.`);
+  return nothing;
 }
 
 function readSeed(): number {

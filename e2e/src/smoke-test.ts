@@ -82,7 +82,9 @@ export const test = base.extend<SmokeFixtures, { shared: SharedStack }>({
 async function stoppingAfter(use: (later: (stop: () => Promise<unknown>) => void) => Promise<void>) {
   const stops: (() => Promise<unknown>)[] = [];
   await use((stop) => stops.push(stop));
-  for (const stop of stops) await stop();
+  const faults: unknown[] = [];
+  for (const stop of stops) await stop().catch((fault: unknown) => faults.push(fault));
+  if (faults.length > 0) throw faults[0];
 }
 
 function keep(text: string, path: string, { attachments }: ReturnType<typeof test.info>): void {

@@ -45,6 +45,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   },
   'pnpm soak': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm soak --list': { help: true },
+  'pnpm soak --resume': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm soak --mutants': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm soak load properties --seed 7': {
     help: true,

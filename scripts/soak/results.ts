@@ -18,8 +18,16 @@ const MOST_LAST_LINES = 15;
 const WIDTH = 140;
 const MARKS = { passed: '✓', failed: '✗', 'left out': '–' } as const;
 
-/** In Markdown that reads as text, too. @param at when it ended */
-export function resultsPage(results: readonly PartResult[], seed: number, at: Date): string {
+/**
+ * In Markdown that reads as text, too.
+ *
+ * @param commit `null`: a tree with uncommitted changes
+ * @param at when it ended
+ */
+export function resultsPage(
+  results: readonly PartResult[],
+  { commit, seed, at }: { commit: string | null; seed: number; at: Date },
+): string {
   const failed = results.filter(({ outcome }) => outcome === 'failed');
   const total = results.reduce((sum, { ms }) => sum + ms, 0);
   const name = Math.max(...results.map((result) => result.name.length));
@@ -32,13 +40,14 @@ export function resultsPage(results: readonly PartResult[], seed: number, at: Da
     failed.length === 0
       ? 'Everything passed'
       : `${failed.length} of ${results.length} parts failed: ${failed.map((each) => each.name).join(', ')}`;
+  const of = commit === null ? 'With uncommitted changes' : `Commit ${commit.slice(0, 8)}`;
   const details = failed.flatMap((result) => [
     ...['', `## ${result.name}: ${result.what}`, ''],
     ...['```', ...result.lastLines.slice(-MOST_LAST_LINES).map(cut), '```'],
   ]);
   return [
     ...[`# Soak of ${at.toISOString().slice(0, 16).replace('T', ' ')} UTC`, ''],
-    ...[`${verdict}, in ${durationWords(total)}. Seed ${seed}.`, ''],
+    ...[`${verdict}, in ${durationWords(total)}. ${of}, seed ${seed}.`, ''],
     ...['```', ...rows, '```', ...details, ''],
   ].join('\n');
 }

@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { farFromMedians, figuresIn, median, withNewest } from './figures.ts';
 import { PARTS, planSoak, stepsOf } from './plan.ts';
+import { readRecord } from './record.ts';
 import { expiredQuarantine, type PartResult, resultsPage } from './results.ts';
 
 const names = (parts: readonly { name: string }[]) => parts.map(({ name }) => name);
@@ -65,17 +66,35 @@ describe('figures', () => {
   });
 });
 
+const result = (name: string, more: Partial<PartResult> = {}): PartResult => ({
+  ...{ name, what: `what ${name} is`, outcome: 'passed', ms: 65_000, words: '', lastLines: [], ...more },
+});
+
+it('a soak that goes on keeps what has passed of the same commit', () => {
+  const results = [result('all'), result('load', { outcome: 'failed', lastLines: ['no'] })];
+  const text = JSON.stringify({ commit: 'a1', seed: 7, results });
+  expect(readRecord(text, 'a1')).toEqual({ commit: 'a1', seed: 7, results: [result('all')] });
+  expect(readRecord(text, 'b2')).toBe('the last soak was of a1');
+  expect(readRecord(text, null)).toBe('the tree has uncommitted changes');
+  expect(readRecord(null, 'a1')).toBe('no soak has run here');
+  for (const broken of ['{', '{"commit":"a1"}'])
+    expect(readRecord(broken, 'a1')).toBe('what the last soak has left cannot be read');
+});
+
 describe('the page of results', () => {
-  const result = (name: string, more: Partial<PartResult> = {}): PartResult => ({
-    ...{ name, what: `what ${name} is`, outcome: 'passed', ms: 65_000, words: '', lastLines: [], ...more },
-  });
-  const AT = new Date('2026-11-29T03:04:05Z');
+  const SOAK = { commit: '0123abcdef', seed: 7, at: new Date('2026-11-29T03:04:05Z') };
 
   it('says of each part how it ended', () => {
     const left = result('scenarios', { outcome: 'left out', ms: 0, words: 'there is no step scenario' });
-    const page = resultsPage([result('all', { words: '9 passed' }), left], 7, AT);
+    const page = resultsPage([result('all', { words: '9 passed' }), left], SOAK);
     expect(page.split('\n')).toEqual([
-      ...['# Soak of 2026-11-29 03:04 UTC', '', 'Everything passed, in 1 min 5 s. Seed 7.', '', '```'],
+      ...[
+        '# Soak of 2026-11-29 03:04 UTC',
+        '',
+        'Everything passed, in 1 min 5 s. Commit 0123abcd, seed 7.',
+        '',
+        '```',
+      ],
       '✓ all        1 min 5 s  9 passed',
       '– scenarios        0 s  there is no step scenario',
       ...['```', ''],
@@ -86,8 +105,7 @@ describe('the page of results', () => {
     const lastLines = Array.from({ length: 90 }, (_, n) => `line ${n} ${'x'.repeat(200)}`);
     const page = resultsPage(
       PARTS.map(({ name }) => result(name, name === 'all' ? { outcome: 'failed', lastLines } : {})),
-      7,
-      AT,
+      SOAK,
     ).split('\n');
     expect(page[2]).toContain(`1 of ${PARTS.length} parts failed: all, in `);
     expect(page.length).toBeLessThan(60);

@@ -13,5 +13,26 @@ export function threadCpuMs(): number {
   return (user + system) / 1000;
 }
 
+/** How often two clocks are read before what came between them is accepted. */
+const MOST_READINGS = 5;
+
+/**
+ * Reads another clock together with this one: once more if longer than `atOnceMs` passes meanwhile, because another thread has
+ * had the processor.
+ */
+export function readAtOnce<Time>(
+  nowMs: Clock,
+  other: () => Time,
+  atOnceMs: number,
+): { beforeMs: number; afterMs: number; time: Time } {
+  let beforeMs = nowMs();
+  for (let readings = 1; ; readings++) {
+    const time = other();
+    const afterMs = nowMs();
+    if (afterMs - beforeMs <= atOnceMs || readings === MOST_READINGS) return { beforeMs, afterMs, time };
+    beforeMs = afterMs;
+  }
+}
+
 /** A source of robot time, ms. Tests inject their own. */
 export type Clock = () => number;

@@ -1,9 +1,8 @@
 /** The time of day, as in ROS stamps and in NTP times of RTP. */
-import { monotonicMs } from './clock.ts';
+import { monotonicMs, readAtOnce } from './clock.ts';
 
-/** Two clocks are read at once if no more than this passes meanwhile; that is tried so often. */
+/** Both clocks are read at once if no more than this passes meanwhile. */
 const AT_ONCE_MS = 0.1;
-const MOST_TRIES = 5;
 
 /**
  * The time of day with fractions of a millisecond: `Date.now()`, whose milliseconds are whole, and how far the monotonic
@@ -24,13 +23,7 @@ export class WallClock {
 
   /** What the system clock is ahead of the monotonic one, ms, accurate to a millisecond wherever both can be read at once. */
   get offsetMs(): number {
-    let monotonic = this.#monotonicMs();
-    let wholeMs = this.#wholeMs();
-    // Another thread may have had the processor between the two.
-    for (let tries = 1; tries < MOST_TRIES && this.#monotonicMs() - monotonic > AT_ONCE_MS; tries++) {
-      monotonic = this.#monotonicMs();
-      wholeMs = this.#wholeMs();
-    }
+    const { beforeMs: monotonic, time: wholeMs } = readAtOnce(this.#monotonicMs, this.#wholeMs, AT_ONCE_MS);
     const told = monotonic + this.#offsetMs;
     if (!(told >= wholeMs)) this.#offsetMs = wholeMs - monotonic;
     else if (told > wholeMs + 1) this.#offsetMs = wholeMs + 1 - monotonic;

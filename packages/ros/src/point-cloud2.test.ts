@@ -2,6 +2,7 @@ import { longProperty } from '@farpoint/network-sim/cases';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { RosFault } from './fault.ts';
+import { GREY } from './image.ts';
 import type { PointCloud2, PointField } from './messages.ts';
 import { PointCloud2Decoder } from './point-cloud2.ts';
 
@@ -146,6 +147,19 @@ describe('PointCloud2Decoder', () => {
         expect([...colour]).toEqual(Array.from(colour, (_, i) => words[i * 4 + 3]));
       }),
     );
+  });
+
+  it('a packed colour that its point has no room for is none', () => {
+    const cloud = cloudOf({
+      ...{ width: 2, height: 1, bigEndian: false, gap: 0, rowPadding: 0, order: ['x', 'y', 'z', 'rgb'] },
+      ...{ types: { x: 7, y: 7, z: 7, rgb: 7 }, value: (field, i) => (field === 'rgb' ? 0xff0000 : i) },
+    });
+    const into = new Float32Array(8);
+    const fields = cloud.fields.map((each) =>
+      each.name === 'rgb' ? { ...each, offset: 13, datatype: 2 } : each,
+    );
+    new PointCloud2Decoder().decode({ ...cloud, fields }, 'body', into);
+    expect([3, 7].map((at) => new Uint32Array(into.buffer)[at])).toEqual([GREY, GREY]);
   });
 
   it('refuses inconsistent clouds of any size, and never reads beyond the data', () => {

@@ -1,6 +1,8 @@
 import { expect, test } from 'vitest';
 import { EstopLatch } from './estop.ts';
 
+// What a latched stop refuses, and which hand must open first: drive-guard.property, estop-holds and open-hand tests.
+
 test('only a release ends it, and there is nothing to release before', () => {
   const estop = new EstopLatch();
   expect(estop.release()).toBe(false);

@@ -1,4 +1,5 @@
 /** When what a ROS message holds was captured, on the robot's clock. */
+import { readAtOnce } from '../clock.ts';
 
 export interface RosClock {
   /** Robot’s clock, ms. */
@@ -10,9 +11,8 @@ export interface RosClock {
 /** Stamps that lie farther back are of another clock, ms. */
 export const FOREIGN_AGE_MS = 24 * 3600 * 1000;
 
-/** Both clocks are read at once if no more time passes between two readings, ms; and how often that is tried. */
+/** Both clocks are read at once if no more time passes between two readings, ms. */
 const AT_ONCE_MS = 0.02;
-const MOST_TRIES = 5;
 
 /** When what a ROS message holds was captured: on the robot's clock, ms. */
 export type CaptureTime = (stampNs: bigint, receivedMs: number) => number;
@@ -29,13 +29,12 @@ export function capturedAtMs(clock: RosClock, stampNs: bigint, receivedMs: numbe
   return stamped ? nowMs - ageMs : receivedMs;
 }
 
-/** A thread that loses the processor between the two readings would shift the instant. */
+/** Both clocks of one instant. */
 export function readBoth(clock: RosClock): { nowMs: number; wallNs: bigint } {
-  let before = clock.now();
-  for (let tries = 1; ; tries++) {
-    const wallNs = clock.wallNs();
-    const after = clock.now();
-    if (after - before <= AT_ONCE_MS || tries === MOST_TRIES) return { nowMs: (before + after) / 2, wallNs };
-    before = after;
-  }
+  const { beforeMs, afterMs, time } = readAtOnce(
+    () => clock.now(),
+    () => clock.wallNs(),
+    AT_ONCE_MS,
+  );
+  return { nowMs: (beforeMs + afterMs) / 2, wallNs: time };
 }

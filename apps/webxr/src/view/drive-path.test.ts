@@ -95,6 +95,8 @@ describe('what a robot takes of the floor', () => {
     const back = shownOf(pathWith({ ...AHEAD, linear: -1 })).ribbons;
     expect(back?.[0]).toEqual([-0.2, 0.2]);
     expect(back?.at(-1)).toEqual([-2.2, -0.2]);
+    // However slow: 30 cm.
+    expect(shownOf(pathWith({ ...AHEAD, linear: 0.05 })).ribbons?.at(-1)).toEqual([0.7, -0.2]);
   });
 
   test('what has not changed is not drawn again', () => {

@@ -19,9 +19,13 @@ test('a corner is mitred, and the ribbon keeps its width', () => {
   expect(sides('0 0, 2 0, 2 2')[1]).toEqual([1.5, 0.5, 2.5, -0.5]);
 });
 
-test('no corner is longer than three widths, and a turn on the spot has a width', () => {
-  for (const back of ['0 0.001', '0 0'])
-    for (const [x = 0, y = 0] of sides(`0 0, 2 0, ${back}`)) expect(Math.hypot(x - 2, y)).toBeLessThan(3);
+test('no corner is longer than √2 widths, and a turn on the spot has a width', () => {
+  const lengths = Array.from({ length: 180 }, (_, degrees) => {
+    const turn = (degrees * Math.PI) / 180;
+    const [x = 0, y = 0] = sides(`0 0, 2 0, ${2 + Math.cos(turn)} ${Math.sin(turn)}`)[1] ?? [];
+    return Math.hypot(x - 2, y);
+  });
+  expect(Math.max(...lengths)).toBeCloseTo(Math.SQRT2, 1);
   expect(sides('0 0, 2 0, 0 0')[1]).toEqual([2, 0.5, 2, -0.5]);
 });
 

@@ -50,6 +50,8 @@ describe('Grips', () => {
     update(0);
     update(150);
     grips.lose([device], 'path-lost');
+    // The first loss is the one that is told.
+    grips.lose([device], 'let-go');
     device.read(true, 200);
     update(200);
     expect(grips.lossOf(device)).toBe('path-lost');
