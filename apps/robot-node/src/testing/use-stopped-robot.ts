@@ -83,10 +83,19 @@ export async function untilReading(client: Client, stop: string, level: Reading[
   await client.until(() => client.readings.get(`stop:${stop}`)?.level === level);
 }
 
-/** Drives with a hand that let go first, until the robot moves; drives on until the returned function is called. */
+/**
+ * Drives with a hand that let go first, until the robot moves; drives on until the returned function is called. Until it moves, the
+ * hand also lets go after each stop: a busy machine may keep the counter waiting that holds a stop open.
+ */
 export async function driving(client: Client, lease: string): Promise<() => void> {
-  client.drive(lease, 0);
-  const timer = setInterval(() => client.drive(lease, 0.1), 20);
+  let [wasHeld, hasMoved] = [true, false];
+  const timer = setInterval(() => {
+    const isHeld = newest(client)?.latched === true;
+    const opens = !hasMoved && (isHeld || wasHeld);
+    wasHeld = isHeld;
+    client.drive(lease, opens ? 0 : 0.1);
+  }, 20);
   await client.until(() => (client.telemetry?.twist.linear.x ?? 0) > 0.05);
+  hasMoved = true;
   return () => clearInterval(timer);
 }
