@@ -6,7 +6,7 @@ import { root, run } from '../lib/run.ts';
 import type { Outcome } from './outcome.ts';
 import { readPlaywrightReport } from './playwright-report.ts';
 import type { Quarantined } from './quarantine.ts';
-import { MOST_AGAIN, runFilesAgain } from './second-runs.ts';
+import { MOST_AGAIN, namePattern, runFilesAgain } from './second-runs.ts';
 import { type Judged, judge, SECOND_RUNS, toRunAgain } from './verdict.ts';
 import { readVitestReport } from './vitest-report.ts';
 
@@ -78,9 +78,8 @@ export async function runVitest({
     fileMs,
     async (file, titles) => {
       console.log(`  again, alone: ${file}`);
-      // vitest joins names by spaces.
-      const names = titles?.map((title) => escaped(title.replaceAll(' > ', ' '))).join('|');
-      const { report } = await vitest(`${name}-again`, [file, ...(names === undefined ? [] : ['-t', names])]);
+      const named = titles === null ? [] : ['-t', namePattern(titles)];
+      const { report } = await vitest(`${name}-again`, [file, ...named]);
       return report?.outcomes ?? [];
     },
   );
@@ -98,10 +97,6 @@ function outsideTests(code: number, output: string, outcomes: readonly Outcome[]
   const at = text.search(UNHANDLED);
   if (at >= 0) return text.slice(at).split('\n').slice(0, LAST_LINES).join('\n');
   return code !== 0 && !isExplained ? lastLines(text) : null;
-}
-
-function escaped(text: string): string {
-  return text.replace(/[.*+?^${}()|[\]\\]/g, '\\$&');
 }
 
 export interface PlaywrightOptions {

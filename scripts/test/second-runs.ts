@@ -7,6 +7,12 @@ export const MOST_AGAIN = 6;
 /** A file that takes longer is run again for its failed tests only, which then must not depend on the others. */
 const LONG_FILE_MS = 100_000;
 
+/** Of vitest's option `-t`: these tests and no others. @param titles with ` > ` between a test and what it is in */
+export function namePattern(titles: readonly string[]): string {
+  const names = titles.map((title) => title.replace(/[.*+?^${}()|[\]\\]/g, '\\$&'));
+  return `^(?:${names.join('|')})$`;
+}
+
 /** Runs one file alone. @param titles the tests of it that are to run; `null`: all */
 export type RunFile = (file: string, titles: readonly string[] | null) => Promise<readonly Outcome[]>;
 

@@ -106,7 +106,8 @@ describe.skipIf(!compiler)('install.sh (needs a C compiler, make and Python 3)',
       const { findings } = JSON.parse(doctor.output) as {
         findings: { check: string; verdict: string; detail: string }[];
       };
-      expect(findings.find(({ check }) => check === 'source')).toMatchObject({ verdict: 'ok' });
+      // Whether these are enough clouds to drive by is the machine's business.
+      expect(findings.find(({ check }) => check === 'source')?.detail).toMatch(/, [1-9]\d* valid points/);
       // The addons were installed: without the one for shared memory, this check would fail.
       expect(findings.find(({ check }) => check === 'shared memory')?.detail).toContain('free in /dev/shm');
 
