@@ -148,6 +148,16 @@ test.each([true, false])(
   30_000,
 );
 
+test.each([true, false])('a hand that creeps for minutes gets no farther (yaw known: %s)', (knowsYaw) => {
+  const fence: Fence = { allowed: [], forbidden: [], slow: [], radiusM: 1 };
+  for (const linear of [0.02, 0.0099, 0.001]) {
+    const hands = [1.5, linear].map((each, i) => ({ forS: i === 0 ? 4 : 120, linear: each, angular: 0 }));
+    drive({ fence, hands, yaw: 0, everyMs: 40, ageMs: 100, knowsYaw }, ({ x, y }) => {
+      if (clearance(fence, x, y) < OPTIONS.radiusM) expect.fail(`at ${x} m, by ${linear} m/s`);
+    });
+  }
+});
+
 test('a robot that was put outside comes back in, and no farther out', () => {
   const room: Fence = {
     allowed: [

@@ -84,6 +84,16 @@ describe('the guard', () => {
     expect(ask(room, { x: 4.48 }, 1)).toEqual({ factor: 0, reason: 'fence', urgent: true });
   });
 
+  test('at the edge, nothing leads out, however slowly; turning and the way back in are free', () => {
+    const edge = { x: 4.48 };
+    for (const linear of [0.009, 1e-6]) {
+      expect(ask(room, edge, linear)).toEqual({ factor: 0, reason: 'fence', urgent: true });
+      expect(ask(room, { ...edge, yaw: null }, linear).factor).toBe(0);
+      expect(ask(room, edge, -linear).factor).toBe(1);
+    }
+    expect(ask(room, edge, 0, 1)).toBe(FREE);
+  });
+
   test('brakes as hard as it can if nothing else is enough, even if nothing is asked', () => {
     const fast = { x: 3.95, linear: 1 };
     for (const wish of [1, 0, -1])

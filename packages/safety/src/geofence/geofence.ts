@@ -148,10 +148,8 @@ export class Geofence implements MotionGuard {
 
   /** At the edge, or outside: turning, and what leads back in. */
   #nearEdge(pose: FencePose, linear: number, angular: number, delayS: number): Readonly<MotionBound> {
-    if (Math.abs(linear) < STANDS_MPS) {
-      const stands = Math.abs(pose.linear) < STANDS_MPS;
-      return stands || (linear === 0 && angular === 0) ? FREE : STOP;
-    }
+    // However slow a way out is, it leads out.
+    if (linear === 0) return angular === 0 || Math.abs(pose.linear) < STANDS_MPS ? FREE : STOP;
     if (pose.yaw === null) return STOP;
     const speed = Math.min(Math.abs(linear), RETURN_MPS);
     const length = speed * delayS + (speed * speed) / (2 * this.#options.brakeMps2);
