@@ -7,7 +7,7 @@ import { dirname, join } from 'node:path';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { describe, expect, it } from 'vitest';
 import manifest from '../package.json' with { type: 'json' };
-import { judgeUnitDevices, unitDevices } from '../src/doctor/check-unit.ts';
+import { judgeUnitDevices, unitDevices } from '../src/program/doctor/check-unit.ts';
 import { baseImageOf } from './debian-base.ts';
 
 const here = import.meta.dirname;

@@ -1,16 +1,16 @@
 /** All that decides whether the robot moves: the drive, what operators ask of it, and how long silence is borne. */
 import type { DriveLimits, Intervention } from '@farpoint/protocol';
-import { type Drive, type DriveOptions, type DriveParts, openDrive } from './drive/open-drive.ts';
-import type { HeardOperator } from './return/newest-heard.ts';
-import type { RobotOptions } from './robot-configuration.ts';
-import { type KeptOperator, PathKeeper, type PathKeeperOptions } from './session/path-keeper.ts';
+import type { RobotCounters } from './ground/robot-counters.ts';
+import { type Drive, type DriveOptions, type DriveParts, openDrive } from './motion/open-drive.ts';
+import type { HeardOperator } from './motion/return/newest-heard.ts';
+import type { RobotOptions } from './program/robot-configuration.ts';
+import { type KeptOperator, PathKeeper, type PathKeeperOptions } from './serve/session/path-keeper.ts';
 import {
   type HostedOperator,
   RobotSessionHost,
   type RobotSessionHostParts,
-} from './session/robot-session-host.ts';
-import { silenceLimits } from './session/silence.ts';
-import type { RobotCounters } from './telemetry/robot-counters.ts';
+} from './serve/session/robot-session-host.ts';
+import { silenceLimits } from './serve/session/silence.ts';
 
 export interface DriveCoreOptions extends DriveOptions, Pick<RobotOptions, 'silenceMs' | 'leaseSilenceMs'> {
   limits: DriveLimits;

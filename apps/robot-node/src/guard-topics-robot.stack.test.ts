@@ -8,7 +8,7 @@ import type { Intervention } from '@farpoint/protocol';
 import { messageBytes } from '@farpoint/ros/testing';
 import { testFolder } from '@farpoint/service/testing/folder';
 import { describe, expect, it, onTestFinished } from 'vitest';
-import { monotonicMs } from './clock.ts';
+import { monotonicMs } from './ground/clock.ts';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 
 const ID = 'sim-1';

@@ -8,11 +8,11 @@ const rest = process.argv.slice(3);
 
 // Commands load only the modules that they need. Anything still hanging when the doctor is done ends with the
 // process.
-if (command === 'init') process.exitCode = (await import('./commands/init.ts')).init(rest, process);
+if (command === 'init') process.exitCode = (await import('./program/commands/init.ts')).init(rest, process);
 else if (command === 'doctor')
-  process.exit(await (await import('./commands/doctor.ts')).doctor(rest, process));
+  process.exit(await (await import('./program/commands/doctor.ts')).doctor(rest, process));
 else if (command === 'release')
-  process.exitCode = await (await import('./commands/release.ts')).release(rest, process);
+  process.exitCode = await (await import('./program/commands/release.ts')).release(rest, process);
 else if (command === 'audit')
   process.exitCode = (await import('@farpoint/audit')).auditCommand('farpoint-robot', rest, process);
 else await (await import('./run.ts')).run();

@@ -16,7 +16,7 @@ import { useFolder } from '@farpoint/service/testing/folder';
 import { BUILD_REMEDY } from '@farpoint/video/build';
 import { beforeAll, describe, expect, it } from 'vitest';
 import * as z from 'zod';
-import { monotonicMs } from './clock.ts';
+import { monotonicMs } from './ground/clock.ts';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 import { hasVideo } from './testing/watched-camera.ts';
 

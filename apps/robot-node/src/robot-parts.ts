@@ -1,20 +1,20 @@
 import type { Logger } from '@farpoint/service';
-import { type GrantFiles, openGrantFiles } from './access/grant-files.ts';
-import { openRobotKey, type RobotKey } from './access/robot-key-file.ts';
-import type { RobotAudit } from './audit/robot-audit.ts';
-import { BaseThread } from './base/base-thread.ts';
-import type { Capture } from './capture/capture.ts';
-import { openSink } from './drive/open-sink.ts';
-import type { VelocitySink } from './drive/velocity-sink.ts';
-import { guardedSensors, hasOdometry } from './obstacles/guarded-sensors.ts';
-import { type ObstacleStation, openObstacleGuard } from './obstacles/obstacle-station.ts';
-import type { RobotOptions } from './robot-configuration.ts';
-import { CloudSensors } from './sensors/cloud-sensors.ts';
-import { inWorld, videosInWorld } from './sensors/in-world.ts';
-import { SessionRecording } from './telemetry/session-recording.ts';
-import { openVideoCameras } from './video/open-video-cameras.ts';
-import { openPlayedVideos } from './video/played-videos.ts';
-import type { VideoCamera } from './video/video-encoder.ts';
+import { type GrantFiles, openGrantFiles } from './admit/access/grant-files.ts';
+import { openRobotKey, type RobotKey } from './admit/access/robot-key-file.ts';
+import type { RobotAudit } from './admit/audit/robot-audit.ts';
+import type { VelocitySink } from './ground/velocity-sink.ts';
+import { openSink } from './motion/drive/open-sink.ts';
+import { guardedSensors, hasOdometry } from './motion/obstacles/guarded-sensors.ts';
+import { type ObstacleStation, openObstacleGuard } from './motion/obstacles/obstacle-station.ts';
+import { inWorld, videosInWorld } from './program/in-world.ts';
+import type { RobotOptions } from './program/robot-configuration.ts';
+import { CloudSensors } from './send/clouds/cloud-sensors.ts';
+import { openPlayedVideos } from './send/video/played-videos.ts';
+import { BaseThread } from './sense/base/base-thread.ts';
+import type { Capture } from './sense/capture/capture.ts';
+import type { VideoCamera } from './sense/video/video-encoder.ts';
+import { openVideoCameras } from './serve/open-video-cameras.ts';
+import { SessionRecording } from './tell/session-recording.ts';
 
 /** What a robot is made of, opened and ready. */
 export interface RobotParts {

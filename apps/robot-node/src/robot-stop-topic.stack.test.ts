@@ -5,7 +5,7 @@ import { DdsGraph, isAvailable as isDdsAvailable } from '@farpoint/dds';
 import { testDomain } from '@farpoint/dds/testing';
 import { messageBytes } from '@farpoint/ros/testing';
 import { describe, it } from 'vitest';
-import { monotonicMs } from './clock.ts';
+import { monotonicMs } from './ground/clock.ts';
 import { CLEAR, HELD, untilReading, untilState, useStoppedRobot } from './testing/use-stopped-robot.ts';
 
 const robot = useStoppedRobot();

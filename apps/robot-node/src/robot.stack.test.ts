@@ -5,7 +5,7 @@ import { readPictureFile } from '@farpoint/protocol';
 import { eventually } from '@farpoint/service/testing/eventually';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { afterEach, describe, expect, it } from 'vitest';
-import { RobotKey } from './access/robot-key-file.ts';
+import { RobotKey } from './admit/access/robot-key-file.ts';
 import { metricOf } from './testing/metric-of.ts';
 import type { SignaledOperator } from './testing/signaled-operator.ts';
 import { driveUntil } from './testing/steady-hand.ts';

@@ -13,7 +13,7 @@ import { messageBytes } from '@farpoint/ros/testing';
 import { eventually } from '@farpoint/service/testing/eventually';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { monotonicMs } from './clock.ts';
+import { monotonicMs } from './ground/clock.ts';
 import { SignaledOperator } from './testing/signaled-operator.ts';
 import { driveUntil } from './testing/steady-hand.ts';
 

@@ -1,14 +1,14 @@
 import { runProgram, setNiceness } from '@farpoint/service';
 import { Notifier, notifyOrder } from '@farpoint/systemd';
-import { openRobotAudit } from './audit/open-robot-audit.ts';
-import { monotonicMs } from './clock.ts';
-import { guardHealth } from './obstacles/guard-report.ts';
-import { toRobotOptions } from './options/robot-options.ts';
-import { robotProgram } from './options/robot-program.ts';
+import { openRobotAudit } from './admit/audit/open-robot-audit.ts';
+import { monotonicMs } from './ground/clock.ts';
+import { guardHealth } from './motion/obstacles/guard-report.ts';
+import { registerRobotMetrics } from './program/metrics/robot-metrics.ts';
+import { toRobotOptions } from './program/options/robot-options.ts';
+import { robotProgram } from './program/options/robot-program.ts';
+import { lockRun } from './program/run-locks.ts';
+import { warnOfFleetingState } from './program/state-place.ts';
 import { Robot } from './robot.ts';
-import { lockRun } from './run-locks.ts';
-import { warnOfFleetingState } from './state-place.ts';
-import { registerRobotMetrics } from './telemetry/metrics/robot-metrics.ts';
 
 /** The capture thread reports every 20 ms, unless a frame takes longer. */
 const MOST_CAPTURE_SILENCE_MS = 5000;
@@ -41,7 +41,7 @@ export async function run(): Promise<void> {
     // After the robot, so that what ends with it is recorded.
     shutdown.onClose('audit log', () => audit.close());
     const robot = await Robot.start(robotOptions, log, audit.audit).catch(async (error: unknown) => {
-      throw (await import('./doctor/start-failure.ts')).startFailure(robotOptions, error);
+      throw (await import('./program/doctor/start-failure.ts')).startFailure(robotOptions, error);
     });
     // Before anything else is closed, however the run ends.
     shutdown.signal.addEventListener('abort', () => robot.drive.halt());

@@ -1,30 +1,30 @@
 /** What a robot in virtual time is made of: all that decides whether it moves, without sockets, threads and sensors. */
 import { noAudit } from '@farpoint/audit';
 import { resolveOptions, silentLogger } from '@farpoint/service';
-import { RobotAccess } from '../access/robot-access.ts';
-import { RobotAudit } from '../audit/robot-audit.ts';
-import { toRobotOptions } from '../options/robot-options.ts';
-import { robotProgram } from '../options/robot-program.ts';
-import type { RobotOptions } from '../robot-configuration.ts';
-import { ReasonCounts } from '../telemetry/robot-counters.ts';
+import { RobotAccess } from '../admit/access/robot-access.ts';
+import { RobotAudit } from '../admit/audit/robot-audit.ts';
+import { ReasonCounts } from '../ground/robot-counters.ts';
+import { toRobotOptions } from '../program/options/robot-options.ts';
+import { robotProgram } from '../program/options/robot-program.ts';
+import type { RobotOptions } from '../program/robot-configuration.ts';
 
-export type { Access } from '../access/access.ts';
-export { RealTimeBase } from '../base/real-time-base.ts';
-export { Wheels } from '../base/wheels.ts';
-export { monotonicMs } from '../clock.ts';
-export type { VelocitySink } from '../drive/velocity-sink.ts';
+export type { Access } from '../admit/access/access.ts';
 export { DriveCore, type DriveCoreParts } from '../drive-core.ts';
-export { openObstacleGuard } from '../obstacles/obstacle-station.ts';
-export type { RobotOptions } from '../robot-configuration.ts';
-export { OperatorMessages, type SessionHost } from '../session/operator-messages.ts';
-export type { KeptOperator } from '../session/path-keeper.ts';
-export { RestartPolicy } from '../session/restart-policy.ts';
-export { ResumeKey } from '../session/resume-key.ts';
-export type { HostedOperator } from '../session/robot-session-host.ts';
-export { RobotCounters } from '../telemetry/robot-counters.ts';
-export type { SessionRecording } from '../telemetry/session-recording.ts';
-export type { PeerEnd } from '../transport/peer-events.ts';
-export { isUnintended } from '../transport/peer-events.ts';
+export { monotonicMs } from '../ground/clock.ts';
+export { RobotCounters } from '../ground/robot-counters.ts';
+export type { VelocitySink } from '../ground/velocity-sink.ts';
+export { openObstacleGuard } from '../motion/obstacles/obstacle-station.ts';
+export type { RobotOptions } from '../program/robot-configuration.ts';
+export type { PeerEnd } from '../send/transport/peer-events.ts';
+export { isUnintended } from '../send/transport/peer-events.ts';
+export { RealTimeBase } from '../sense/base/real-time-base.ts';
+export { Wheels } from '../sense/base/wheels.ts';
+export { OperatorMessages, type SessionHost } from '../serve/session/operator-messages.ts';
+export type { KeptOperator } from '../serve/session/path-keeper.ts';
+export { RestartPolicy } from '../serve/session/restart-policy.ts';
+export { ResumeKey } from '../serve/session/resume-key.ts';
+export type { HostedOperator } from '../serve/session/robot-session-host.ts';
+export type { SessionRecording } from '../tell/session-recording.ts';
 
 /** What the robot's program makes of its command line, without any file or variable: the limits that ship. */
 export function shippedOptions(args: readonly string[]): RobotOptions {

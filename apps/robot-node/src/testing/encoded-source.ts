@@ -1,10 +1,10 @@
 /** The packets of a source's clouds as the robot makes them, without its threads and without a link. */
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
-import { openSource, type SourceOptions } from '../capture/open-source.ts';
-import type { CodedStream } from '../encode/coded-frame-encoder.ts';
-import { FrameFormats } from '../encode/frame-formats.ts';
-import { SLOT_BYTES, slotPayload } from '../encode/packetiser.ts';
-import { CODED_FORMATS, FramePlanner } from '../encode/plan.ts';
+import type { CodedStream } from '../sense/encode/coded-frame-encoder.ts';
+import { FrameFormats } from '../sense/encode/frame-formats.ts';
+import { SLOT_BYTES, slotPayload } from '../sense/encode/packetiser.ts';
+import { CODED_FORMATS, FramePlanner } from '../sense/encode/plan.ts';
+import { openSource, type SourceOptions } from '../sense/sources/open-source.ts';
 
 /** As `--lambda`, `--epsilon` and `--priority-distance`, where nothing is nearer than anything else. */
 const SAMPLING = { lambda: 0, epsilon: 1e-6, nearDistance: 3.85, sensor: 0 };

@@ -3,9 +3,9 @@
  * life, and fails on command. What it would have published goes to the broadcast channel `drive-worker`.
  */
 import { BroadcastChannel, parentPort, workerData } from 'node:worker_threads';
-import { monotonicMs } from '../clock.ts';
-import type { RosDriveReport, RosDriveRequest, RosDriveSetup } from '../drive/ros-drive-messages.ts';
-import { SinkBeat } from '../drive/sink-beat.ts';
+import { monotonicMs } from '../ground/clock.ts';
+import type { RosDriveReport, RosDriveRequest, RosDriveSetup } from '../motion/drive/ros-drive-messages.ts';
+import { SinkBeat } from '../motion/drive/sink-beat.ts';
 
 const port = parentPort;
 if (port === null) throw new Error('ending-drive-worker.ts runs as a worker only');

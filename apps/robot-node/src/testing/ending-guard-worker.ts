@@ -9,4 +9,4 @@ wire.onmessage = (event) => {
 };
 parentPort?.on('message', ({ type }: { type: string }) => type === 'close' && wire.close());
 
-await import('../obstacles/guard-topics-worker.ts');
+await import('../motion/obstacles/guard-topics-worker.ts');

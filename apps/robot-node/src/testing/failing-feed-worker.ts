@@ -1,6 +1,6 @@
 /** The thread that feeds cameras, which fails whenever a key frame is asked for. */
 import { parentPort } from 'node:worker_threads';
-import '../video/feed/feed-worker.ts';
+import '../sense/video/feed/feed-worker.ts';
 
 parentPort?.on('message', ({ type }: { type: string }) => {
   if (type === 'key-frame') throw new Error('made to fail');

@@ -12,10 +12,10 @@ import {
 } from '@farpoint/safety';
 import type { SimulatedBase } from '@farpoint/sim';
 import type { Codec } from '@farpoint/wasm-codec';
-import type { SourceDescription } from '../capture/frame-source.ts';
-import { CloudGuard } from '../obstacles/cloud-guard.ts';
-import { GRID_SHAPE } from '../obstacles/guarded-sensors.ts';
-import { makeSharedGrid, SharedGridReader } from '../obstacles/shared-grid.ts';
+import { GRID_SHAPE } from '../motion/obstacles/guarded-sensors.ts';
+import { CloudGuard } from '../sense/obstacles/cloud-guard.ts';
+import { makeSharedGrid, SharedGridReader } from '../sense/obstacles/shared-grid.ts';
+import type { SourceDescription } from '../sense/sources/frame-source.ts';
 import { SeenThings } from './seen-things.ts';
 
 /** A depth camera on the robot. */

@@ -13,7 +13,7 @@ import {
   warehouseWorld,
 } from '@farpoint/sim';
 import type { Codec } from '@farpoint/wasm-codec';
-import { opticalMount } from '../obstacles/sensor-mount.ts';
+import { opticalMount } from '../sense/sources/sensor-mount.ts';
 import { type DrawnMount, drawMounts, radiusAround, towardsView } from './drawn-mounts.ts';
 import { type GuardedRun, type GuardTimes, guardedDrive, type StageCamera, seeded } from './guarded-drive.ts';
 

@@ -34,7 +34,7 @@ import {
   useTransportWideCC,
   useTWCC,
 } from 'werift';
-import { videoCodecParameters } from '../transport/media-codecs.ts';
+import { videoCodecParameters } from '../send/transport/media-codecs.ts';
 import { type DriveExtras, DrivingHand, namedRelease } from './driving-hand.ts';
 import { SoundReception } from './sound-reception.ts';
 import { type ReceivedVideo, VideoReception } from './video-reception.ts';

@@ -1,7 +1,7 @@
 /** Draws points as a depth camera somewhere would see them. */
 import { compose, inverse, type Pose, rotationMatrix } from '@farpoint/protocol';
 import type { SimulatedBase } from '@farpoint/sim';
-import type { SourceDescription } from '../capture/frame-source.ts';
+import type { SourceDescription } from '../sense/sources/frame-source.ts';
 import type { StageCamera } from './guarded-drive.ts';
 
 export interface PointCameraOptions {

@@ -6,7 +6,7 @@
 import { type Pose, rotate } from '@farpoint/protocol';
 import { DEFAULT_LIMITS, SimulatedBase, type WorldDescription } from '@farpoint/sim';
 import type { Codec } from '@farpoint/wasm-codec';
-import { opticalMount } from '../obstacles/sensor-mount.ts';
+import { opticalMount } from '../sense/sources/sensor-mount.ts';
 import { findFloor } from './floor-plane.ts';
 import { type GuardedRun, type GuardTimes, guardedDrive, type StageCamera, seeded } from './guarded-drive.ts';
 import { PointCamera } from './point-camera.ts';

@@ -3,8 +3,8 @@
 import type { Pose } from '@farpoint/protocol';
 import { type RosGraph, topicTableSchema } from '@farpoint/ros';
 import { MemoryGraph } from '@farpoint/ros/testing';
-import { RosSource } from '../capture/ros-source.ts';
-import { bodyMount, opticalMount, type SensorMount } from '../obstacles/sensor-mount.ts';
+import { RosSource } from '../sense/sources/ros-source.ts';
+import { bodyMount, opticalMount, type SensorMount } from '../sense/sources/sensor-mount.ts';
 import { BEGAN_MS, EARTH, type WallTruth } from './wall-drive.ts';
 
 export const CLOUD = 'sensor_msgs/msg/PointCloud2';

@@ -2,7 +2,7 @@ import { DdsGraph } from '@farpoint/dds';
 import type { Publisher, Subscription } from '@farpoint/ros';
 import { LATCHED_QOS } from '@farpoint/ros';
 import { messageBytes } from '@farpoint/ros/testing';
-import { monotonicMs } from '../clock.ts';
+import { monotonicMs } from '../ground/clock.ts';
 
 const STEP_MS = 10;
 const ODOMETRY_STEPS = 2;

@@ -1,6 +1,6 @@
 /** A camera 1 m above the floor that looks along x: which of its depths are things or holes where a robot touches. */
 import { expect, it } from 'vitest';
-import { opticalMount } from '../obstacles/sensor-mount.ts';
+import { opticalMount } from '../sense/sources/sensor-mount.ts';
 import { SeenThings } from './seen-things.ts';
 
 const CAMERA = { fx: 10, fy: 10, cx: 0, cy: 0 };

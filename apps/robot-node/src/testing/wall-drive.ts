@@ -5,14 +5,14 @@
 import { compose, type Pose, rotationMatrix, type Twist, zeroTwist } from '@farpoint/protocol';
 import { defaultGeofenceOptions, EarthFrame, Footprint, FREE } from '@farpoint/safety';
 import type { Codec } from '@farpoint/wasm-codec';
-import { BaseOdometry } from '../base/base-odometry.ts';
-import type { CaptureRoom, FrameSource } from '../capture/frame-source.ts';
-import { openGeofence } from '../geofence/open-geofence.ts';
-import { CloudGuard } from '../obstacles/cloud-guard.ts';
-import { GRID_SHAPE } from '../obstacles/guarded-sensors.ts';
-import { ObstacleStation } from '../obstacles/obstacle-station.ts';
-import { bodyMount, opticalMount, type SensorMount } from '../obstacles/sensor-mount.ts';
-import { makeSharedGrid, SharedGridReader } from '../obstacles/shared-grid.ts';
+import { openGeofence } from '../motion/geofence/open-geofence.ts';
+import { GRID_SHAPE } from '../motion/obstacles/guarded-sensors.ts';
+import { ObstacleStation } from '../motion/obstacles/obstacle-station.ts';
+import { BaseOdometry } from '../sense/base/base-odometry.ts';
+import { CloudGuard } from '../sense/obstacles/cloud-guard.ts';
+import { makeSharedGrid, SharedGridReader } from '../sense/obstacles/shared-grid.ts';
+import type { CaptureRoom, FrameSource } from '../sense/sources/frame-source.ts';
+import { bodyMount, opticalMount, type SensorMount } from '../sense/sources/sensor-mount.ts';
 
 /** What is true at an instant. */
 export interface WallTruth {

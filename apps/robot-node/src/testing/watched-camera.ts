@@ -1,9 +1,9 @@
 /** A camera that a thread feeds, and what comes from it. */
 import { availableEncoders, VIDEO_ENCODERS } from '@farpoint/video';
-import type { FeedSource } from '../video/feed/feed-source.ts';
-import type { FeedThread } from '../video/feed/feed-thread.ts';
-import type { VideoEncoder, VideoFaultReason } from '../video/video-encoder.ts';
-import type { EncodedPicture } from '../video/video-frame.ts';
+import type { FeedSource } from '../sense/video/feed/feed-source.ts';
+import type { FeedThread } from '../sense/video/feed/feed-thread.ts';
+import type { VideoEncoder, VideoFaultReason } from '../sense/video/video-encoder.ts';
+import type { EncodedPicture } from '../sense/video/video-frame.ts';
 
 export const hasVideo = await availableEncoders().then(
   () => true,

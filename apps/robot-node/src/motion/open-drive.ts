@@ -1,0 +1,173 @@
+import { randomBytes } from 'node:crypto';
+import type { AfterGap, DriveLimits, Intervention } from '@farpoint/protocol';
+import {
+  BlindTravel,
+  DriveGuard,
+  type EstopReleasePolicy,
+  MotionSupervisor,
+  type TakePolicy,
+  ViewAge,
+} from '@farpoint/safety';
+import type { Logger } from '@farpoint/service';
+import type { RobotAudit } from '../admit/audit/robot-audit.ts';
+import { monotonicMs } from '../ground/clock.ts';
+import type { VelocitySink } from '../ground/velocity-sink.ts';
+import { BaseOdometry } from '../sense/base/base-odometry.ts';
+import type { SessionRecording } from '../tell/session-recording.ts';
+import { DriveStation } from './drive/drive-station.ts';
+import { EstopJournal } from './drive/estop-journal.ts';
+import { InterventionReport } from './drive/intervention-report.ts';
+import type { MotionLimits } from './drive/motion-limits.ts';
+import { MotionStatus } from './drive/motion-status.ts';
+import type { FixPosition } from './geofence/fix-position.ts';
+import { type FenceOptions, openGeofence } from './geofence/open-geofence.ts';
+import type { ObstacleStation } from './obstacles/obstacle-station.ts';
+import { type HeardOperator, newestHeardMs } from './return/newest-heard.ts';
+import type { ReturnConfiguration } from './return/return-configuration.ts';
+import { ReturnStation } from './return/return-station.ts';
+import { isConfigured, type RobotStopsOptions } from './stops/open-stops.ts';
+
+export interface DriveOptions {
+  id: string;
+  limits: DriveLimits;
+  motion: MotionLimits;
+  takePolicy: TakePolicy;
+  estopRelease: EstopReleasePolicy;
+  afterGap: AfterGap;
+  /** After a shorter gap the robot moves on if the hand has held on, ms. */
+  resumeWithinMs: number;
+  /** Where the robot may move; `null` for everywhere. */
+  fence?: FenceOptions | null | undefined;
+  /** How it drives back by itself; if undefined, never. */
+  returns?: ReturnConfiguration | undefined;
+  /** The stops at the robot itself. */
+  stops: RobotStopsOptions;
+  /** Where the robot remembers its emergency stop across restarts. */
+  stateFolder: string;
+}
+
+/** What a recording takes of driving. */
+export type DriveRecording = Pick<SessionRecording, 'velocity' | 'command' | 'latencyMeasured'>;
+
+export interface DriveParts {
+  sink: VelocitySink;
+  recording: DriveRecording | null;
+  audit: RobotAudit;
+  /** Simulated wheels; `null` for real ones. */
+  base: object | null;
+  obstacles: ObstacleStation;
+  /** All operators. */
+  heard: () => Iterable<HeardOperator | null | undefined>;
+  /** Counts the beginning of each intervention. */
+  count: (reason: Intervention) => void;
+  log: Logger;
+}
+
+/** Between the operators' commands and the wheels. */
+export interface Drive {
+  station: DriveStation;
+  /** Where the robot is: it takes what the base reports. */
+  odometry: BaseOdometry;
+  estop: EstopJournal;
+  status: MotionStatus;
+  /** Takes the robot's readings, where the fence needs a satellite receiver's; `null` if it does not. */
+  fix: FixPosition | null;
+  /** What drives the robot back by itself; `null`: nothing. */
+  returns: ReturnStation | null;
+  /** Call this every 25 ms. */
+  tick: () => void;
+}
+
+/**
+ * Opens what moves the robot, latched if the emergency stop outlives the last run, and the journal that preserves it for
+ * the next run.
+ */
+export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
+  const { limits, motion, takePolicy, estopRelease, afterGap, resumeWithinMs } = options;
+  const { base, sink, recording, audit, obstacles, heard, count, log } = parts;
+  const odometry = new BaseOdometry(limits, base !== null);
+  const fence =
+    options.fence == null ? null : openGeofence(options.fence, () => odometry.believed, base !== null);
+  const letGo = afterGap === 'let-go';
+  const guard = new DriveGuard({
+    ...{ limits, takePolicy, estopRelease, randomBytes: (bytes) => randomBytes(bytes) },
+    // A shorter gap does not stop the robot.
+    letGoAfterMs: Math.max(limits.watchdogMs, resumeWithinMs),
+  });
+  const { view, ramps } = motion;
+  const blindTravel = view === null ? null : new BlindTravel(guard.view, view);
+  const returns =
+    options.returns === undefined
+      ? null
+      : new ReturnStation(options.returns, {
+          ...{ limits, lookout: obstacles, audit, log },
+        });
+  const supervisor = new MotionSupervisor(guard, {
+    ramps,
+    guards: [...obstacles.guards, ...(fence === null ? [] : [fence.geofence])],
+    driverGuards: [
+      ...(view === null ? [] : [new ViewAge(guard.view, view)]),
+      ...(blindTravel === null ? [] : [blindTravel]),
+    ],
+    unattended: returns?.drive ?? null,
+    ...(letGo
+      ? { letGoAfter: { 'view-lost': { why: 'what you saw was too old', lastsMs: resumeWithinMs } } }
+      : {}),
+  });
+  const report = new InterventionReport(log, count);
+  supervisor.onIntervention = (reason, nowMs) => report.begins(reason, nowMs);
+  const station = new DriveStation(
+    supervisor,
+    (twist) => {
+      sink.apply(twist, guard.estopState().latched);
+      odometry.told(twist, monotonicMs());
+      recording?.velocity(twist);
+    },
+    monotonicMs,
+    () => sink.fault ?? null,
+  );
+  if (obstacles.topics !== null) obstacles.topics.onChange = () => station.apply();
+  return {
+    station,
+    odometry,
+    estop: openJournal(guard, options, audit, log),
+    status: new MotionStatus(
+      supervisor,
+      blindTravel,
+      () => obstacles.state(monotonicMs()),
+      () => returns?.told,
+    ),
+    fix: fence?.fix ?? null,
+    returns,
+    tick: () => {
+      obstacles.update(odometry, guard.leaseHolder !== null || returns?.drive.isActive === true);
+      if (returns?.update(odometry, newestHeardMs(heard())) === true) station.apply();
+    },
+  };
+}
+
+function openJournal(
+  guard: DriveGuard,
+  { id, stateFolder, stops }: DriveOptions,
+  audit: RobotAudit,
+  log: Logger,
+): EstopJournal {
+  const estop = new EstopJournal(stateFolder, id, (error) =>
+    log.error({ err: error }, 'the emergency stop cannot be stored: the robot will start latched'),
+  );
+  const { latched, heldBy } = estop.start;
+  const gone = heldBy.filter((stop) => !isConfigured(stops, stop));
+  if (gone.length > 0) {
+    guard.latchEstop('robot');
+    log.warn({ stops: gone }, 'starts latched: a stop that held the robot is configured no longer');
+  }
+  if (latched !== null) {
+    guard.latchEstop(latched.by);
+    audit.startsLatched(latched.reason);
+    log.warn(
+      { reason: latched.reason, detail: latched.detail },
+      'starts with the emergency stop latched: whoever drives must release it, or somebody at the robot by `farpoint-robot release`',
+    );
+  }
+  return estop;
+}

@@ -1,0 +1,101 @@
+/** The robot's way back without operators: feeds it, and tells everybody what it does. */
+import type { DriveLimits, ReturnEnd, ReturnState } from '@farpoint/protocol';
+import { type Lookout, ReturnDrive, type ReturnPhase } from '@farpoint/safety';
+import type { Logger } from '@farpoint/service';
+import type { RobotAudit } from '../../admit/audit/robot-audit.ts';
+import { ReasonCounts } from '../../ground/robot-counters.ts';
+import type { BaseOdometry } from '../../sense/base/base-odometry.ts';
+import { ReturnAnnouncer } from './return-announcer.ts';
+import type { ReturnConfiguration } from './return-configuration.ts';
+
+/** Odometry may say that the robot is by so much faster than it is allowed to be. */
+const FASTER = 1.5;
+
+export interface ReturnStationParts {
+  /** Of the robot. */
+  limits: Pick<DriveLimits, 'maxLinear' | 'maxAngular'>;
+  lookout: Lookout;
+  audit: Pick<RobotAudit, 'returned'>;
+  log: Pick<Logger, 'info' | 'warn'>;
+}
+
+export class ReturnStation {
+  /** Moves the robot, under the motion supervisor. */
+  readonly drive: ReturnDrive;
+  /** How often the robot has begun to drive back. */
+  begun = 0;
+  /** How often that ended, by reason; a return that never began counts too. */
+  readonly ends = new ReasonCounts();
+  readonly #configuration: ReturnConfiguration;
+  readonly #parts: ReturnStationParts;
+  /** `null` if it is said on no topic. */
+  readonly #announcer: ReturnAnnouncer | null;
+  #metres = 0;
+
+  constructor(configuration: ReturnConfiguration, parts: ReturnStationParts) {
+    const { maxLinear, maxAngular } = parts.limits;
+    this.#configuration = configuration;
+    this.#parts = parts;
+    const most = { mostMps: maxLinear * FASTER, mostRadps: maxAngular * FASTER };
+    this.drive = new ReturnDrive(configuration.options, most, parts.lookout);
+    const { topic } = configuration;
+    this.#announcer = topic === null ? null : new ReturnAnnouncer(topic, parts.log);
+    this.drive.onPhase = (phase, end) => this.#tell(phase, end);
+  }
+
+  /** What operators are told; undefined if there is nothing to say. */
+  get told(): ReturnState | undefined {
+    return this.drive.told;
+  }
+
+  /** How far the robot has come back by itself, in all, m. */
+  get metres(): number {
+    return this.#metres + (this.drive.isActive ? this.drive.metres : 0);
+  }
+
+  /**
+   * Call this every 25 ms.
+   *
+   * @param odometry where the robot is
+   * @param heardMs when any operator was last heard, robot's clock
+   * @returns whether the robot must stand at once
+   */
+  update({ newest }: Pick<BaseOdometry, 'newest'>, heardMs: number): boolean {
+    const wasActive = this.drive.isActive;
+    this.drive.heard(heardMs);
+    if (newest !== null) this.drive.moved(newest.pose, newest.measuredMs);
+    return wasActive && !this.drive.isActive;
+  }
+
+  async close(): Promise<void> {
+    await this.#announcer?.close();
+  }
+
+  #tell(phase: ReturnPhase, end: ReturnEnd | null): void {
+    const { log, audit } = this.#parts;
+    const { afterMs, announceMs } = this.#configuration.options;
+    const metres = Math.round(this.drive.metres * 100) / 100;
+    switch (phase) {
+      case 'announcing':
+        log.warn(
+          { silentS: afterMs / 1000, inS: announceMs / 1000 },
+          'no operator is heard: the robot will drive back along its track',
+        );
+        break;
+      case 'returning':
+        this.begun++;
+        log.warn({ mostM: Math.round(this.drive.trackM * 100) / 100 }, 'drives back along its track');
+        audit.returned(null, 0);
+        break;
+      case 'ended':
+        this.#metres += this.drive.metres;
+        this.ends.add(end ?? '');
+        log.warn({ end, metres }, 'does not drive back any more');
+        audit.returned(end, metres);
+        break;
+      default:
+        break;
+    }
+    this.#announcer?.say(this.drive.isActive);
+  }
+}

@@ -1,0 +1,104 @@
+/** How the robot's motion is bounded. */
+import { Footprint } from '@farpoint/safety';
+import { defineOption, optionGroup, schema } from '@farpoint/service';
+import type { MotionLimits } from '../../motion/drive/motion-limits.ts';
+import { footprintOf } from './guard.ts';
+
+export const motionOptions = optionGroup('motion', {
+  view: defineOption({
+    schema: schema.choice(['required', 'optional']),
+    default: 'required',
+    argument: 'CHOICE',
+    help: 'required: the robot moves only while its driver sees a fresh picture or cloud of it; optional: what the driver sees is not considered, for drivers who stand beside the robot',
+  }),
+  viewSlowMs: defineOption({
+    schema: schema.number({ min: 50, max: 5000 }),
+    default: 250,
+    argument: 'MS',
+    help: 'the robot is slower when what the driver sees is older than this, from the robot’s capture to its receipt of the command',
+  }),
+  viewBrakeMs: defineOption({
+    schema: schema.number({ min: 100, max: 10_000 }),
+    default: 400,
+    argument: 'MS',
+    help: 'the robot brakes when it is older than this',
+  }),
+  viewStallMs: defineOption({
+    schema: schema.number({ min: 20, max: 5000 }),
+    default: 150,
+    argument: 'MS',
+    help: 'a picture that is overdue by this much counts as old as --view-slow-ms, however fresh the last one was',
+  }),
+  blindTravelM: defineOption({
+    schema: schema.number({ min: 0.05, max: 10 }),
+    default: 0.5,
+    argument: 'METRES',
+    help: 'the furthest that the robot goes between what the driver sees and standing still: bounds its speed',
+  }),
+  accelerationMps2: defineOption({
+    schema: schema.number({ min: 0.1, max: 20 }),
+    default: 1,
+    argument: 'M/S2',
+    help: 'acceleration',
+  }),
+  decelerationMps2: defineOption({
+    schema: schema.number({ min: 0.1, max: 20 }),
+    default: 2,
+    argument: 'M/S2',
+    help: 'deceleration that the base reaches on its floor: all stopping distances are computed with it',
+  }),
+  emergencyMps2: defineOption({
+    schema: schema.number({ min: 0.1, max: 100 }),
+    default: 4,
+    argument: 'M/S2',
+    help: 'deceleration at an emergency stop, on silence, and for what is in the way; at least the other one',
+  }),
+  turnRadps2: defineOption({
+    schema: schema.number({ min: 0.1, max: 100 }),
+    default: 3,
+    argument: 'RAD/S2',
+    help: 'angular acceleration; twice that where the robot must stop',
+  }),
+});
+
+export interface MotionValues {
+  view: 'required' | 'optional';
+  viewSlowMs: number;
+  viewBrakeMs: number;
+  viewStallMs: number;
+  blindTravelM: number;
+  accelerationMps2: number;
+  decelerationMps2: number;
+  emergencyMps2: number;
+  turnRadps2: number;
+  footprint: string;
+}
+
+/** @param refuse what contradicts something else */
+export function toMotion(
+  values: MotionValues,
+  refuse: (key: keyof MotionValues, detail: string) => void,
+): MotionLimits {
+  const { viewSlowMs, viewBrakeMs, decelerationMps2, emergencyMps2, turnRadps2 } = values;
+  if (viewBrakeMs <= viewSlowMs)
+    refuse('viewBrakeMs', `must be above the age at which the robot is slower, ${viewSlowMs} ms`);
+  if (emergencyMps2 < decelerationMps2)
+    refuse('emergencyMps2', `must be at least the ordinary deceleration, ${decelerationMps2} m/s²`);
+  return {
+    ramps: {
+      ...{ accelerationMps2: values.accelerationMps2, decelerationMps2, emergencyMps2 },
+      ...{ turnRadps2, emergencyTurnRadps2: 2 * turnRadps2 },
+    },
+    view:
+      values.view === 'optional'
+        ? null
+        : {
+            ...{ slowMs: viewSlowMs, brakeMs: viewBrakeMs, stallMs: values.viewStallMs },
+            ...{
+              mostM: values.blindTravelM,
+              decelerationMps2,
+              radiusM: new Footprint(footprintOf(values.footprint)).reach,
+            },
+          },
+  };
+}

@@ -1,0 +1,221 @@
+/** Turns option values that are valid one by one into the parts of the robot. */
+import { randomBytes } from 'node:crypto';
+import { join } from 'node:path';
+import { MOST_RESUME_MS } from '@farpoint/protocol';
+import { RosFault, type TopicEntry, topicAs } from '@farpoint/ros';
+import { type OptionMistake, OptionsError, ownNames, Secret } from '@farpoint/service';
+import { BitRate } from '@farpoint/timing';
+import { describeTopics, readFrom, sourcedFolders } from '../../ground/ros/message-folders.ts';
+import type { SinkOptions } from '../../motion/drive/open-sink.ts';
+import { SIM_FIX, SIM_MOTORS } from '../../sense/base/sim-topics.ts';
+import { describeQuantities } from '../../tell/sample-board.ts';
+import type { RobotOptions, VideoCameraOptions } from '../robot-configuration.ts';
+import { toAlarmRules } from './alarms.ts';
+import { toAudit } from './audit-configuration.ts';
+import { toBroadcast } from './broadcast.ts';
+import { checkAccess } from './check-access.ts';
+import { checkVideos } from './check-videos.ts';
+import { toObstacleGuard } from './guard.ts';
+import { toGuardTopics } from './guard-topics.ts';
+import { toMotion } from './motion.ts';
+import { readCertificates } from './read-text.ts';
+import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
+import { rosKindOf } from './ros-kind.ts';
+import { toStateFolder } from './state.ts';
+import { toFence } from './to-fence.ts';
+import { toGraph } from './to-graph.ts';
+import { toModel } from './to-model.ts';
+import { toReturn } from './to-return.ts';
+import { toSensors } from './to-sensors.ts';
+import { toStops } from './to-stops.ts';
+
+/** How messages say where an option's value comes from. */
+export type Where = (key: RobotOptionKey) => string;
+
+/** @throws {OptionsError} with all faults that only show when options are combined, or in files */
+export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOptions {
+  const mistakes: OptionMistake[] = [];
+  const refuse = (key: RobotOptionKey, detail: string) => mistakes.push({ where: where(key), detail });
+  checkSource(values, refuse);
+  const topics = describedTopics(values, (detail) => refuse('topics', detail));
+  const ca = readCertificates(values.tlsCa, (detail) => refuse('tlsCa', detail));
+  checkAccess(values, refuse);
+  const ofSim = values.source !== 'sim' ? [] : [SIM_MOTORS, ...(values.simOrigin === null ? [] : [SIM_FIX])];
+  const quantities = describeQuantities([...topics, ...ofSim]);
+  const alarms = toAlarmRules(values.alarms, quantities, (detail) => refuse('alarms', detail));
+  const obstacleGuard = toObstacleGuard(
+    values,
+    toGuardTopics(values, topics, (kind) => toGraph(values, kind), refuse),
+    refuse,
+  );
+  const broadcast = toBroadcast(values, ca, refuse);
+  const motion = toMotion(values, refuse);
+  const fence = toFence(values, refuse);
+  const model = toModel(values, refuse);
+  const returns = toReturn(values, refuse, (kind) => toGraph(values, kind));
+  const folder = toStateFolder(values, process.env, refuse);
+  if (mistakes.length > 0) throw new OptionsError(mistakes);
+  const recorded = (kind: 'captured' | 'sent') => [kind, 'both'].includes(values.recordClouds);
+  return {
+    id: values.id,
+    name: values.name,
+    signaling: {
+      url: values.signaling,
+      key: values.key ?? new Secret(randomBytes(16).toString('hex')),
+      token: values.token,
+      ca,
+    },
+    grantKeys: values.grantKeys ?? undefined,
+    robotKey: values.robotKey ?? join(folder, `${values.id}.key.json`),
+    revocations: values.revocations,
+    audit: toAudit(values),
+    sensors: toSensors(values, topics),
+    base:
+      values.source === 'sim'
+        ? {
+            ...{ watchdogMs: values.watchdogMs, charge: values.simCharge / 100 },
+            ...{ origin: values.simOrigin, things: values.simThings ?? [] },
+            navigation: { map: values.simMap, planTo: values.simPlanTo },
+          }
+        : null,
+    sink: toSink(values),
+    limits: {
+      maxLinear: values.maxLinear,
+      maxAngular: values.maxAngular,
+      watchdogMs: values.watchdogMs,
+      maxCommandsPerSecond: values.maxCommandsPerSecond,
+    },
+    ...{ motion, obstacleGuard },
+    quantities,
+    alarms,
+    takePolicy: values.takePolicy,
+    estopRelease: values.estopRelease,
+    afterGap: values.afterGap,
+    resumeWithinMs: values.afterGap === 'resume' ? MOST_RESUME_MS : values.resumeWithinMs,
+    ...{ fence, returns, model },
+    stops: toStops(values, (kind) => toGraph(values, kind)),
+    stateFolder: folder,
+    referenceSignaling: values.referenceSignaling ?? undefined,
+    bitsPerSecond: BitRate.fromMbps(values.bitrateMbps),
+    mode: values.mode,
+    rateControl: values.rateControl,
+    startBitsPerSecond: BitRate.fromMbps(values.startMbps),
+    pictures: {
+      perSecond: values.picturesPerSecond,
+      longestSide: values.picturesLongestSide,
+      quality: values.picturesQuality,
+      share: values.picturesShare,
+    },
+    videos: toVideos(values),
+    playedVideosBitsPerSecond: values.playVideosKbitPerS * 1000,
+    sound: values.sound,
+    broadcast,
+    places: {
+      most: values.maxOperators,
+      perSubject: values.maxPerSubject,
+      keepMs: values.keepPlaceS * 1000,
+    },
+    silenceMs: values.silenceS * 1000,
+    leaseSilenceMs: values.leaseSilenceS * 1000,
+    connectTimeoutMs: 20_000,
+    iceServers: values.iceServers,
+    icePolicy: values.icePolicy,
+    portRange: values.udpPorts ?? undefined,
+    packetLog: values.packetLog ?? undefined,
+    frameLog: values.frameLog ?? undefined,
+    commandLog: values.commandLog ?? undefined,
+    statisticsFile: values.stats ?? undefined,
+    foxglove:
+      values.foxglovePort === null
+        ? undefined
+        : {
+            port: values.foxglovePort,
+            reach: values.foxgloveReach,
+            allowedOrigins: values.foxgloveOrigins,
+            ownNames: [...ownNames(values.adminNames)],
+            cloudsPerSecond: values.foxgloveFps,
+          },
+    record:
+      values.record === null
+        ? undefined
+        : {
+            path: values.record,
+            compression: values.recordCompression,
+            clouds: {
+              captured: recorded('captured') ? values.recordCapturedFps : 0,
+              sent: recorded('sent') ? values.recordSentFps : 0,
+            },
+            videos: values.recordVideos,
+            mostBytes: values.recordMax,
+          },
+  };
+}
+
+function checkSource(values: RobotOptionValues, refuse: (key: RobotOptionKey, detail: string) => void): void {
+  const { source, path } = values;
+  const played = source === 'recording' || source === 'pcd' || source === 'rgbd';
+  if (played && path === null) refuse('path', `is needed for the source ${source}`);
+  const { topics, sink } = values;
+  const ros = source === 'ros1' || source === 'ros2';
+  if (ros && topicAs(topics, 'cloud') === undefined && topicAs(topics, 'depth') === undefined) {
+    refuse('topics', `needs an entry with \`as: cloud\` or \`as: depth\` for the source ${source}`);
+  }
+  if (!ros && source !== 'recording' && topicAs(topics, 'picture') !== undefined) {
+    refuse('topics', 'can have `as: picture` only with the source ros1, ros2 or recording');
+  }
+  if ((sink === 'ros1' || sink === 'ros2') && topicAs(topics, 'velocity') === undefined) {
+    refuse('topics', `needs an entry with \`as: velocity\` for the sink ${sink}`);
+  }
+  checkVideos(values, refuse);
+  if (values.stopTopic !== null && rosKindOf(values) === null)
+    refuse('stopTopic', 'needs a ROS graph: neither source nor sink is ROS');
+  if (source === 'sim' && values.simSize % 4 !== 0) refuse('simSize', 'must be a multiple of 4');
+}
+
+function toVideos(values: RobotOptionValues): VideoCameraOptions[] {
+  return values.videos.map((camera, index) => {
+    const { source, ...rest } = camera;
+    if (source.kind === 'sim') {
+      const { kind, framesPerS, ...placed } = source;
+      // A seed of its own, so that no two cameras have the same noise.
+      const seed = (values.simSeed + 1000 + index) % 2 ** 32;
+      return { ...rest, source: { kind, framesPerS, seed, camera: placed } };
+    }
+    if (source.kind !== 'ros') return { ...rest, source };
+    const { kind, version, entry } = source;
+    const graph = toGraph(values, version === undefined ? (rosKindOf(values) ?? 'ros2') : `ros${version}`);
+    return { ...rest, source: { kind, graph, entry } };
+  });
+}
+
+/** ROS 1's publishers describe their messages; ROS 2's do not. */
+function describedTopics(
+  { source, topics, rosMessages }: RobotOptionValues,
+  refuse: (detail: string) => void,
+): TopicEntry[] {
+  if (source !== 'ros2') return topics;
+  try {
+    return describeTopics(topics, readFrom([...rosMessages, ...sourcedFolders(process.env)]));
+  } catch (error) {
+    if (!(error instanceof RosFault)) throw error;
+    refuse(`${error.message} (searched: the folders of ros.messages, and ROS where it is sourced)`);
+    return topics;
+  }
+}
+
+function toSink(values: RobotOptionValues): SinkOptions {
+  if (values.sink === 'source') return { kind: 'base' };
+  if (values.sink === 'ros1' || values.sink === 'ros2') {
+    const entry = topicAs(values.topics, 'velocity');
+    if (entry === undefined) throw new Error('checked before: there is a topic for velocities');
+    return { kind: 'ros', graph: toGraph(values, values.sink), entry, silenceMs: values.watchdogMs };
+  }
+  return {
+    kind: 'shm',
+    folder: values.shmFolder,
+    owner: values.shmOwner ?? undefined,
+    mode: values.shmAccess === 'group' ? 0o660 : 0o600,
+    silenceMs: values.watchdogMs,
+    readerRequired: values.shmReader === 'required',
+  };
+}

@@ -1,0 +1,70 @@
+/** What operators receive. */
+import { MAX_POINTS_PER_FRAME, POINTS_PER_PACKET } from '@farpoint/protocol';
+import { defineOption, optionGroup, schema } from '@farpoint/service';
+import { PLAN_POLICIES } from '../../sense/encode/plan.ts';
+import { STREAM_MODES } from '../../sense/encode/stream-mode.ts';
+
+export const streamOptions = optionGroup('stream', {
+  mode: defineOption({
+    schema: schema.choice(STREAM_MODES),
+    default: 'auto',
+    argument: 'MODE',
+    help: 'auto: the best format that the operator supports, with the whole cloud if the rate allows; points64: the reference format, a sample of the cloud',
+  }),
+  bitrateMbps: defineOption({
+    schema: schema.number({ min: 0.1, max: 1000 }),
+    default: 60,
+    argument: 'MBPS',
+    help: 'maximum rate of the stream to an operator on the wire, including headers, 10^6 bit/s',
+  }),
+  rateControl: defineOption({
+    schema: schema.choice(['adaptive', 'fixed']),
+    default: 'adaptive',
+    argument: 'KIND',
+    help: 'adaptive: the estimated rate of the link; fixed: always the maximum, halved on sustained loss',
+  }),
+  startMbps: defineOption({
+    schema: schema.number({ min: 0.1, max: 1000 }),
+    default: 3,
+    argument: 'MBPS',
+    help: 'initial rate, before anything is known about the link, 10^6 bit/s',
+  }),
+  plan: defineOption({
+    schema: schema.choice(PLAN_POLICIES),
+    default: 'latency',
+    argument: 'POLICY',
+    help: 'latency: as many frames a second as the rate can fill with useful pictures; paper: every frame, with points by the paper’s equations 2 and 3',
+  }),
+  maxPoints: defineOption({
+    schema: schema.integer({ min: POINTS_PER_PACKET, max: MAX_POINTS_PER_FRAME }),
+    default: 4_194_304,
+    argument: 'N',
+    help: 'maximum points in a points64 frame, even if the rate allows more',
+  }),
+  lambda: defineOption({
+    schema: schema.number({ min: 0, max: 64 }),
+    // As in the reference system's release. From 3 on, a budget below the number of points nearer than D leaves
+    // nothing beyond D.
+    default: 1,
+    argument: 'L',
+    help: 'how fast a point’s weight falls with depth; 0 samples evenly',
+  }),
+  epsilon: defineOption({
+    schema: schema.number({ min: 1e-12, max: 1 }),
+    default: 1e-6,
+    argument: 'E',
+    help: 'keeps the weight of the nearest points finite',
+  }),
+  priorityDistance: defineOption({
+    schema: schema.number({ min: 0, max: 1000 }),
+    default: 3.85,
+    argument: 'METRES',
+    help: 'points nearer than this have the same weight as the nearest',
+  }),
+  floor: defineOption({
+    schema: schema.number({ min: 0, max: 1 }),
+    default: 0.1,
+    argument: 'FRACTION',
+    help: 'with --plan paper: fraction of the raw cloud that is sent each second at any rate',
+  }),
+});

@@ -1,0 +1,75 @@
+import type { TopicEntry } from '@farpoint/ros';
+import type { CloudSensorOptions } from '../../send/clouds/cloud-sensor.ts';
+import type { CaptureOptions } from '../../sense/capture/capture-messages.ts';
+import type { SourceOptions } from '../../sense/sources/open-source.ts';
+import { opticalMount, type SensorMount } from '../../sense/sources/sensor-mount.ts';
+import { cloudTrigger } from './check-videos.ts';
+import { framesPerS } from './frame-rate.ts';
+import type { RobotOptionValues } from './robot-program.ts';
+import { toGraph } from './to-graph.ts';
+
+/** The main source of clouds comes first. */
+export function toSensors(values: RobotOptionValues, topics: TopicEntry[]): CloudSensorOptions[] {
+  const capture: CaptureOptions = {
+    sensor: 0,
+    source: mounted(toSource(values, topics), values.guardMount),
+    framesPerSecond: framesPerS(values),
+    plan: values.plan,
+    sampling: { lambda: values.lambda, epsilon: values.epsilon, nearDistance: values.priorityDistance },
+    floorFraction: values.floor,
+    mostPoints: values.maxPoints,
+    picturesOfCloud: values.picturesOfCloud,
+  };
+  const main: CloudSensorOptions = { name: 'Camera', capture, priority: 0, weight: 1 };
+  if (values.source !== 'sim') return [main];
+  const lidars = Array.from({ length: values.simLidars }, (_, index): CloudSensorOptions => {
+    const source: SourceOptions = { kind: 'sim-lidar', seed: values.simSeed, index };
+    const lidar: CaptureOptions = { ...capture, sensor: index + 1, source, picturesOfCloud: false };
+    return { name: index === 0 ? 'LiDAR' : `LiDAR ${index + 1}`, capture: lidar, priority: 1, weight: 1 };
+  });
+  return [main, ...lidars];
+}
+
+/** The simulated robot knows by itself where its sensors sit. */
+function mounted(source: SourceOptions, mount: SensorMount | null): SourceOptions {
+  const isSimulated = source.kind === 'sim' || source.kind === 'sim-lidar';
+  return isSimulated || mount === null ? source : { ...source, mount: opticalMount(mount) };
+}
+
+function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOptions {
+  const path = values.path ?? '';
+  switch (values.source) {
+    case 'sim':
+      return {
+        kind: 'sim',
+        seed: values.simSeed,
+        size: values.simSize,
+        floorCameras: values.simFloor === 'seen',
+        triggerPerS: cloudTrigger(values.videos, framesPerS(values)),
+      };
+    case 'shm':
+      return {
+        kind: 'shm',
+        layout: values.shmLayout,
+        folder: values.shmFolder,
+        owner: values.shmOwner ?? undefined,
+        waitMs: values.shmWaitS * 1000,
+      };
+    case 'recording':
+      return {
+        ...{ kind: 'recording', path, topic: values.topic, rate: values.playRate, fromS: values.playFromS },
+        ...{ atEnd: values.playEnd, axes: values.playAxes, topics, videos: values.playVideos === 'all' },
+        ...{ telemetry: values.playTelemetry === 'all', baseFrame: values.rosBaseFrame },
+      };
+    case 'ros1':
+    case 'ros2':
+      return {
+        ...{ kind: 'ros', graph: toGraph(values, values.source), topics },
+        ...{ axes: values.rosAxes, baseFrame: values.rosBaseFrame, waitMs: values.rosWaitS * 1000 },
+      };
+    case 'pcd':
+      return { kind: 'pcd', path, frame: values.pcdFrame };
+    case 'rgbd':
+      return { kind: 'rgbd', path };
+  }
+}

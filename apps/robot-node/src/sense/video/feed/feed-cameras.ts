@@ -1,0 +1,108 @@
+import { monotonicMs } from '../../../ground/clock.ts';
+import { wallNs } from '../../../ground/wall-clock.ts';
+import type { VideoEncoderEvents } from '../video-encoder.ts';
+import type { VideoLog } from '../video-log.ts';
+import { FedEncoder, type OpenFeed } from './fed-encoder.ts';
+import type { FeedReport, FeedRequest, RunId } from './feed-messages.ts';
+import type { FeedSource } from './feed-source.ts';
+import { Graphs } from './graphs.ts';
+import { RosVideoFeed } from './ros-video-feed.ts';
+import { SimVideoCameras } from './sim-video-feed.ts';
+
+/** How often silence is looked for, drops are told, and the thread says that it lives, ms. */
+const CHECK_MS = 500;
+
+/** The cameras of the thread that feeds them: does what the main thread asks for, and reports what comes of it. */
+export class FeedCameras {
+  readonly #report: (report: FeedReport, transfer?: ArrayBuffer[]) => void;
+  readonly #graphs = new Graphs();
+  readonly #simulated = new SimVideoCameras();
+  readonly #runs = new Map<RunId, { encoder: FedEncoder; dropped: number }>();
+  readonly #topics = new Set<RosVideoFeed>();
+  readonly #checking: NodeJS.Timeout;
+
+  /** @param report sends to the main thread; buffers in `transfer` are transferred */
+  constructor(report: (report: FeedReport, transfer?: ArrayBuffer[]) => void) {
+    this.#report = report;
+    this.#checking = setInterval(() => this.#check(), CHECK_MS);
+  }
+
+  onRequest(request: FeedRequest): void {
+    if (request.type === 'open') this.#openRun(request);
+    else if (request.type === 'end') void this.close();
+    else {
+      const encoder = this.#runs.get(request.run)?.encoder;
+      if (request.type === 'configure') encoder?.configure(request.format);
+      else if (request.type === 'key-frame') encoder?.requestKeyFrame();
+      else void this.#closeRun(request.run);
+    }
+  }
+
+  async close(): Promise<void> {
+    clearInterval(this.#checking);
+    await Promise.all([...this.#runs.keys()].map((run) => this.#closeRun(run)));
+    await this.#graphs.close();
+  }
+
+  #openRun({ run, source, encoder, format }: Extract<FeedRequest, { type: 'open' }>): void {
+    const opened = new FedEncoder(encoder, format, this.#openFeed(source), this.#events(run), this.#log(run));
+    this.#runs.set(run, { encoder: opened, dropped: 0 });
+  }
+
+  async #closeRun(run: RunId): Promise<void> {
+    const closing = this.#runs.get(run);
+    this.#runs.delete(run);
+    await closing?.encoder.close();
+    this.#report({ type: 'closed', run });
+  }
+
+  #openFeed(source: FeedSource): OpenFeed {
+    if (source.kind === 'sim') return (target) => this.#simulated.open(source, target);
+    return async (target, events) => {
+      const graph = await this.#graphs.join(source.graph);
+      const clock = { now: monotonicMs, wallNs };
+      const feed = new RosVideoFeed(graph, source.entry, clock, target, events);
+      this.#topics.add(feed);
+      return {
+        close: () => {
+          this.#topics.delete(feed);
+          feed.close();
+        },
+      };
+    };
+  }
+
+  #events(run: RunId): VideoEncoderEvents {
+    let told: string | null = null;
+    return {
+      onPicture: (picture) => {
+        // Its bytes lie in memory with other messages of the process.
+        const bytes = new Uint8Array(picture.bytes);
+        this.#report({ type: 'picture', run, picture: { ...picture, bytes } }, [bytes.buffer]);
+      },
+      onFault: (fault, reason) => {
+        if (fault === told && reason === undefined) return;
+        told = fault;
+        this.#report({ type: 'fault', run, fault, reason });
+      },
+    };
+  }
+
+  #log(run: RunId): VideoLog {
+    const to = (level: keyof VideoLog) => (fields: object, message: string) =>
+      this.#report({ type: 'log', run, level, fields, message });
+    return { debug: to('debug'), info: to('info'), warn: to('warn'), error: to('error') };
+  }
+
+  #check(): void {
+    this.#report({ type: 'alive' });
+    const now = monotonicMs();
+    for (const topic of this.#topics) topic.check(now);
+    for (const [run, state] of this.#runs) {
+      const { dropped } = state.encoder;
+      if (dropped === state.dropped) continue;
+      state.dropped = dropped;
+      this.#report({ type: 'dropped', run, dropped });
+    }
+  }
+}

@@ -1,0 +1,121 @@
+import {
+  compressedImageSchema,
+  decoderOf,
+  imageSchema,
+  RosFault,
+  type RosGraph,
+  stampNs,
+  type TopicEntry,
+} from '@farpoint/ros';
+import type { Coding } from '@farpoint/video';
+import { capturedAtMs, type RosClock } from '../../../ground/ros/capture-time.ts';
+import { type Listener, listenBytes } from '../../../ground/ros/ros-listener.ts';
+import type { Feed, FeedEvents, FeedTarget } from './feed.ts';
+import { FrameRooms } from './frame-rooms.ts';
+import { imageFrame } from './image-frame.ts';
+
+const COMPRESSED = 'sensor_msgs/msg/CompressedImage';
+/** Messages that may wait in the graph. Where each picture builds on those before it, none may be missing. */
+const QUEUE = { raw: 1, compressed: 8 };
+/** A topic that is silent for so long is told to people, ms. */
+const SILENT_MS = 5000;
+
+/** The pictures of one topic, as they are: nothing is encoded before it is video. */
+export class RosVideoFeed implements Feed {
+  readonly #graph: RosGraph;
+  readonly #entry: TopicEntry;
+  readonly #clock: RosClock;
+  readonly #target: FeedTarget;
+  readonly #events: FeedEvents;
+  readonly #decode: (bytes: Uint8Array) => unknown;
+  readonly #listener: Listener;
+  readonly #rooms = new FrameRooms();
+  #heardMs: number;
+
+  /** Subscribes. @throws {RosFault} if the graph cannot */
+  constructor(graph: RosGraph, entry: TopicEntry, clock: RosClock, target: FeedTarget, events: FeedEvents) {
+    this.#graph = graph;
+    this.#entry = entry;
+    this.#clock = clock;
+    this.#target = target;
+    this.#events = events;
+    this.#heardMs = clock.now();
+    const compressed = entry.type === COMPRESSED;
+    this.#decode = decoderOf(graph.version, entry.type, null);
+    const queue = compressed ? QUEUE.compressed : QUEUE.raw;
+    const onFault = (fault: RosFault) => events.onFault(fault.message);
+    this.#listener = listenBytes(graph, entry, { queue, onFault }, (bytes, receivedMs) => {
+      this.#heardMs = receivedMs;
+      if (compressed) this.#takeCompressed(bytes, receivedMs);
+      else this.#takeImage(bytes, receivedMs);
+    });
+  }
+
+  /** Call each second or so: says so if the topic is silent. */
+  check(nowMs: number): void {
+    if (nowMs - this.#heardMs >= SILENT_MS) this.#events.onFault(this.#whySilent().message);
+  }
+
+  close(): void {
+    this.#listener.close();
+  }
+
+  #takeImage(message: Uint8Array, receivedMs: number): void {
+    // The process still reads the one before: a newer one will come.
+    if (!this.#target.takes) return;
+    const image = imageSchema.parse(this.#decode(message));
+    const captureNs = this.#captureNs(stampNs(image.header.stamp), receivedMs);
+    this.#target.pushFrame(imageFrame(image, captureNs, (bytes) => this.#rooms.room(bytes)));
+    this.#rooms.swap();
+  }
+
+  #takeCompressed(message: Uint8Array, receivedMs: number): void {
+    const { header, format, data } = compressedImageSchema.parse(this.#decode(message));
+    const coding = codingOf(format, data);
+    if (data.length === 0) throw new RosFault('bad-image', 'a compressed picture without bytes');
+    const captureNs = this.#captureNs(stampNs(header.stamp), receivedMs);
+    if (coding === 'h264') {
+      // Several may be on their way.
+      this.#target.pushCoded({ captureNs, coding, bytes: data.slice() });
+      return;
+    }
+    if (!this.#target.takes) return;
+    const bytes = this.#rooms.room(data.length);
+    bytes.set(data);
+    this.#target.pushCoded({ captureNs, coding, bytes });
+    this.#rooms.swap();
+  }
+
+  #captureNs(stamp: bigint, receivedMs: number): bigint {
+    const now = this.#clock.now();
+    return BigInt(Math.round(Math.min(capturedAtMs(this.#clock, stamp, receivedMs), now) * 1e6));
+  }
+
+  #whySilent(): RosFault {
+    const { topic, type } = this.#entry;
+    const others = this.#graph.topics().filter((each) => each.topic === topic && each.publishers > 0);
+    const same = others.find((each) => each.type === type);
+    const [other] = others;
+    if (same === undefined && other !== undefined)
+      return new RosFault('wrong-type', `it has ${other.type}, not ${type}`, {
+        ...{ topic, remedy: 'set the camera’s type, or name another topic' },
+      });
+    const within = `for ${SILENT_MS / 1000} s`;
+    return (same?.publishers ?? this.#listener.publishers) > 0
+      ? new RosFault('unavailable', `no picture ${within}, although it is published`, { topic })
+      : new RosFault('unavailable', `nobody publishes it (no picture ${within})`, { topic });
+  }
+}
+
+/** @throws {RosFault} `unsupported` */
+function codingOf(format: string, data: Uint8Array): Coding {
+  if (data[0] === 0xff && data[1] === 0xd8) return 'jpeg';
+  if (data[0] === 0x89 && data[1] === 0x50) return 'png';
+  // As in `h264` or `bgr8; h264 compressed`.
+  if (/\bh\.?264\b/i.test(format)) return 'h264';
+  throw new RosFault(
+    'unsupported',
+    `a compressed picture (${format.slice(0, 64) || 'no format'}) that is neither JPEG, PNG nor H.264`,
+    { remedy: 'name the topic of the raw image' },
+  );
+}

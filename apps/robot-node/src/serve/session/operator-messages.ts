@@ -1,0 +1,274 @@
+/** Interprets one operator's messages and sends the answers. */
+import {
+  type Command,
+  clockAnswerCodec,
+  decodeBandwidth,
+  decodeJson,
+  decodeStreamSwitch,
+  type EndSession,
+  encodeJson,
+  isZeroTwist,
+  type LatencyMeasured,
+  NO_LEASE,
+  type OperatorSessionMessage,
+  operatorControlCodec,
+  operatorSessionCodec,
+  ProtocolError,
+  type ReceiverReport,
+  type RobotSessionMessage,
+  robotControlCodec,
+  robotSessionCodec,
+  sequenceDelta32,
+} from '@farpoint/protocol';
+import { type CommandVerdict, type RejectedCommand, RejectionReporter } from '@farpoint/safety';
+import { type Access, mayDrive, openAccess, supervises } from '../../admit/access/access.ts';
+import type { DriveStation } from '../../motion/drive/drive-station.ts';
+import { EstopRequests } from './estop-requests.ts';
+import { MessageRates, type RatedMessage } from './message-rates.ts';
+import { OperatorWishes } from './operator-wishes.ts';
+
+/** Sends a session's messages to its operator. */
+export interface SessionLink {
+  sendSession(text: string): void;
+  sendControl(text: string): void;
+}
+
+/** What a session needs from the robot. */
+export interface SessionHost {
+  readonly drive: DriveStation;
+  now(): number;
+  /** The driver has changed, and all operators must be told. @param cause if it was not a request */
+  leaseChanged(cause?: 'expired' | 'session-ended'): void;
+  /** It has given the lease back, or would if it still had it. */
+  driverLeaves?(session: OperatorMessages): void;
+  /** The emergency stop was latched or released. @param by who changed it; undefined: the robot itself */
+  estopChanged(by?: OperatorMessages): void;
+  /** It was latched again: all operators must be told its new number. */
+  estopRenewed(by: OperatorMessages): void;
+  latencyTestRequested(session: OperatorMessages, id: number, commandMs: number): void;
+  /** For the counters. */
+  commandAccepted(): void;
+  commandRejected(rejection: RejectedCommand): void;
+  /** For a recording: each command, and the guard's verdict. */
+  commandJudged?(session: OperatorMessages, command: Command, verdict: CommandVerdict): void;
+  /** For a recording: what an operator measured. */
+  latencyMeasured?(session: OperatorMessages, measured: LatencyMeasured): void;
+  /** For the audit log: a request that was refused. */
+  refused?(session: OperatorMessages, what: 'lease' | 'estop-release', reason: string): void;
+  messageRefused(channel: string, error: ProtocolError): void;
+  /** A message was dropped because there were too many of its kind. */
+  messageLimited?(kind: RatedMessage): void;
+  /** The driver's name by its grant; undefined if nobody drives or there are no grants. */
+  driverName?(): string | undefined;
+}
+
+/** How much of a malformed command's text goes into the report. */
+const MAX_DETAIL = 200;
+const NOT_PERMITTED: RejectedCommand = {
+  accepted: false,
+  reason: 'not-permitted',
+  detail: 'your grant lets you watch this robot, not drive it',
+};
+
+export class OperatorMessages {
+  readonly id: string;
+  /** What the operator may do. */
+  access: Access;
+  /** What it wants of the robot's streams. */
+  readonly wishes = new OperatorWishes();
+  /** When a message last came from the operator on any channel, ms on the robot's clock. */
+  heardMs: number;
+  onReceiverReport: ((report: ReceiverReport) => void) | null = null;
+  onReceiverLimit: ((bitsPerSecond: number) => void) | null = null;
+  /** Of supervisors only. */
+  onEndSession: ((request: EndSession) => void) | null = null;
+  readonly #host: SessionHost;
+  readonly #link: SessionLink;
+  readonly #rejections = new RejectionReporter();
+  readonly #estop: EstopRequests;
+  readonly #rates = new MessageRates((kind, tell) => {
+    this.#host.messageLimited?.(kind);
+    if (tell) this.send({ type: 'fault', message: `too many ${kind} messages: some were dropped` });
+  });
+  #lastReport: number | null = null;
+
+  constructor(id: string, operatorName: string, host: SessionHost, link: SessionLink) {
+    this.id = id;
+    this.access = openAccess(operatorName);
+    this.#host = host;
+    this.#link = link;
+    this.heardMs = host.now();
+    this.#estop = new EstopRequests(this, {
+      ...{ drive: host.drive, now: () => host.now() },
+      changed: () => host.estopChanged(this),
+      renewed: () => host.estopRenewed(this),
+      refused: (reason) => host.refused?.(this, 'estop-release', reason),
+    });
+  }
+
+  /** Tells the operator the state of the drive lease; sent after the welcome and at each change. */
+  sendLease(): void {
+    const driver = this.#host.driverName?.();
+    const named = driver === undefined ? {} : { driver };
+    this.send({ ...this.#host.drive.guard.leaseState(this.id), ...named });
+  }
+
+  get operatorName(): string {
+    return this.access.name;
+  }
+
+  sendEstop(): void {
+    this.send(this.#estop.told());
+  }
+
+  send(message: RobotSessionMessage): void {
+    this.#link.sendSession(encodeJson(robotSessionCodec, message));
+  }
+
+  /** Sends rejection reports that were held back to limit their rate. Call a few times a second. */
+  flushRejections(): void {
+    for (const report of this.#rejections.due(this.#host.now())) this.send(report);
+  }
+
+  onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void {
+    this.heardMs = this.#host.now();
+    if (this.#rates.drops(channel, data, this.heardMs)) return;
+    try {
+      if (channel === 'control') this.#onControl(data);
+      else if (channel === 'session') this.#onSession(data);
+      else this.#onBandwidth(data);
+    } catch (error) {
+      if (!(error instanceof ProtocolError)) throw error;
+      this.#host.messageRefused(channel, error);
+      // A malformed control message counts as a malformed command.
+      if (channel === 'control') this.#onMalformed(error);
+      else this.send({ type: 'fault', message: error.message.slice(0, 512) });
+    }
+  }
+
+  #onBandwidth(data: string | Uint8Array): void {
+    if (typeof data === 'string')
+      throw new ProtocolError('invalid', 'bandwidth message', '', 'text, not bytes');
+    this.onReceiverLimit?.(decodeBandwidth(data));
+  }
+
+  #onControl(data: string | Uint8Array): void {
+    const now = this.heardMs;
+    const message = decodeJson(operatorControlCodec, data);
+    switch (message.type) {
+      case 'command':
+        this.#onCommand(message, now);
+        break;
+      case 'clockProbe': {
+        if (this.#rates.over('probe', now)) break;
+        const { id, sentMs } = message;
+        this.#link.sendControl(
+          encodeJson(clockAnswerCodec, { type: 'clockAnswer', id, sentMs, robotMs: this.#host.now() }),
+        );
+        this.#host.drive.guard.onClockProbe(this.id, sentMs, now);
+        break;
+      }
+      case 'receiverReport':
+        // Reports may overtake each other. One older than the latest says nothing new.
+        if (this.#lastReport !== null && sequenceDelta32(message.sequence, this.#lastReport) <= 0) break;
+        this.#lastReport = message.sequence;
+        this.onReceiverReport?.(message);
+        break;
+      case 'estop':
+        this.#estop.press(message.press);
+        this.#link.sendControl(encodeJson(robotControlCodec, { type: 'estopAck', press: message.press }));
+        break;
+    }
+  }
+
+  #onCommand(command: Command, now: number): void {
+    const { drive } = this.#host;
+    const verdict = mayDrive(this.access) ? drive.guard.onCommand(this.id, command, now) : NOT_PERMITTED;
+    // It only says that its hand is open.
+    if (command.lease === NO_LEASE && isZeroTwist(command.twist)) return;
+    this.#host.commandJudged?.(this, command, verdict);
+    // Also after a rejection: releasing the grip stops the robot.
+    drive.apply();
+    if (!verdict.accepted) {
+      this.#reject(verdict, command.sequence);
+      return;
+    }
+    this.#host.commandAccepted();
+    if (command.latencyTest !== undefined) this.#host.latencyTestRequested(this, command.latencyTest, now);
+  }
+
+  #onMalformed(error: ProtocolError): void {
+    const verdict = this.#host.drive.guard.onMalformed(
+      this.id,
+      error.message.slice(0, MAX_DETAIL),
+      this.heardMs,
+    );
+    this.#reject(verdict, undefined);
+  }
+
+  #reject(verdict: RejectedCommand, sequence: number | undefined): void {
+    this.#host.commandRejected(verdict);
+    const report = this.#rejections.add(verdict, sequence, this.#host.now());
+    if (report !== null) this.send(report);
+  }
+
+  #onSession(data: string | Uint8Array): void {
+    // The reference system's operators switch the stream with plain words, not JSON.
+    if (typeof data === 'string' && !data.startsWith('{')) {
+      this.wishes.switchStream(decodeStreamSwitch(data) === 'start');
+      return;
+    }
+    this.#onRequest(decodeJson(operatorSessionCodec, data));
+  }
+
+  #onRequest(message: OperatorSessionMessage): void {
+    const { drive } = this.#host;
+    const { guard } = drive;
+    switch (message.type) {
+      case 'leaseRequest': {
+        if (this.#rates.over('lease', this.heardMs)) break;
+        if (!mayDrive(this.access)) {
+          this.#host.refused?.(this, 'lease', 'not-permitted');
+          this.#notPermitted(NOT_PERMITTED.detail);
+          this.sendLease();
+          break;
+        }
+        const outcome = guard.requestLease(this.id, message.take, this.heardMs, supervises(this.access));
+        drive.apply();
+        if (outcome.granted) {
+          this.#host.leaseChanged();
+        } else {
+          this.#host.refused?.(this, 'lease', outcome.reason);
+          this.send({ type: 'fault', message: outcome.detail });
+          this.sendLease();
+        }
+        break;
+      }
+      case 'leaseRelease': {
+        const released = guard.releaseLease(this.id);
+        drive.apply();
+        this.#host.driverLeaves?.(this);
+        if (released) this.#host.leaseChanged();
+        else this.sendLease();
+        break;
+      }
+      case 'estop':
+        if (message.latch) this.#estop.press(message.press);
+        else this.#estop.release(message.of);
+        break;
+      case 'endSession':
+        if (supervises(this.access)) this.onEndSession?.(message);
+        else this.#notPermitted('only a supervisor ends the sessions of others');
+        break;
+      case 'latencyMeasured':
+        this.#host.latencyMeasured?.(this, message);
+        break;
+      default:
+        this.wishes.take(message, mayDrive(this.access));
+    }
+  }
+
+  #notPermitted(message: string): void {
+    this.send({ type: 'fault', message, reason: 'not-permitted' });
+  }
+}

@@ -1,0 +1,296 @@
+import type { Sound, StageTimings, StreamStatus } from '@farpoint/protocol';
+import { cloudShare, probingSensor } from '../../send/budgets/cloud-shares.ts';
+import { PathBudget } from '../../send/budgets/path-budget.ts';
+import type { FrameTarget } from '../../send/clouds/frame-fan-out.ts';
+import { droppedFrames, StreamMeter } from '../../send/clouds/stream-meter.ts';
+import { PictureSender } from '../../send/pictures/picture-sender.ts';
+import { OperatorSound } from '../../send/sound/operator-sound.ts';
+import type { AnswerVerdict } from '../../send/transport/answer-gate.ts';
+import { OperatorPeer } from '../../send/transport/operator-peer.ts';
+import type { PacketLog } from '../../send/transport/packet-log.ts';
+import type { PeerEnd } from '../../send/transport/peer-events.ts';
+import type { RtpTransport } from '../../send/transport/rtp-transport.ts';
+import type { SendLoop } from '../../send/transport/send-loop.ts';
+import { SharedFrame } from '../../send/transport/shared-frame.ts';
+import type { SoundLine } from '../../send/transport/sound-line.ts';
+import { StreamSender } from '../../send/transport/stream-sender.ts';
+import type { VideoLine } from '../../send/transport/video-line.ts';
+import { OperatorVideos } from '../../send/video/operator-videos.ts';
+import type { CodedStream } from '../../sense/encode/coded-frame-encoder.ts';
+import { slotSequenceOffset } from '../../sense/encode/packetiser.ts';
+import type { CodedFormat, DrawnMost } from '../../sense/encode/plan.ts';
+import type { ReadyPicture } from '../../sense/pictures/picture-messages.ts';
+import { SOUND_STREAM } from '../../sense/sound/sound-frame.ts';
+import type { VideoFrame } from '../../sense/video/video-frame.ts';
+import { type LatencyTest, LatencyTests } from './latency-tests.ts';
+import { listenToWishes } from './listen-to-wishes.ts';
+import { OperatorMessages, type SessionHost } from './operator-messages.ts';
+import type { OperatorSessionEvents, OperatorSessionOptions } from './operator-session-options.ts';
+import { RestartPolicy } from './restart-policy.ts';
+import { ResumeKey } from './resume-key.ts';
+import { WantedClouds } from './wanted-clouds.ts';
+
+/** A page tells the capture time of a video's picture from its clock and the network's, ms. */
+const VIDEO_EXACT_MS = 50;
+
+/** One operator: connection, session and stream. */
+export class OperatorSession implements FrameTarget {
+  readonly messages: OperatorMessages;
+  readonly peer: OperatorPeer;
+  readonly restarts = new RestartPolicy();
+  readonly resumeKey = new ResumeKey();
+  sender: StreamSender | null = null;
+  readonly #claims: OperatorSessionOptions['claims'];
+  /** Nothing has been heard from the operator for a while, so its points would be lost. */
+  quiet = false;
+  readonly #host: SessionHost;
+  readonly #sendLoop: SendLoop;
+  readonly #makeController: OperatorSessionOptions['makeController'];
+  readonly #packetLog: PacketLog | undefined;
+  readonly #events: OperatorSessionEvents;
+  readonly #meter = new StreamMeter();
+  readonly #budget: PathBudget;
+  readonly pictures: PictureSender;
+  readonly videos: OperatorVideos;
+  readonly sound: OperatorSound;
+  readonly #tests = new LatencyTests();
+  readonly #clouds = new WantedClouds();
+  readonly #onViewSent = () => this.#host.drive.guard.onViewSent(this.id, this.#host.now());
+  #pathHeardMs = 0;
+
+  constructor(
+    options: OperatorSessionOptions,
+    host: SessionHost,
+    sendLoop: SendLoop,
+    events: OperatorSessionEvents,
+  ) {
+    [this.#host, this.#sendLoop, this.#events] = [host, sendLoop, events];
+    this.#makeController = options.makeController;
+    this.#packetLog = options.packetLog;
+    this.#claims = options.claims;
+    this.#budget = new PathBudget(options.pictureShare);
+    this.peer = new OperatorPeer(options.peer, {
+      onCandidate: (candidate) => events.onCandidate(candidate),
+      onCandidateRefused: (reason, detail) => events.onCandidateRefused(reason, detail),
+      onConnected: (transport, videos, sound) => this.#onConnected(transport, videos, sound),
+      onMessage: (channel, data) => this.messages.onMessage(channel, data),
+      onPicturesLow: () => this.#sendPictures(),
+      drives: () => host.drive.guard.leaseHolder === this.id,
+      onEnded: (end, detail) => this.#onEnded(end, detail),
+    });
+    this.pictures = new PictureSender(this.peer, this.#onViewSent);
+    this.videos = new OperatorVideos(this.#budget, options.mostVideoBitsPerSecond, (video) =>
+      events.onNeedsKeyFrame(video),
+    );
+    this.sound = new OperatorSound(this.#budget, () => host.now());
+    this.messages = new OperatorMessages(options.session, options.operatorName, host, this.peer);
+    this.messages.onReceiverReport = (report) => this.sender?.onReceiverReport(report);
+    this.messages.onReceiverLimit = (bitsPerSecond) => {
+      this.sender?.onReceiverLimit(bitsPerSecond);
+      events.onBudgetChanged();
+    };
+    listenToWishes(this.messages.wishes, {
+      ...{ clouds: this.#clouds, videos: this.videos, pictures: this.pictures, sound: this.sound },
+      ...{ budget: this.#budget, clear: () => this.#clear(), events },
+    });
+  }
+
+  /** The operator's answer to our latest offer. Never throws. */
+  async answer(sdp: string): Promise<AnswerVerdict> {
+    const verdict = await this.peer.answer(sdp);
+    if (verdict === 'taken') this.restarts.onAnswer();
+    return verdict;
+  }
+
+  /** Whether the operator reads this format. Formats are independent: reading one implies no other. */
+  reads(format: CodedFormat): boolean {
+    return this.#clouds.formats.has(format);
+  }
+
+  /** The name by which the guard knows the operator. */
+  get id(): string {
+    return this.messages.id;
+  }
+
+  /** Whether the operator is connected, not paused and not silent. */
+  get streaming(): boolean {
+    return this.sender !== null && this.messages.wishes.streaming && !this.quiet;
+  }
+
+  get operatorName(): string {
+    return this.messages.operatorName;
+  }
+
+  tellSound(message: Sound): void {
+    this.messages.send(message);
+  }
+
+  /** When the operator was last heard from (a message, RTCP or a connectivity check), ms on the robot's clock. */
+  get heardMs(): number {
+    return Math.max(this.messages.heardMs, this.sender?.heardMs ?? 0, this.#pathHeardMs);
+  }
+
+  get display(): DrawnMost | null {
+    return this.#clouds.pace.display;
+  }
+
+  wants(sensor: number): boolean {
+    return this.#clouds.sensors.has(sensor);
+  }
+
+  probesWith(sensor: number): boolean {
+    return probingSensor(this.#claims(), this.#clouds.sensors) === sensor;
+  }
+
+  /** How much of the path a sensor's points may take, bit/s on the wire; 0 while there is no path. */
+  cloudBitsPerSecond(sensor: number): number {
+    const { sender } = this;
+    if (sender === null) return 0;
+    const total = this.#budget.cloudBitsPerSecond(sender.targetBitsPerSecond) * sender.fit;
+    return cloudShare(sensor, total, this.#claims(), this.#clouds.sensors);
+  }
+
+  get watchedCameras(): ReadonlySet<number> {
+    return this.pictures.watched;
+  }
+
+  /** How much of the path pictures may take, bit/s on the wire; 0 while there is no path. */
+  get pictureBitsPerSecond(): number {
+    const { sender } = this;
+    return sender === null ? 0 : this.#budget.pictureBitsPerSecond(sender.targetBitsPerSecond);
+  }
+
+  get wantedVideos(): ReadonlySet<number> {
+    return this.videos.wanted;
+  }
+
+  get wantsBarcode(): boolean {
+    return this.videos.barcode;
+  }
+
+  /** How much of the path a video may take, bit/s without headers; 0 while there is no path. */
+  videoBitsPerSecond(video: number): number {
+    return this.sender === null ? 0 : this.#budget.videoBitsPerSecond(video, this.sender.targetBitsPerSecond);
+  }
+
+  readonly videoCodecs = (video: number) => this.videos.codecs(video);
+
+  offerVideo(frame: VideoFrame): void {
+    if (!this.streaming) return;
+    if (this.videos.wanted.has(frame.video)) this.#mayBeSeen(frame.capturedAtMs, VIDEO_EXACT_MS);
+    this.videos.offer(frame);
+  }
+
+  offerPicture(picture: ReadyPicture): void {
+    if (!this.streaming) return;
+    if (this.pictures.watched.has(picture.header.camera)) this.#mayBeSeen(picture.capturedAtMs);
+    this.pictures.offer(picture);
+  }
+
+  get droppedFrames(): number {
+    return droppedFrames(this.sender);
+  }
+
+  /** @returns false if the test is already known */
+  askLatencyTest(test: LatencyTest): boolean {
+    return this.#tests.ask(test);
+  }
+
+  /** Queues a frame for the pacer. A green frame answers the waiting latency tests. */
+  enqueue(shared: SharedFrame): void {
+    if (this.sender === null || !this.streaming) return;
+    const { frame } = shared;
+    const { frameNumber, points, capturedAtMs } = frame;
+    if (!frame.latencyTest && !this.#clouds.pace.takes(frame.sensor, capturedAtMs)) return;
+    for (const { id, commandMs } of this.#tests.answeredBy(shared)) {
+      const moments = { commandMs, captureMs: capturedAtMs };
+      this.messages.send({ type: 'latencyFrame', id, frameNumber, points, ...moments });
+    }
+    this.#meter.onQueued(shared);
+    this.#mayBeSeen(capturedAtMs);
+    this.sender.enqueue(shared);
+  }
+
+  announce({ format, header }: CodedStream, sensor: number): void {
+    const text = Buffer.from(header).toString('base64');
+    this.messages.send({ type: 'cloudStream', format, header: text, ...(sensor === 0 ? {} : { sensor }) });
+  }
+
+  /** Call every 25 ms. */
+  tick(): void {
+    if (this.peer.heardSinceLast()) this.#pathHeardMs = this.#host.now();
+    this.#budget.update(this.peer.messageBytesSent, this.pictures.bytesSent, this.#host.now());
+    this.#sendPictures();
+    this.videos.tick(this.#host.now());
+    this.sender?.tick();
+    this.messages.flushRejections();
+  }
+
+  /** This operator's stream for telemetry. Call once per telemetry message: rates count from the previous call. */
+  status(captureStages: StageTimings, nowMs: number): { stages: StageTimings; stream: StreamStatus } {
+    return this.#meter.status(captureStages, this.sender, nowMs);
+  }
+
+  #mayBeSeen(capturedAtMs: number, exactMs = 0): void {
+    this.#host.drive.guard.sentViews.sent(this.id, capturedAtMs, exactMs);
+  }
+
+  #sendPictures(): void {
+    this.pictures.tick(this.#host.now(), this.streaming ? this.pictureBitsPerSecond : 0);
+  }
+
+  /** Discards what is waiting to be sent. */
+  #clear(): void {
+    this.sender?.clear();
+    this.pictures.clear();
+    this.videos.clear();
+  }
+
+  #onConnected(transport: RtpTransport, lines: readonly VideoLine[], sound: SoundLine | null): void {
+    const now = () => this.#host.now();
+    const sender = new StreamSender(transport, this.#makeController(transport.transportFeedback), now);
+    const log = this.#packetLog;
+    if (log !== undefined) {
+      sender.onPacketSent = (frame, index, sentMs) => {
+        if (frame instanceof SharedFrame)
+          log.add(frame.frame.frameNumber, slotSequenceOffset(frame.slots, index), sentMs);
+      };
+    }
+    sender.onFrameSent = ({ frame, sendMs }) => {
+      if (frame.stream !== SOUND_STREAM) this.#onViewSent();
+      if (!(frame instanceof SharedFrame)) return;
+      this.#meter.onSent(frame, sendMs);
+      this.#tests.onSent(frame);
+    };
+    sender.onFrameDropped = (frame) => {
+      // A packet of sound is needed by no other.
+      if (frame.stream === SOUND_STREAM) return;
+      if (!(frame instanceof SharedFrame)) this.videos.onDropped(frame.stream);
+      else if (this.#tests.onLost(frame)) this.#events.onLatencyFrameLost();
+    };
+    this.videos.connect(sender, lines);
+    this.sound.connect(sender, sound);
+    sender.onRateChanged = () => {
+      this.#events.onBudgetChanged();
+      this.#sendLoop.run();
+    };
+    this.messages.heardMs = this.#host.now();
+    this.sender = sender;
+    this.#sendLoop.add(sender);
+    this.#events.onConnected();
+  }
+
+  #onEnded(end: PeerEnd, detail: string): void {
+    const sender = this.sender;
+    this.sender = null;
+    this.#tests.clear();
+    this.pictures.clear();
+    this.videos.disconnect();
+    this.sound.disconnect();
+    if (sender !== null) {
+      this.#sendLoop.remove(sender);
+      sender.clear();
+    }
+    this.#events.onEnded(end, detail);
+  }
+}

@@ -1,0 +1,67 @@
+import { MotionSupervisor } from '@farpoint/safety';
+import { makeGuard } from '@farpoint/safety/testing';
+import { expect, onTestFinished, test } from 'vitest';
+import { DriveStation } from '../../motion/drive/drive-station.ts';
+import type { PeerEnd } from '../../send/transport/peer-events.ts';
+import type { OperatorMessages } from './operator-messages.ts';
+import { RobotSessionHost, type RobotSessionHostParts } from './robot-session-host.ts';
+
+/** A robot that somebody has driven. */
+function driven() {
+  let left = 0;
+  const guard = makeGuard();
+  const drive = new DriveStation(
+    new MotionSupervisor(guard),
+    () => undefined,
+    () => 0,
+  );
+  onTestFinished(() => drive.close());
+  const host = new RobotSessionHost({
+    drive,
+    estop: { request: { take: () => false } },
+    operators: () => new Map(),
+    sensors: () => ({ updateBudgets: () => undefined }),
+    audit: { driver: () => undefined },
+    now: () => 0,
+    driverLeft: () => left++,
+  } as unknown as RobotSessionHostParts);
+  const change = (by: string) => {
+    guard.requestLease(by, true, 0, true);
+    host.leaseChanged();
+  };
+  change('driver');
+  return { host, guard, change, left: () => left };
+}
+
+test.each<[PeerEnd, number]>([
+  ['closed', 1],
+  ['grant-expired', 1],
+  ['grant-revoked', 1],
+  ['ended-by-supervisor', 1],
+  ['silent', 0],
+  ['connection-lost', 0],
+  ['not-reading', 0],
+])('a driver whose session ends by %s has left on purpose: %i', (end, count) => {
+  const { host, left } = driven();
+  host.operatorGone('driver', end);
+  expect(left()).toBe(count);
+});
+
+test('one that gives the lease back has left, also if it was silent for so long that it had it no more', () => {
+  const { host, guard, left } = driven();
+  guard.releaseLease('driver');
+  host.leaseChanged('expired');
+  host.driverLeaves({ id: 'driver' } as OperatorMessages);
+  expect(left()).toBe(1);
+});
+
+test('who has not driven last says nothing by leaving', () => {
+  const { host, change, left } = driven();
+  host.operatorGone('watcher', 'closed');
+  host.driverLeaves({ id: 'watcher' } as OperatorMessages);
+  change('next');
+  host.operatorGone('driver', 'closed');
+  expect(left()).toBe(0);
+  host.operatorGone('next', 'closed');
+  expect(left()).toBe(1);
+});

@@ -1,0 +1,119 @@
+import {
+  encodeJson,
+  type NearField,
+  nextSequence32,
+  type Telemetry,
+  type TelemetryMessage,
+  telemetryCodec,
+  zeroTwist,
+} from '@farpoint/protocol';
+import { BitRate } from '@farpoint/timing';
+import type { TimedBaseState } from '../ground/base.ts';
+import type { StageTimer } from '../ground/stage-timer.ts';
+import type { MotionStatus } from '../motion/drive/motion-status.ts';
+import type { OperatorSession } from '../serve/session/operator-session.ts';
+import { NearFieldRepeats } from './near-field-repeats.ts';
+import type { TelemetryBoard } from './telemetry-board.ts';
+
+/** On a path that carries less, telemetry is sent less often, because it would take a fifth of the path. */
+const NARROW_BITS_PER_SECOND = BitRate.fromMbps(1);
+const NARROW_EVERY = 4;
+/** Components report once a second, and every 4 s to a narrow path: a multiple of what that gets. */
+const COMPONENTS_EVERY = 20;
+/** What is near is told ten times a second, and five times to a narrow path, or while nobody drives. */
+const NEAR_EVERY = 2;
+
+/** What knows what is around the robot. */
+export interface Surroundings {
+  /** Whether somebody drives. */
+  readonly driven: boolean;
+  /** `null` while nobody can tell. */
+  nearField(nowMs: number): NearField | null;
+}
+
+/**
+ * Sends each operator the robot's state, what is near it, statistics of its stream, samples of quantities, alarms,
+ * components' reports, up to five readings a second, the navigator's path and map, and its model and joints. Call `send` 20 times a second.
+ */
+export class TelemetrySender {
+  readonly #operators: ReadonlyMap<string, OperatorSession>;
+  readonly #status: MotionStatus;
+  readonly #stages: StageTimer;
+  readonly #board: TelemetryBoard;
+  readonly #surroundings: Surroundings;
+  readonly #near = { wide: new NearFieldRepeats(), narrow: new NearFieldRepeats() };
+  #sequence = 0;
+
+  constructor(
+    operators: ReadonlyMap<string, OperatorSession>,
+    status: MotionStatus,
+    stages: StageTimer,
+    board: TelemetryBoard,
+    surroundings: Surroundings,
+  ) {
+    this.#surroundings = surroundings;
+    this.#board = board;
+    this.#operators = operators;
+    this.#status = status;
+    this.#stages = stages;
+  }
+
+  send(state: TimedBaseState, nowMs: number): void {
+    const alarms = this.#board.alarmChanges(nowMs);
+    if (this.#operators.size === 0) return;
+    for (const { peer, messages } of this.#operators.values())
+      if (peer.connected) for (const alarm of alarms) messages.send(alarm);
+    const stages = this.#stages.take();
+    this.#sequence = nextSequence32(this.#sequence);
+    // Readings go with the telemetry that narrow paths get, too, so that every reading reaches all operators.
+    const motion = this.#status.state(nowMs);
+    const forNarrow = this.#sequence % NARROW_EVERY === 0;
+    const { readings, samples, components, navigation, model } = this.#board;
+    if (this.#sequence % COMPONENTS_EVERY === 0) this.#tellOfModel(nowMs);
+    const reading = forNarrow ? readings.next(nowMs) : null;
+    const all = samples.all();
+    const newest = forNarrow ? samples.newest() : null;
+    const nearEvery = this.#surroundings.driven ? NEAR_EVERY : NARROW_EVERY;
+    const near = this.#sequence % nearEvery === 0 ? this.#surroundings.nearField(nowMs) : null;
+    const nearWide = this.#near.wide.next(near, nowMs);
+    const nearNarrow = forNarrow ? this.#near.narrow.next(near, nowMs) : null;
+    const reports = this.#sequence % COMPONENTS_EVERY === 0 ? components.next(nowMs) : null;
+    for (const operator of this.#operators.values()) {
+      if (!operator.peer.connected) continue;
+      const target = operator.sender?.targetBitsPerSecond ?? 0;
+      const isNarrow = target < NARROW_BITS_PER_SECOND;
+      if (isNarrow && !forNarrow) continue;
+      const message: Telemetry = {
+        type: 'telemetry',
+        sequence: this.#sequence,
+        timeMs: state.timeMs,
+        ...(state.measuredMs == null ? {} : { ageMs: Math.max(0, state.timeMs - state.measuredMs) }),
+        pose: state.pose,
+        twist: state.twist ?? zeroTwist(),
+        ...(state.battery === null ? {} : { battery: state.battery }),
+        drive: this.#status.drive(nowMs, state.contact),
+        motion,
+        ...operator.status(stages, nowMs),
+        operators: this.#operators.size,
+      };
+      const send = (each: TelemetryMessage | null) => {
+        if (each !== null) operator.peer.sendTelemetry(encodeJson(telemetryCodec, each));
+      };
+      send(message);
+      send(isNarrow ? nearNarrow : nearWide);
+      send(isNarrow ? newest : all);
+      send(reading);
+      if (!isNarrow || this.#sequence % (COMPONENTS_EVERY * NARROW_EVERY) === 0) send(reports);
+      const width = isNarrow ? 'narrow' : 'wide';
+      for (const each of navigation.next(operator, width, nowMs)) send(each);
+      const parts = model.nextParts(operator, width, nowMs);
+      if (parts !== null) operator.messages.send(parts);
+      send(model.nextJoints(operator, nowMs));
+    }
+  }
+
+  #tellOfModel(nowMs: number): void {
+    const reading = this.#board.model.reading(nowMs);
+    if (reading !== null) this.#board.readings.add(reading, nowMs);
+  }
+}
