@@ -18,8 +18,8 @@ export interface DriveCoreOptions extends DriveOptions, Pick<RobotOptions, 'sile
 
 /** Its ends: the wheels, the operators, and those who are told. */
 export interface DriveCoreParts
-  extends Omit<DriveParts, 'heard' | 'count'>,
-    Pick<RobotSessionHostParts, 'sensors' | 'videos' | 'commandLog' | 'now'>,
+  extends Omit<DriveParts, 'heard' | 'count' | 'audit'>,
+    Pick<RobotSessionHostParts, 'audit' | 'sensors' | 'videos' | 'commandLog' | 'now'>,
     Pick<PathKeeperOptions, 'signaling'> {
   operators: () => ReadonlyMap<string, HostedOperator & KeptOperator>;
   /** Operators besides those. */

@@ -1,4 +1,15 @@
-import type { ReadyFrame } from '../sense/capture/capture-messages.ts';
+/** What is counted of each cloud. */
+export interface CountedFrame {
+  points: number;
+  validPoints: number;
+  /** Until the next one, ms. */
+  intervalMs: number;
+  /** Points not sent, by reason. */
+  rejected: Readonly<Record<'notFinite' | 'nonPositiveDepth' | 'outOfRange' | 'notDrawn', number>>;
+  captureCpuMs: number;
+  sampleMs: number;
+  packMs: number;
+}
 
 /** Counts by typed reason. */
 export class ReasonCounts {
@@ -55,7 +66,7 @@ export class RobotCounters {
   lastFramesPerSecond = 0;
   lastValidPoints = 0;
 
-  frame(frame: ReadyFrame): void {
+  frame(frame: CountedFrame): void {
     this.framesCaptured++;
     this.pointsCaptured += frame.points;
     this.lastPoints = frame.points;

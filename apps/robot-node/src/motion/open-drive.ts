@@ -1,7 +1,15 @@
 import { randomBytes } from 'node:crypto';
-import type { AfterGap, DriveLimits, Intervention } from '@farpoint/protocol';
+import type {
+  AfterGap,
+  Command,
+  DriveLimits,
+  Intervention,
+  LatencyMeasured,
+  Twist,
+} from '@farpoint/protocol';
 import {
   BlindTravel,
+  type CommandVerdict,
   DriveGuard,
   type EstopReleasePolicy,
   MotionSupervisor,
@@ -9,11 +17,9 @@ import {
   ViewAge,
 } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
-import type { RobotAudit } from '../admit/audit/robot-audit.ts';
 import { monotonicMs } from '../ground/clock.ts';
 import type { VelocitySink } from '../ground/velocity-sink.ts';
 import { BaseOdometry } from '../sense/base/base-odometry.ts';
-import type { SessionRecording } from '../tell/session-recording.ts';
 import { DriveStation } from './drive/drive-station.ts';
 import { EstopJournal } from './drive/estop-journal.ts';
 import { InterventionReport } from './drive/intervention-report.ts';
@@ -24,7 +30,7 @@ import { type FenceOptions, openGeofence } from './geofence/open-geofence.ts';
 import type { ObstacleStation } from './obstacles/obstacle-station.ts';
 import { type HeardOperator, newestHeardMs } from './return/newest-heard.ts';
 import type { ReturnConfiguration } from './return/return-configuration.ts';
-import { ReturnStation } from './return/return-station.ts';
+import { type ReturnAudit, ReturnStation } from './return/return-station.ts';
 import { isConfigured, type RobotStopsOptions } from './stops/open-stops.ts';
 
 export interface DriveOptions {
@@ -47,12 +53,23 @@ export interface DriveOptions {
 }
 
 /** What a recording takes of driving. */
-export type DriveRecording = Pick<SessionRecording, 'velocity' | 'command' | 'latencyMeasured'>;
+export interface DriveRecording {
+  /** To the wheels. */
+  velocity(twist: Twist): void;
+  command(session: string, command: Command, verdict: CommandVerdict): void;
+  latencyMeasured(session: string, measured: LatencyMeasured): void;
+}
+
+/** What the audit log records of the robot's own doing. */
+export interface DriveAudit extends ReturnAudit {
+  /** @param reason why the emergency stop is latched at the start */
+  startsLatched(reason: string): void;
+}
 
 export interface DriveParts {
   sink: VelocitySink;
   recording: DriveRecording | null;
-  audit: RobotAudit;
+  audit: DriveAudit;
   /** Simulated wheels; `null` for real ones. */
   base: object | null;
   obstacles: ObstacleStation;
@@ -149,7 +166,7 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
 function openJournal(
   guard: DriveGuard,
   { id, stateFolder, stops }: DriveOptions,
-  audit: RobotAudit,
+  audit: DriveAudit,
   log: Logger,
 ): EstopJournal {
   const estop = new EstopJournal(stateFolder, id, (error) =>

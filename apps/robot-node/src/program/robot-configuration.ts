@@ -14,18 +14,12 @@ import type { RateControlOptions } from '../send/transport/make-rate-controller.
 import type { BaseOptions } from '../sense/base/base-messages.ts';
 import type { StreamMode } from '../sense/encode/stream-mode.ts';
 import type { PicturePolicy } from '../sense/pictures/picture-plan.ts';
-import type { FeedSource } from '../sense/video/feed/feed-source.ts';
+import type { SoundOptions } from '../sense/sound/open-sound-devices.ts';
 import type { BroadcastOptions } from '../serve/broadcast/broadcast-options.ts';
+import type { VideoCameraOptions } from '../serve/open-video-cameras.ts';
 import type { OperatorPlacesOptions } from '../serve/session/operator-places.ts';
 import type { AlarmRule } from '../tell/alarms/alarm-board.ts';
-import type { LiveOptions, RecordingOptions } from '../tell/session-recording.ts';
-import type { SoundOptions } from './options/sound.ts';
-import type { ConfiguredVideo } from './options/videos.ts';
-
-/** A camera that is streamed as video. */
-export interface VideoCameraOptions extends Omit<ConfiguredVideo, 'source'> {
-  source: Exclude<ConfiguredVideo['source'], { kind: 'ros' | 'sim' }> | FeedSource;
-}
+import type { LiveOptions, RecordingOptions } from '../tell/recording-options.ts';
 
 /** Everything that a robot is made of. */
 export interface RobotOptions extends RateControlOptions {

@@ -1,11 +1,26 @@
 import type { Logger } from '@farpoint/service';
-import { availableEncoders, chooseEncoders, VideoError } from '@farpoint/video';
-import type { VideoCameraOptions } from '../program/robot-configuration.ts';
+import { availableEncoders, chooseEncoders, VideoError, type VideoSource } from '@farpoint/video';
 import { CodecEncoders } from '../sense/video/codec-encoders.ts';
-import { isFeedSource } from '../sense/video/feed/feed-source.ts';
+import { type FeedSource, isFeedSource } from '../sense/video/feed/feed-source.ts';
 import { FeedThread } from '../sense/video/feed/feed-thread.ts';
 import { ProcessEncoder } from '../sense/video/process-encoder.ts';
 import type { VideoCamera } from '../sense/video/video-encoder.ts';
+
+/** A camera that is streamed as video. */
+export interface VideoCameraOptions {
+  name: string;
+  source: VideoSource | FeedSource;
+  /** `auto`, or the name of one. */
+  encoder: string;
+  /** At most, pixels. */
+  width: number;
+  height: number;
+  /** At most. */
+  framesPerS: number;
+  kbitPerS: number;
+  /** It is the depth camera's own colour picture: the clouds' lens, place and capture instants. */
+  ofCloud: boolean;
+}
 
 /**
  * The cameras that can be streamed as video. A robot drives without them, so one that cannot be encoded is left out, and

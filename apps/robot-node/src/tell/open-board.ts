@@ -1,15 +1,25 @@
-import { MAX_ALARMS, MAX_QUANTITIES } from '@farpoint/protocol';
+import { MAX_ALARMS, MAX_QUANTITIES, type Quantity } from '@farpoint/protocol';
+import type { TopicReading } from '@farpoint/ros';
 import type { Logger } from '@farpoint/service';
 import { monotonicMs } from '../ground/clock.ts';
-import type { RobotOptions } from '../program/robot-configuration.ts';
 import type { Capture } from '../sense/capture/capture.ts';
 import { NO_PLAYED_TELEMETRY, type PlayedTelemetry } from '../sense/sources/played-telemetry.ts';
+import type { AlarmRule } from './alarms/alarm-board.ts';
 import type { SessionRecording } from './session-recording.ts';
 import { TelemetryBoard } from './telemetry-board.ts';
 
+interface BoardOptions {
+  /** The numbers of its topics that are shown over time. */
+  quantities: readonly Quantity[];
+  /** Limits beyond which a value is an alarm. */
+  alarms: readonly AlarmRule[];
+  /** The model that operators see, as far as no topic tells it. */
+  model?: TopicReading | undefined;
+}
+
 /** The board of what the robot tells about itself, with what its source plays, and recorded if anything is. */
 export function openBoard(
-  { quantities, alarms, model }: Pick<RobotOptions, 'quantities' | 'alarms' | 'model'>,
+  { quantities, alarms, model }: BoardOptions,
   capture: Pick<Capture, 'description' | 'onTelemetry'>,
   recording: Pick<SessionRecording, 'telemetryTaker'> | null,
   log: Logger,

@@ -2,17 +2,17 @@ import { fileFault, JsonLinesFile, type Logger } from '@farpoint/service';
 import type { TimedBaseState } from '../ground/base.ts';
 import type { RobotCounters } from '../ground/robot-counters.ts';
 import type { MotionStatus } from '../motion/drive/motion-status.ts';
-import type { OperatorSession } from '../serve/session/operator-session.ts';
 import type { SessionRecording } from './session-recording.ts';
 import { streamStatistics } from './stream-statistics.ts';
 import type { TelemetryBoard } from './telemetry-board.ts';
 import type { TelemetrySender } from './telemetry-sender.ts';
+import type { TelemetryTarget } from './telemetry-target.ts';
 
 const TELEMETRY_MS = 50;
 const STATISTICS_MS = 100;
 
 export interface RobotReportsParts {
-  operators: ReadonlyMap<string, OperatorSession>;
+  operators: ReadonlyMap<string, TelemetryTarget>;
   counters: RobotCounters;
   telemetry: TelemetrySender;
   board: TelemetryBoard;

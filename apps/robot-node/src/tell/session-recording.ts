@@ -22,8 +22,6 @@ import type { Logger } from '@farpoint/service';
 import type { TimedBaseState } from '../ground/base.ts';
 import { monotonicMs } from '../ground/clock.ts';
 import type { MotionStatus } from '../motion/drive/motion-status.ts';
-import type { FOXGLOVE_REACHES } from '../program/options/foxglove.ts';
-import type { RecordedVideos } from '../program/options/recording.ts';
 import type { Capture, CaptureRecording } from '../sense/capture/capture.ts';
 import type { ReadyFrame } from '../sense/capture/capture-messages.ts';
 import type { ReadyPicture } from '../sense/pictures/picture-messages.ts';
@@ -31,38 +29,10 @@ import type { CameraDescription } from '../sense/sources/frame-source.ts';
 import type { VideoCamera } from '../sense/video/video-encoder.ts';
 import type { EncodedPicture } from '../sense/video/video-frame.ts';
 import type { VideoTaker } from '../sense/video/video-taker.ts';
+import type { RecordedVideos, SessionOutputs } from './recording-options.ts';
 import { durationWords, recordingBytesPerSecond, sizeWords } from './recording-rate.ts';
 import type { StreamStatistics } from './stream-statistics.ts';
 import type { TelemetryTaker } from './telemetry-taker.ts';
-
-export interface RecordingOptions {
-  /** Path of the MCAP file, which must not exist yet. */
-  path: string;
-  compression: 'none' | 'zstd';
-  /** Highest number of clouds per second; 0 records none. */
-  clouds: Readonly<Record<CloudKind, number>>;
-  videos: RecordedVideos;
-  /** The recording ends, complete, before it exceeds this size. */
-  mostBytes: number;
-}
-
-/** A server that shows live what a recording contains. */
-export interface LiveOptions {
-  port: number;
-  reach: (typeof FOXGLOVE_REACHES)[number];
-  /** Origins of web pages that may connect, besides the viewers' own and pages of this machine. */
-  allowedOrigins: readonly string[];
-  /** Of this machine, by which its own pages may connect. */
-  ownNames: readonly string[];
-  /** Highest number of clouds of each kind per second. */
-  cloudsPerSecond: number;
-}
-
-/** At least one of them. */
-export interface SessionOutputs {
-  record: RecordingOptions | null;
-  foxglove: LiveOptions | null;
-}
 
 const HOSTS = { localhost: '127.0.0.1', network: '0.0.0.0' } as const;
 const MOST_VIEWERS = 8;

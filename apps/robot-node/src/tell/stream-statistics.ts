@@ -1,7 +1,7 @@
 import type { RateSnapshot } from '@farpoint/congestion';
 import type { TimedBaseState } from '../ground/base.ts';
 import type { RobotCounters } from '../ground/robot-counters.ts';
-import type { OperatorSession } from '../serve/session/operator-session.ts';
+import type { TelemetryTarget } from './telemetry-target.ts';
 
 /** One operator's stream at one moment, for measurements. Totals count from the start of the session. */
 export interface StreamStatistics extends RateSnapshot {
@@ -24,7 +24,7 @@ export interface StreamStatistics extends RateSnapshot {
 }
 
 export function streamStatistics(
-  operators: Iterable<OperatorSession>,
+  operators: Iterable<TelemetryTarget>,
   state: TimedBaseState | null,
   { lastFramesPerSecond, lastPoints }: RobotCounters,
   timeMs: number,

@@ -11,9 +11,9 @@ import { BitRate } from '@farpoint/timing';
 import type { TimedBaseState } from '../ground/base.ts';
 import type { StageTimer } from '../ground/stage-timer.ts';
 import type { MotionStatus } from '../motion/drive/motion-status.ts';
-import type { OperatorSession } from '../serve/session/operator-session.ts';
 import { NearFieldRepeats } from './near-field-repeats.ts';
 import type { TelemetryBoard } from './telemetry-board.ts';
+import type { TelemetryTarget } from './telemetry-target.ts';
 
 /** On a path that carries less, telemetry is sent less often, because it would take a fifth of the path. */
 const NARROW_BITS_PER_SECOND = BitRate.fromMbps(1);
@@ -36,7 +36,7 @@ export interface Surroundings {
  * components' reports, up to five readings a second, the navigator's path and map, and its model and joints. Call `send` 20 times a second.
  */
 export class TelemetrySender {
-  readonly #operators: ReadonlyMap<string, OperatorSession>;
+  readonly #operators: ReadonlyMap<string, TelemetryTarget>;
   readonly #status: MotionStatus;
   readonly #stages: StageTimer;
   readonly #board: TelemetryBoard;
@@ -45,7 +45,7 @@ export class TelemetrySender {
   #sequence = 0;
 
   constructor(
-    operators: ReadonlyMap<string, OperatorSession>,
+    operators: ReadonlyMap<string, TelemetryTarget>,
     status: MotionStatus,
     stages: StageTimer,
     board: TelemetryBoard,

@@ -1,6 +1,16 @@
-import type { RobotOptions } from '../../program/robot-configuration.ts';
 import { GrantKeysFile } from './grant-keys-file.ts';
 import { RevocationJournal } from './revocation-journal.ts';
+
+export interface GrantOptions {
+  /** File with the keys whose grants admit operators; if undefined, everybody is admitted. */
+  grantKeys?: string | undefined;
+  /** Files with lists of revoked grants, besides those from the signaling service. */
+  revocations: readonly string[];
+  /** Where the robot remembers revoked grants across restarts. */
+  stateFolder: string;
+  /** Of the robot. */
+  id: string;
+}
 
 /** The files by which a robot decides whom it admits. */
 export interface GrantFiles {
@@ -20,7 +30,7 @@ export async function openGrantFiles({
   revocations,
   stateFolder,
   id,
-}: Pick<RobotOptions, 'grantKeys' | 'revocations' | 'stateFolder' | 'id'>): Promise<GrantFiles | null> {
+}: GrantOptions): Promise<GrantFiles | null> {
   if (grantKeys === undefined) return null;
   const keys = await GrantKeysFile.open(grantKeys);
   return { keys, journal: new RevocationJournal(stateFolder, id), revocations };

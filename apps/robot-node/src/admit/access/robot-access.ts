@@ -1,12 +1,16 @@
 import { shortHash } from '@farpoint/audit';
 import type { AdmissionRequest } from '@farpoint/grants';
-import { type EndSession, type FaultReason, MAX_REVOCATIONS_LENGTH } from '@farpoint/protocol';
+import {
+  type EndSession,
+  type FaultReason,
+  MAX_REVOCATIONS_LENGTH,
+  type RobotSessionMessage,
+} from '@farpoint/protocol';
 import { WatchedText } from '@farpoint/service';
 import { TokenBucket } from '@farpoint/timing';
 import type { ReasonCounts } from '../../ground/robot-counters.ts';
 import type { OperatorPeer } from '../../send/transport/operator-peer.ts';
-import type { OperatorMessages } from '../../serve/session/operator-messages.ts';
-import { noAccess } from './access.ts';
+import { type Access, noAccess } from './access.ts';
 import type { GrantFiles } from './grant-files.ts';
 import { GrantGate, type GrantGateOptions } from './grant-gate.ts';
 import type { GrantKeysFile } from './grant-keys-file.ts';
@@ -18,7 +22,13 @@ export const WARNING_S = 60;
 
 /** The parts of an operator's session that {@link RobotAccess} uses. */
 export interface GuardedOperator {
-  readonly messages: Pick<OperatorMessages, 'id' | 'access' | 'operatorName' | 'send'>;
+  readonly messages: {
+    readonly id: string;
+    /** What it may do. */
+    access: Access;
+    readonly operatorName: string;
+    send(message: RobotSessionMessage): void;
+  };
   readonly peer: Pick<OperatorPeer, 'connected' | 'close'>;
 }
 

@@ -1,7 +1,7 @@
 import type { Pose } from '@farpoint/protocol';
 import type { Corner } from '@farpoint/safety';
 import { type CameraOptions, DEFAULT_CAMERA, FLOOR_CAMERAS } from '@farpoint/sim';
-import type { CloudSensorOptions } from '../../send/clouds/cloud-sensor.ts';
+import type { CaptureOptions } from '../../sense/capture/capture-messages.ts';
 import { type GridShape, makeSharedGrid, SharedGridReader } from '../../sense/obstacles/shared-grid.ts';
 import type { SourceOptions } from '../../sense/sources/open-source.ts';
 import { opticalMount } from '../../sense/sources/sensor-mount.ts';
@@ -38,8 +38,8 @@ const SIM_FLOOR: readonly { looks: string; place: CameraOptions }[] = [
 export const GRID_SHAPE: GridShape = { side: 160, cellM: 0.05 };
 
 /** The sensors with the guard's part of their capture threads, and its ends of their grids. */
-export interface GuardedSensors {
-  sensors: readonly CloudSensorOptions[];
+export interface GuardedSensors<Sensor> {
+  sensors: readonly (Sensor & { capture: CaptureOptions })[];
   /** One for each guarded sensor; empty if the guard is off. */
   grids: readonly GuardedGrid[];
   /** Whether something is to say where the robot is. */
@@ -56,10 +56,10 @@ export interface GuardedGrid {
 }
 
 /** Gives the capture thread of each sensor whose place on the robot is known a grid to write to. */
-export function guardedSensors(
-  sensors: readonly CloudSensorOptions[],
+export function guardedSensors<Sensor extends { capture: CaptureOptions }>(
+  sensors: readonly Sensor[],
   configuration: ObstacleGuardConfiguration,
-): GuardedSensors {
+): GuardedSensors<Sensor> {
   const { mode, clearanceM, heightM, dropM, blankIsMissing = false } = configuration;
   if (mode === 'off') return { sensors, grids: [], odometry: false };
   const grids: GuardedGrid[] = [];

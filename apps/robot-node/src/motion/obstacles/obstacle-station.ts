@@ -21,16 +21,12 @@ import type { Capture } from '../../sense/capture/capture.ts';
 import type { SharedGridReader } from '../../sense/obstacles/shared-grid.ts';
 import type { GuardReport } from './guard-report.ts';
 import { GuardTopics } from './guard-topics.ts';
-import {
-  GRID_SHAPE,
-  type GuardedGrid,
-  type GuardedSensors,
-  type ObstacleGuardConfiguration,
-} from './guarded-sensors.ts';
+import { GRID_SHAPE, type GuardedGrid, type ObstacleGuardConfiguration } from './guarded-sensors.ts';
 
 export interface ObstacleStationOptions {
   configuration: ObstacleGuardConfiguration;
-  grids: GuardedSensors['grids'];
+  /** Empty if the guard is off. */
+  grids: readonly GuardedGrid[];
   /** Whether something is to say where the robot is; default: nothing. */
   odometry?: boolean;
   /** All of the robot's sensors. */

@@ -2,7 +2,6 @@
 import type { DriveLimits, ReturnEnd, ReturnState } from '@farpoint/protocol';
 import { type Lookout, ReturnDrive, type ReturnPhase } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
-import type { RobotAudit } from '../../admit/audit/robot-audit.ts';
 import { ReasonCounts } from '../../ground/robot-counters.ts';
 import type { BaseOdometry } from '../../sense/base/base-odometry.ts';
 import { ReturnAnnouncer } from './return-announcer.ts';
@@ -11,11 +10,17 @@ import type { ReturnConfiguration } from './return-configuration.ts';
 /** Odometry may say that the robot is by so much faster than it is allowed to be. */
 const FASTER = 1.5;
 
+/** What the audit log records of it. */
+export interface ReturnAudit {
+  /** @param end `null`: it has begun @param metres that it has come back */
+  returned(end: ReturnEnd | null, metres: number): void;
+}
+
 export interface ReturnStationParts {
   /** Of the robot. */
   limits: Pick<DriveLimits, 'maxLinear' | 'maxAngular'>;
   lookout: Lookout;
-  audit: Pick<RobotAudit, 'returned'>;
+  audit: ReturnAudit;
   log: Pick<Logger, 'info' | 'warn'>;
 }
 

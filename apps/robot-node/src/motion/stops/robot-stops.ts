@@ -4,7 +4,6 @@ import type { DriveGuard, RobotStop, RobotStopState } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import { monotonicMs } from '../../ground/clock.ts';
 import { LimitedLines } from '../../ground/limited-lines.ts';
-import type { RobotSessionHost } from '../../serve/session/robot-session-host.ts';
 import { openStops, type RobotStopsOptions } from './open-stops.ts';
 import { isWell, stopReading } from './stop-reading.ts';
 import type { StopSource } from './stop-source.ts';
@@ -105,7 +104,7 @@ export class RobotStops {
 /** Opens the stops that are configured. @param remembered those that held the emergency stop when the robot last ran */
 export function startStops(
   options: RobotStopsOptions,
-  host: Pick<RobotSessionHost, 'drive' | 'robotStopChanged'>,
+  host: { drive: Pick<StopsPort, 'guard'>; robotStopChanged: StopsPort['changed'] },
   remembered: readonly RobotStop[],
   tell: StopsPort['tell'],
   log: Logger,

@@ -1,6 +1,6 @@
 /** Tries the robot's microphone and loudspeaker. */
 import { LEAST_SOUND_BITS_PER_S, Loudspeaker, Microphone, type SoundFailure } from '@farpoint/sound';
-import type { SoundOptions } from '../options/sound.ts';
+import type { SoundOptions } from '../../sense/sound/open-sound-devices.ts';
 import type { SoundTrial } from './check-sound.ts';
 
 const LONGEST_MS = 6000;

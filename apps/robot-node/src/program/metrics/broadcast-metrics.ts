@@ -1,8 +1,11 @@
 import type { PulledMetrics } from '@farpoint/service';
-import type { Robot } from '../../robot.ts';
+import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of the broadcast. None if the robot does not have one. */
-export function addBroadcastMetrics(metrics: PulledMetrics, { broadcast }: Pick<Robot, 'broadcast'>): void {
+export function addBroadcastMetrics(
+  metrics: PulledMetrics,
+  { broadcast }: Pick<MeasuredRobot, 'broadcast'>,
+): void {
   if (broadcast === null) return;
   metrics.gauge('broadcast_up', '1 while the relay has the robot’s mountpoint', () => Number(broadcast.up));
   metrics.gauge('broadcast_viewers', 'Viewers at the relay', () => broadcast.viewers);

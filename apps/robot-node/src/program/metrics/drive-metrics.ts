@@ -1,9 +1,9 @@
 import type { PulledMetrics } from '@farpoint/service';
-import type { Robot } from '../../robot.ts';
+import type { MeasuredRobot } from './measured-robot.ts';
 import { addReturnMetrics } from './return-metrics.ts';
 
 /** Metrics of commands and the guard's verdicts. */
-export function addDriveMetrics(metrics: PulledMetrics, robot: Robot): void {
+export function addDriveMetrics(metrics: PulledMetrics, robot: MeasuredRobot): void {
   const { counters, base } = robot;
   metrics.sum('commands_accepted', 'Drive commands accepted', () => counters.commandsAccepted);
   metrics.sums('commands_rejected', 'Drive commands refused, by reason', 'reason', () =>

@@ -1,10 +1,13 @@
 import type { PulledMetrics } from '@farpoint/service';
 import { monotonicMs } from '../../ground/clock.ts';
 import type { GuardedSensorReport } from '../../motion/obstacles/guard-report.ts';
-import type { Robot } from '../../robot.ts';
+import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of the obstacle guard: what it sees, how old that is, and what it costs. */
-export function addGuardMetrics(metrics: PulledMetrics, { obstacles }: Pick<Robot, 'obstacles'>): void {
+export function addGuardMetrics(
+  metrics: PulledMetrics,
+  { obstacles }: Pick<MeasuredRobot, 'obstacles'>,
+): void {
   const report = () => obstacles.report(monotonicMs());
   const bySensor = (read: (sensor: GuardedSensorReport) => number) => () =>
     report().sensors.map((sensor): [string, number] => [sensor.name, read(sensor)]);

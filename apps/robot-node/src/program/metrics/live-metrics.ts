@@ -1,8 +1,11 @@
 import type { PulledMetrics } from '@farpoint/service';
-import type { Robot } from '../../robot.ts';
+import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of the server for Foxglove. None if there is none. */
-export function addLiveMetrics(metrics: PulledMetrics, { recording }: Pick<Robot, 'recording'>): void {
+export function addLiveMetrics(
+  metrics: PulledMetrics,
+  { recording }: Pick<MeasuredRobot, 'recording'>,
+): void {
   if (recording === null || recording.live === null) return;
   const report = () => recording.live?.report ?? null;
   metrics.gauge('foxglove_listening', 'Whether viewers can connect', () => Number(recording.live?.listening));

@@ -1,11 +1,14 @@
 import type { RateSnapshot } from '@farpoint/congestion';
 import type { PulledMetrics } from '@farpoint/service';
 import { datagramsSent } from '@farpoint/webrtc';
-import type { Robot } from '../../robot.ts';
 import type { StreamSender } from '../../send/transport/stream-sender.ts';
+import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of the paths to the connected operators: what they carry, and what was sent, resent and dropped. */
-export function addPathMetrics(metrics: PulledMetrics, { operators }: Pick<Robot, 'operators'>): void {
+export function addPathMetrics(
+  metrics: PulledMetrics,
+  { operators }: Pick<MeasuredRobot, 'operators'>,
+): void {
   const senders = () => [...operators.values()].flatMap(({ sender }) => (sender === null ? [] : [sender]));
   const total = (read: (sender: StreamSender) => number) => () =>
     senders().reduce((sum, sender) => sum + read(sender), 0);

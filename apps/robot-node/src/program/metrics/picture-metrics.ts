@@ -1,9 +1,12 @@
 import type { PulledMetrics } from '@farpoint/service';
-import type { Robot } from '../../robot.ts';
 import type { OperatorSession } from '../../serve/session/operator-session.ts';
+import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of camera pictures: made, lost, sent. None if the robot has no camera. */
-export function addPictureMetrics(metrics: PulledMetrics, { cameras: { pictures }, operators }: Robot): void {
+export function addPictureMetrics(
+  metrics: PulledMetrics,
+  { cameras: { pictures }, operators }: MeasuredRobot,
+): void {
   if (pictures === null) return;
   const made = pictures.counters;
   const total = (read: (operator: OperatorSession) => number) => () =>

@@ -1,8 +1,11 @@
 import type { PulledMetrics } from '@farpoint/service';
-import type { Robot } from '../../robot.ts';
+import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of the reference profile. None if the robot does not have it. */
-export function addReferenceMetrics(metrics: PulledMetrics, { reference }: Pick<Robot, 'reference'>): void {
+export function addReferenceMetrics(
+  metrics: PulledMetrics,
+  { reference }: Pick<MeasuredRobot, 'reference'>,
+): void {
   if (reference === null) return;
   const ofStream = (name: 'framesSent' | 'packetsSent' | 'bytesSent') => () =>
     reference.operator?.sender?.counters[name] ?? 0;

@@ -1,9 +1,9 @@
 import { PulledMetrics, type Registry } from '@farpoint/service';
-import type { Robot } from '../../robot.ts';
 import { addBroadcastMetrics } from './broadcast-metrics.ts';
 import { addDriveMetrics } from './drive-metrics.ts';
 import { addGuardMetrics } from './guard-metrics.ts';
 import { addLiveMetrics } from './live-metrics.ts';
+import type { MeasuredRobot } from './measured-robot.ts';
 import { addPathMetrics } from './path-metrics.ts';
 import { addPictureMetrics } from './picture-metrics.ts';
 import { addRecordingMetrics } from './recording-metrics.ts';
@@ -15,7 +15,7 @@ import { addSoundMetrics } from './sound-metrics.ts';
 import { addVideoMetrics } from './video-metrics.ts';
 
 /** Registers all of the robot's counts for `/metrics`. */
-export function registerRobotMetrics(registry: Registry, robot: Robot): void {
+export function registerRobotMetrics(registry: Registry, robot: MeasuredRobot): void {
   const metrics = new PulledMetrics(registry, 'farpoint_robot');
   addSessionMetrics(metrics, robot);
   addSignalingMetrics(metrics, robot);

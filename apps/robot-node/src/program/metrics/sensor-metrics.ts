@@ -1,8 +1,8 @@
 import type { PulledMetrics } from '@farpoint/service';
-import type { Robot } from '../../robot.ts';
+import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of what the sensors captured, and what became of their points. */
-export function addSensorMetrics(metrics: PulledMetrics, { counters, sensors }: Robot): void {
+export function addSensorMetrics(metrics: PulledMetrics, { counters, sensors }: MeasuredRobot): void {
   metrics.sum('frames_captured', 'Clouds captured', () => counters.framesCaptured);
   metrics.sum(
     'frames_without_buffer',

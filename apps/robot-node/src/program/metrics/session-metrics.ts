@@ -1,8 +1,8 @@
 import type { PulledMetrics } from '@farpoint/service';
-import type { Robot } from '../../robot.ts';
+import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of operators' sessions: how they began, why they ended, and what was refused. */
-export function addSessionMetrics(metrics: PulledMetrics, { counters, operators }: Robot): void {
+export function addSessionMetrics(metrics: PulledMetrics, { counters, operators }: MeasuredRobot): void {
   const { sessionsEnded, resumesRefused, answersIgnored, candidatesRefused, datagramsRefused } = counters;
   metrics.sum('sessions_opened', 'Sessions that operators requested', () => counters.sessionsOpened);
   metrics.sum('sessions_refused', 'Sessions refused: too many operators', () => counters.sessionsRefused);

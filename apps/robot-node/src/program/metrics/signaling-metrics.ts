@@ -1,8 +1,8 @@
 import type { PulledMetrics } from '@farpoint/service';
-import type { Robot } from '../../robot.ts';
+import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of the connection to the signaling service. */
-export function addSignalingMetrics(metrics: PulledMetrics, { counters, signaling }: Robot): void {
+export function addSignalingMetrics(metrics: PulledMetrics, { counters, signaling }: MeasuredRobot): void {
   metrics.sums('signaling_errors', 'Errors reported by signaling, by code', 'code', () =>
     counters.signalingErrors.entries(),
   );

@@ -1,8 +1,8 @@
 import type { PulledMetrics } from '@farpoint/service';
-import type { Robot } from '../../robot.ts';
+import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of the robot's microphone and loudspeaker. None if it has neither. */
-export function addSoundMetrics(metrics: PulledMetrics, { sound, operators }: Robot): void {
+export function addSoundMetrics(metrics: PulledMetrics, { sound, operators }: MeasuredRobot): void {
   const { microphone, loudspeaker, hasMicrophone } = sound;
   if (hasMicrophone) {
     metrics.gauge('sound_listeners', 'Operators who are sent the microphone’s sound', () => sound.listeners);

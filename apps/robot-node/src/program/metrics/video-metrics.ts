@@ -1,9 +1,12 @@
 import type { PulledMetrics } from '@farpoint/service';
-import type { Robot } from '../../robot.ts';
 import type { VideoStream } from '../../sense/video/video-stream.ts';
+import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of the cameras that are streamed as video. None if the robot has no such camera. */
-export function addVideoMetrics(metrics: PulledMetrics, { cameras: { videos }, operators }: Robot): void {
+export function addVideoMetrics(
+  metrics: PulledMetrics,
+  { cameras: { videos }, operators }: MeasuredRobot,
+): void {
   const { streams } = videos;
   if (streams.length === 0) return;
   const each = (read: (stream: VideoStream) => number) => () =>

@@ -1,8 +1,6 @@
 /** The live server for Foxglove and Lichtblick. */
 import { defineOption, optionGroup, schema } from '@farpoint/service';
-
-/** Who can reach the server: programs on this machine, or everybody in its networks. */
-export const FOXGLOVE_REACHES = ['localhost', 'network'] as const;
+import { FOXGLOVE_REACHES } from '../../tell/recording-options.ts';
 
 export const foxgloveOptions = optionGroup('foxglove', {
   foxglovePort: defineOption({

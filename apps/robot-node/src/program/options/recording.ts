@@ -1,13 +1,8 @@
 /** What is recorded. */
 import { defineOption, optionGroup, schema } from '@farpoint/service';
+import { RECORDED_VIDEOS } from '../../tell/recording-options.ts';
 
 export const RECORDED_CLOUDS = ['sent', 'captured', 'both', 'none'] as const;
-/**
- * Which videos are recorded: `always`, for which cameras are encoded while nobody watches, too; only while an operator
- * watches them; or none.
- */
-export const RECORDED_VIDEOS = ['always', 'watched', 'none'] as const;
-export type RecordedVideos = (typeof RECORDED_VIDEOS)[number];
 
 /** A file that contains only its topics takes some 20 kB. */
 const LEAST_BYTES = 1_000_000;

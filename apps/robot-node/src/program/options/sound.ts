@@ -7,10 +7,11 @@ import {
   soundSourceSchema,
 } from '@farpoint/sound';
 import * as z from 'zod';
+import type { SoundOptions } from '../../sense/sound/open-sound-devices.ts';
 
 const [least, most] = [LEAST_SOUND_BITS_PER_S / 1000, MOST_SOUND_BITS_PER_S / 1000];
 
-const soundSchema = z.strictObject({
+const soundSchema: z.ZodType<SoundOptions> = z.strictObject({
   microphone: z
     .strictObject({
       source: soundSourceSchema,
@@ -25,7 +26,6 @@ const soundSchema = z.strictObject({
     .max(most, `must be at most ${most}`)
     .default(32),
 });
-export type SoundOptions = z.output<typeof soundSchema>;
 
 export const soundOptions = {
   sound: defineOption({

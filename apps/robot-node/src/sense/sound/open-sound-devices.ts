@@ -1,7 +1,21 @@
 import type { Logger } from '@farpoint/service';
-import { Loudspeaker, Microphone, type SoundFailure } from '@farpoint/sound';
-import type { SoundOptions } from '../../program/options/sound.ts';
+import {
+  Loudspeaker,
+  type LoudspeakerOptions,
+  Microphone,
+  type MicrophoneOptions,
+  type SoundFailure,
+} from '@farpoint/sound';
 import type { SoundDevices } from './sound-devices.ts';
+
+/** A microphone and a loudspeaker, as far as there are any. */
+export interface SoundOptions {
+  /** `dtx`: sends less while it is quiet. */
+  microphone?: Pick<MicrophoneOptions, 'source' | 'dtx'> | undefined;
+  loudspeaker?: Pick<LoudspeakerOptions, 'sink'> | undefined;
+  /** Of the microphone. */
+  kbitPerS: number;
+}
 
 /** What the robot captures and plays with. Nothing is opened before it is needed. */
 export function openSoundDevices(options: SoundOptions, log: Logger): SoundDevices {

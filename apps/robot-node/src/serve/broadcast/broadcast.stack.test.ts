@@ -97,7 +97,7 @@ describe.skipIf(!hasJanus || !hasVideo)(
     });
 
     it('goes on for all others when a viewer stalls', async () => {
-      const script = join(import.meta.dirname, '..', 'testing', 'janus-viewer-process.ts');
+      const script = join(import.meta.dirname, '..', '..', 'testing', 'janus-viewer-process.ts');
       const stalled = spawn(process.execPath, [script, janus.url, '7', 'look'], {
         stdio: ['ignore', 'pipe', 'inherit'],
       });

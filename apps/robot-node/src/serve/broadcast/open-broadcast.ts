@@ -1,16 +1,21 @@
 import type { VideoCodec } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
 import { monotonicMs } from '../../ground/clock.ts';
-import type { RobotOptions } from '../../program/robot-configuration.ts';
+import type { CloudSensorOptions } from '../../send/clouds/cloud-sensor.ts';
 import type { CloudSensors } from '../../send/clouds/cloud-sensors.ts';
 import type { SendLoop } from '../../send/transport/send-loop.ts';
 import type { VideoCamera } from '../../sense/video/video-encoder.ts';
 import type { RobotCameras } from '../robot-cameras.ts';
 import { Broadcast } from './broadcast.ts';
+import type { BroadcastOptions } from './broadcast-options.ts';
 
 /** @returns `null` if the robot is not to broadcast */
 export function openBroadcast(
-  { broadcast: options, name, sensors }: Pick<RobotOptions, 'broadcast' | 'name' | 'sensors'>,
+  {
+    broadcast: options,
+    name,
+    sensors,
+  }: { broadcast?: BroadcastOptions | undefined; name: string; sensors: readonly CloudSensorOptions[] },
   /** Read when they are needed: they may be made later. */
   robot: { readonly sensors: CloudSensors; readonly cameras: RobotCameras },
   { videos, sendLoop, log }: { videos: readonly VideoCamera[]; sendLoop: SendLoop; log: Logger },

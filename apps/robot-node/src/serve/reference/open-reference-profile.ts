@@ -1,8 +1,17 @@
+import type { IceServer } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
-import type { RobotOptions } from '../../program/robot-configuration.ts';
-import { makeRateController } from '../../send/transport/make-rate-controller.ts';
+import type { SignalingOptions } from '../../admit/signaling/signaling-client.ts';
+import { makeRateController, type RateControlOptions } from '../../send/transport/make-rate-controller.ts';
 import type { RobotSessionHost } from '../session/robot-session-host.ts';
 import { ReferenceProfile, type ReferenceProfileOptions } from './reference-profile.ts';
+
+interface ReferenceOptions extends RateControlOptions {
+  /** The reference signaling service's port for robots; if undefined, the robot is not visible there. */
+  referenceSignaling?: string | undefined;
+  name: string;
+  signaling: Pick<SignalingOptions, 'ca'>;
+  iceServers: IceServer[];
+}
 
 type ReferenceProfileParts = Pick<ReferenceProfileOptions, 'packetLog' | 'sendLoop' | 'onBudgetChanged'> & {
   peer: Omit<ReferenceProfileOptions['peer'], 'iceServers'>;
@@ -10,7 +19,7 @@ type ReferenceProfileParts = Pick<ReferenceProfileOptions, 'packetLog' | 'sendLo
 
 /** @returns `null` if the robot is not to be visible to the reference system's operators */
 export function openReferenceProfile(
-  options: RobotOptions,
+  options: ReferenceOptions,
   { peer, ...parts }: ReferenceProfileParts,
   host: RobotSessionHost,
   log: Logger,

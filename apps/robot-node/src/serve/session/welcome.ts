@@ -1,6 +1,14 @@
-import { type Alarm, PROTOCOL_VERSION, type Quantity, type RobotBody } from '@farpoint/protocol';
-import type { RobotOptions } from '../../program/robot-configuration.ts';
-import type { CloudSensor } from '../../send/clouds/cloud-sensor.ts';
+import {
+  type AfterGap,
+  type Alarm,
+  type DriveLimits,
+  PROTOCOL_VERSION,
+  type Quantity,
+  type RobotBody,
+} from '@farpoint/protocol';
+import type { MotionLimits } from '../../motion/drive/motion-limits.ts';
+import type { ObstacleGuardConfiguration } from '../../motion/obstacles/guarded-sensors.ts';
+import type { CloudSensor, CloudSensorOptions } from '../../send/clouds/cloud-sensor.ts';
 import type { CloudSensors } from '../../send/clouds/cloud-sensors.ts';
 import { codecFault } from '../../send/video/codec-fault.ts';
 import { FLOOR_SLOPE } from '../../sense/obstacles/floor-slope.ts';
@@ -10,11 +18,16 @@ import type { OperatorSession } from './operator-session.ts';
 /** Of an elevation in radians: far finer than the angle between two rings of any LiDAR. */
 const ELEVATION_DIGITS = 5;
 
-export interface WelcomeFacts
-  extends Pick<
-    RobotOptions,
-    'id' | 'name' | 'limits' | 'afterGap' | 'resumeWithinMs' | 'sensors' | 'motion' | 'obstacleGuard'
-  > {
+export interface WelcomeFacts {
+  /** Of the robot. */
+  id: string;
+  name: string;
+  limits: DriveLimits;
+  afterGap: AfterGap;
+  resumeWithinMs: number;
+  sensors: readonly CloudSensorOptions[];
+  motion: MotionLimits;
+  obstacleGuard: ObstacleGuardConfiguration;
   quantities: readonly Quantity[];
   /** Those that are raised. */
   alarms: readonly Alarm[];
