@@ -1,7 +1,7 @@
 /** Who drives the robot, and what this operator may do. */
 import type { RobotClient } from '@farpoint/operator';
 import { computed } from '@preact/signals-core';
-import { holderWords } from '../status/words.ts';
+import { holderWords } from '../words/words.ts';
 import type { Sampler } from './sampler.ts';
 
 export type DrivingState = ReturnType<typeof drivingState>;

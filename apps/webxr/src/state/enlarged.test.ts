@@ -1,6 +1,6 @@
 import { signal } from '@preact/signals-core';
 import { expect, test } from 'vitest';
-import type { CameraView } from '../pictures/camera-view.ts';
+import type { CameraView } from '../ground/pictures/camera-view.ts';
 import { Enlarged } from './enlarged.ts';
 
 function bench() {

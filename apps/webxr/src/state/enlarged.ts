@@ -1,6 +1,6 @@
 /** Which of the cameras is shown enlarged. */
 import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
-import type { CameraView } from '../pictures/camera-view.ts';
+import type { CameraView } from '../ground/pictures/camera-view.ts';
 
 export class Enlarged {
   readonly #views: ReadonlySignal<readonly CameraView[]>;

@@ -1,8 +1,8 @@
 /** The link: the state of the signaling service, the robots it lists, the chosen robot, and the session with it. */
 import { type RobotClient, robotAfter } from '@farpoint/operator';
 import { computed } from '@preact/signals-core';
-import { obstacleOf } from '../status/access-words.ts';
-import { linkWords, type Words } from '../status/words.ts';
+import { obstacleOf } from '../words/access-words.ts';
+import { linkWords, type Words } from '../words/words.ts';
 import type { Sampler } from './sampler.ts';
 
 export type LinkState = ReturnType<typeof linkState>;

@@ -1,6 +1,6 @@
 /** Notices to the operator: a line that disappears by itself, and a failure that keeps the page from working. */
 import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
-import type { Tone, Words } from '../status/words.ts';
+import type { Tone, Words } from '../words/words.ts';
 
 const SHOWN_MS = 5000;
 

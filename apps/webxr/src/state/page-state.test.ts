@@ -3,9 +3,9 @@ import { ComponentReports, Readings } from '@farpoint/operator';
 import type { EstopState, LeaseState, RobotListing, Telemetry, Welcome } from '@farpoint/protocol';
 import { effect } from '@preact/signals-core';
 import { describe, expect, test } from 'vitest';
-import { PanelPlacements } from '../panels/panel-placements.ts';
-import type { PageStats } from '../status/page-stats.ts';
+import { PanelPlacements } from '../ground/panels/panel-placements.ts';
 import { RobotVoice } from '../testing/robot-voice.ts';
+import type { PageStats } from '../words/page-stats.ts';
 import { Notices } from './notices.ts';
 import { PageState } from './page-state.ts';
 

@@ -5,13 +5,13 @@
  */
 import type { RobotClient } from '@farpoint/operator';
 import { computed, effect, type ReadonlySignal, type Signal, signal } from '@preact/signals-core';
-import type { PanelPlacements } from '../panels/panel-placements.ts';
-import { CameraPictures } from '../pictures/camera-pictures.ts';
-import type { CameraView } from '../pictures/camera-view.ts';
-import type { Settings } from '../settings.ts';
-import { SoundState } from '../sound/sound-state.ts';
-import type { PageStats } from '../status/page-stats.ts';
-import { VideoViews } from '../video/video-views.ts';
+import type { PanelPlacements } from '../ground/panels/panel-placements.ts';
+import { CameraPictures } from '../ground/pictures/camera-pictures.ts';
+import type { CameraView } from '../ground/pictures/camera-view.ts';
+import type { Settings } from '../ground/settings.ts';
+import { Switches } from '../ground/switches.ts';
+import { VideoViews } from '../take/video/video-views.ts';
+import type { PageStats } from '../words/page-stats.ts';
 import { type DrivingState, drivingState } from './driving-state.ts';
 import { Enlarged } from './enlarged.ts';
 import { LinkPriority } from './link-priority.ts';
@@ -19,8 +19,8 @@ import { type LinkState, linkState } from './link-state.ts';
 import type { Notices } from './notices.ts';
 import { type RobotState, robotState } from './robot-state.ts';
 import { Sampler } from './sampler.ts';
+import { SoundState } from './sound-state.ts';
 import { Staged } from './staged.ts';
-import { Switches } from './switches.ts';
 
 /**
  * Events that take a sample at once, so that people see the new state. Otherwise samples are taken a few times a

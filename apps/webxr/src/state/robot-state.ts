@@ -1,9 +1,9 @@
 /** What the robot has reported in this session. */
 import type { RobotClient } from '@farpoint/operator';
-import { nearView } from '../near-field/near-view.ts';
-import { alarmWords, raisedFirst } from '../status/alarm-words.ts';
-import { motionWords, obstacleGuardWords, speedWords } from '../status/motion-words.ts';
-import { readingsWithNavigation } from '../status/navigation-words.ts';
+import { nearView } from '../ground/near-field/near-view.ts';
+import { alarmWords, raisedFirst } from '../words/alarm-words.ts';
+import { motionWords, obstacleGuardWords, speedWords } from '../words/motion-words.ts';
+import { readingsWithNavigation } from '../words/navigation-words.ts';
 import type { Sampler } from './sampler.ts';
 
 export type RobotState = ReturnType<typeof robotState>;

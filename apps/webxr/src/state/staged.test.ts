@@ -1,6 +1,6 @@
 import { signal } from '@preact/signals-core';
 import { expect, test } from 'vitest';
-import type { CameraView } from '../pictures/camera-view.ts';
+import type { CameraView } from '../ground/pictures/camera-view.ts';
 import { Staged } from './staged.ts';
 
 const camera = (name: string) => ({ camera: { name, on: signal(true) } }) as unknown as CameraView;

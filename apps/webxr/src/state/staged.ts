@@ -1,6 +1,6 @@
 /** Which camera has changed places with the cloud: it fills the screen, and the cloud is in its panel. */
 import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
-import type { CameraView } from '../pictures/camera-view.ts';
+import type { CameraView } from '../ground/pictures/camera-view.ts';
 
 export class Staged {
   readonly #chosen = signal<CameraView | null>(null);

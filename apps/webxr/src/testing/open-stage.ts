@@ -4,7 +4,7 @@ import { CloudWorkerHere } from '@farpoint/operator/testing/cloud-worker-here';
 import { MemoryWorkerHere } from '@farpoint/operator/testing/memory-worker-here';
 import { PictureWorkerWatched } from '@farpoint/operator/testing/picture-worker-watched';
 import { ScriptedLink } from '@farpoint/operator/testing/scripted-link';
-import type { App } from '../app.ts';
+import type { App } from '../page/app.ts';
 import { ScriptedRobot } from './scripted-robot.ts';
 import { StageControl } from './stage-control.ts';
 import { isStageState, STAGE_STATES } from './stage-states.ts';

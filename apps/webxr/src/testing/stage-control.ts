@@ -11,7 +11,7 @@ import {
   stampUsOf,
   writePictureChunk,
 } from '@farpoint/protocol';
-import type { App } from '../app.ts';
+import type { App } from '../page/app.ts';
 import { bytesOf, type CloudFile, placed } from './cloud-file.ts';
 import type { ScriptedRobot } from './scripted-robot.ts';
 import { type PictureOptions, type Rgb, ScriptedVideos } from './scripted-videos.ts';

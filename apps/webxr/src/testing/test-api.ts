@@ -13,13 +13,13 @@ import type {
   VideoCodec,
 } from '@farpoint/operator';
 import type { DriveState, LatencyFrame } from '@farpoint/protocol';
-import type { HeadsetView } from '../headset/rig-pose.ts';
-import type { NearHit } from '../near-field/directions.ts';
-import type { RobotFigures } from '../robot-model/robot-figures.ts';
-import type { PageStats } from '../status/page-stats.ts';
-import type { DrivePath } from '../view/drive-path.ts';
-import type { NearRing } from '../view/near-ring.ts';
-import type { ViewFigures } from '../view/predicted-view.ts';
+import type { NearHit } from '../ground/near-field/directions.ts';
+import type { HeadsetView } from '../scene/headset/rig-pose.ts';
+import type { RobotFigures } from '../scene/robot-model/robot-figures.ts';
+import type { DrivePath } from '../scene/view/drive-path.ts';
+import type { NearRing } from '../scene/view/near-ring.ts';
+import type { ViewFigures } from '../scene/view/predicted-view.ts';
+import type { PageStats } from '../words/page-stats.ts';
 import type { DriveRecording } from './drive-record.ts';
 
 export interface PageState {

@@ -3,9 +3,9 @@
 import { bodyYaw, opticalYaw } from '@farpoint/cloud-view';
 import { LATENCY_TEST_COLOUR, type Pose, SOUND_MEDIA, sequenceDelta32 } from '@farpoint/protocol';
 import { Quaternion, Vector3 } from 'three';
-import type { App } from '../app.ts';
-import { nearestHits } from '../near-field/directions.ts';
-import { nearDetails, nearWords } from '../status/near-words.ts';
+import { nearestHits } from '../ground/near-field/directions.ts';
+import type { App } from '../page/app.ts';
+import { nearDetails, nearWords } from '../words/near-words.ts';
 import { DriveRecord } from './drive-record.ts';
 import { PacketRecord } from './packet-record.ts';
 import { PresentationRecord } from './presentation-record.ts';

@@ -1,7 +1,7 @@
 /** `window.farpointWatch`: what end-to-end tests and benchmarks can read from the watchers' page. */
 import type { Distribution, WatchState } from '@farpoint/operator';
-import type { VideoStats } from '../video/video-figures.ts';
-import type { WatchApp } from '../watch/watch-app.ts';
+import type { WatchApp } from '../page/watch/watch-app.ts';
+import type { VideoStats } from '../take/video/video-figures.ts';
 
 export interface WatchStats {
   state: WatchState;

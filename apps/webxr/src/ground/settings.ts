@@ -1,0 +1,194 @@
+/** The page's settings, from its address and from local storage. They are checked here and trusted everywhere else. */
+
+import { type BridgeAddress, isPrivateAddress, parseBridge, parseSignalingUrl } from '@farpoint/operator';
+import { displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
+import { type HeadsetSettings, parseHeadset } from './headset-settings.ts';
+import { parseTokens, type SignalingTokens, tokenOrigin, withToken } from './signaling-tokens.ts';
+import { type MapTiles, mapTilesOf } from './telemetry/map-tiles.ts';
+import { VIDEO_RECEIVERS, type VideoReceiverName } from './video-receiver-name.ts';
+
+/** What the browser keeps between visits. */
+export interface StoredSettings {
+  signaling?: string | undefined;
+  tokens?: SignalingTokens | undefined;
+  /** Tokens that came in the address; kept until the tab is closed. */
+  visitTokens?: SignalingTokens | undefined;
+  name?: string | undefined;
+  pointScale?: number | undefined;
+  synchronised?: boolean | undefined;
+  cues?: boolean | undefined;
+  /** Address template of a map's tiles, and whose they are. */
+  mapTiles?: string | undefined;
+  mapAttribution?: string | undefined;
+  headset?: HeadsetSettings | undefined;
+}
+
+/** Where the page was loaded from. */
+export interface PageOrigin {
+  protocol: string;
+  hostname: string;
+  host: string;
+  isDevServer: boolean;
+}
+
+export interface Settings {
+  /** WebSocket address of the operators' endpoint. */
+  signalingUrl: string;
+  /** Why the given address cannot be used; `null` if it can, or if none was given. */
+  signalingFault: string | null;
+  token: string | undefined;
+  name: string;
+  /** The bridge that the stream comes from; `null` to connect to robots directly. */
+  bridge: BridgeAddress | null;
+  /** Id of the robot to connect to as soon as it is listed. */
+  robot: string | null;
+  /** `relay`: connect through TURN servers only. */
+  icePolicy: 'all' | 'relay';
+  /** Fixed size of the canvas in pixels, for benchmarks and tests. */
+  canvas: { width: number; height: number } | null;
+  /** Whether each picture is waited for until the GPU has finished it, so that its time is known. It costs frames. */
+  measure: boolean;
+  /** `points64`: refuse the coded formats. */
+  mode: 'auto' | 'points64';
+  /** Draw only every n-th point, for benchmarks with an emulated GPU; `null`: draw as many as possible. */
+  drawEvery: number | null;
+  /** Whether clouds of depth cameras are drawn as surfaces; `null`: as was chosen before, or as suits the renderer. */
+  surface: boolean | null;
+  /** Whether what was seen is remembered; `null`: as was chosen before, or as suits the renderer. */
+  memory: boolean | null;
+  /** Whether surfaces are painted with the video of their camera; `null`: as was chosen before, or yes. */
+  paint: boolean | null;
+  pointScale: number;
+  /** Whether videos are presented in step: frames wait for what was captured at the same time. */
+  synchronised: boolean;
+  /** Whether sound and vibration tell that the robot does less than it is told. */
+  cues: boolean;
+  /** How the headset shows and is held. */
+  headset: HeadsetSettings;
+  /** Whether the view is led by the operator's commands. */
+  predict: boolean;
+  /** Where tiles of a map come from; `null`: no tile is fetched. */
+  mapTiles: MapTiles | null;
+  /** How videos are received; `null`: as suits this browser best. */
+  videoReceiver: VideoReceiverName | null;
+  /** Whether the robot draws the capture time into videos, to measure latency. */
+  barcode: boolean;
+}
+
+/** Port of the signaling service if something else serves the page. */
+export const DEFAULT_SIGNALING_PORT = 3000;
+const MAX_CANVAS = 8192;
+
+/** The page's own signaling service: the one that serves the page, or the one beside a development server. */
+export function ownSignalingUrl(page: PageOrigin): string {
+  const host = page.isDevServer ? `${page.hostname || 'localhost'}:${DEFAULT_SIGNALING_PORT}` : page.host;
+  return `${page.protocol === 'https:' ? 'wss' : 'ws'}://${host}/operator`;
+}
+
+/** @param query the page's query string */
+export function readSettings(query: URLSearchParams, stored: StoredSettings, page: PageOrigin): Settings {
+  const secure = page.protocol === 'https:';
+  const own = ownSignalingUrl(page);
+  const inQuery = nonEmpty(query.get('signaling'));
+  const asked = inQuery ?? nonEmpty(stored.signaling);
+  const given = asked === undefined ? null : parseSignalingUrl(asked, secure);
+  const signalingUrl = given !== null && 'url' in given ? given.url : own;
+  const name = nonEmpty(query.get('name')) ?? nonEmpty(stored.name) ?? 'Operator';
+  // A token in the query belongs to the service in the query, or else to the page's own service.
+  const cameFor = inQuery === undefined ? own : given !== null && 'url' in given ? given.url : null;
+  const isForHere = cameFor !== null && tokenOrigin(cameFor) === tokenOrigin(signalingUrl);
+  const origin = tokenOrigin(signalingUrl);
+  const token =
+    (isForHere ? nonEmpty(query.get('token')) : undefined) ??
+    stored.visitTokens?.get(origin) ??
+    stored.tokens?.get(origin);
+  const hasToken = token !== undefined && tokenSchema.safeParse(token).success;
+  const mayTell = isPrivateAddress(signalingUrl);
+  const robot = nonEmpty(query.get('robot'));
+  return {
+    signalingUrl,
+    signalingFault:
+      given !== null && 'fault' in given
+        ? given.fault
+        : hasToken && !mayTell
+          ? 'your token is sent to a wss: address only: open the page at its https address'
+          : null,
+    token: hasToken && mayTell ? token : undefined,
+    name: displayNameSchema.safeParse(name).success ? name : 'Operator',
+    bridge: parseBridge(query.get('bridge') ?? '', query.get('bridge-signaling')),
+    robot: robot !== undefined && robotIdSchema.safeParse(robot).success ? robot : null,
+    icePolicy: query.get('ice') === 'relay' ? 'relay' : 'all',
+    canvas: parseCanvas(query.get('canvas')),
+    measure: parseSwitch(query.get('measure')) ?? false,
+    mode: query.get('mode') === 'points64' ? 'points64' : 'auto',
+    drawEvery: parseEvery(query.get('every')),
+    surface: parseSwitch(query.get('surface')) ?? null,
+    memory: parseSwitch(query.get('memory')) ?? null,
+    paint: parseSwitch(query.get('paint')) ?? null,
+    pointScale: clampScale(stored.pointScale),
+    synchronised: parseSwitch(query.get('sync')) ?? stored.synchronised ?? true,
+    cues: parseSwitch(query.get('cues')) ?? stored.cues ?? true,
+    headset: parseHeadset(stored.headset),
+    predict: parseSwitch(query.get('predict')) ?? true,
+    mapTiles: mapTilesOf(stored.mapTiles, stored.mapAttribution, page),
+    videoReceiver: VIDEO_RECEIVERS.find((name) => name === query.get('video')) ?? null,
+    barcode: parseSwitch(query.get('barcode')) ?? false,
+  };
+}
+
+function parseSwitch(text: string | null): boolean | undefined {
+  return text === '1' ? true : text === '0' ? false : undefined;
+}
+
+function parseEvery(text: string | null): number | null {
+  const every = Number(text);
+  return text !== null && Number.isInteger(every) && every >= 1 && every <= 1024 ? every : null;
+}
+
+/**
+ * The usable part of local storage. Earlier versions of the page stored a single token and did not say for which
+ * service. Such a token is used for `ownUrl` only.
+ */
+export function parseStored(text: string | null, ownUrl: string): StoredSettings {
+  let value: unknown;
+  try {
+    value = JSON.parse(text ?? '{}');
+  } catch {
+    return {};
+  }
+  if (typeof value !== 'object' || value === null) return {};
+  const record = value as Record<string, unknown>;
+  const textOf = (key: string): string | undefined =>
+    typeof record[key] === 'string' && record[key].length <= 4096 ? record[key] : undefined;
+  const single = nonEmpty(textOf('token'));
+  const own = tokenOrigin(ownUrl);
+  const tokens = parseTokens(record.tokens);
+  return {
+    signaling: textOf('signaling'),
+    tokens: single === undefined || tokens.has(own) ? tokens : withToken(tokens, own, single),
+    name: textOf('name'),
+    pointScale: typeof record.pointScale === 'number' ? clampScale(record.pointScale) : undefined,
+    synchronised: typeof record.synchronised === 'boolean' ? record.synchronised : undefined,
+    cues: typeof record.cues === 'boolean' ? record.cues : undefined,
+    headset: record.headset === undefined ? undefined : parseHeadset(record.headset),
+    mapTiles: textOf('mapTiles'),
+    mapAttribution: textOf('mapAttribution'),
+  };
+}
+
+export function clampScale(scale: number | undefined): number {
+  return scale !== undefined && Number.isFinite(scale) ? Math.min(Math.max(scale, 0.25), 4) : 1;
+}
+
+function parseCanvas(text: string | null): Settings['canvas'] {
+  const match = /^(\d{1,5})x(\d{1,5})$/.exec(text ?? '');
+  if (match === null) return null;
+  const [width, height] = [Number(match[1]), Number(match[2])];
+  if (width < 16 || height < 16 || width > MAX_CANVAS || height > MAX_CANVAS) return null;
+  return { width, height };
+}
+
+function nonEmpty(text: string | null | undefined): string | undefined {
+  const trimmed = text?.trim();
+  return trimmed === undefined || trimmed === '' ? undefined : trimmed;
+}

@@ -1,0 +1,158 @@
+/** The frame loop. Decides when a picture is drawn, and how coarsely if the machine cannot keep up. */
+import {
+  ALL_FRAMES_PER_SECOND,
+  type CloudView,
+  DisplayMeter,
+  DrawGate,
+  DrawingGovernor,
+  GpuCompletion,
+  isSoftwareRenderer,
+  WorstGap,
+} from '@farpoint/cloud-view';
+import type { RobotClient } from '@farpoint/operator';
+import type { Settings } from '../ground/settings.ts';
+import type { RememberedWorld } from '../panels/ui/remembered-world.ts';
+import { followScene } from '../scene/view/follow-scene.ts';
+import type { SensorClouds } from '../scene/view/sensor-clouds.ts';
+import type { Stage } from '../scene/view/stage.ts';
+import type { VrSession } from '../scene/view/vr-session.ts';
+import type { HeldClouds } from '../take/video/held-clouds.ts';
+import type { VideoFeed } from '../take/video/video-feed.ts';
+import type { PageStatistics } from '../words/page-stats.ts';
+
+/** What is said of a computer that draws all that comes. */
+const MOST_FRAMES_PER_SECOND = 240;
+/** As many points as any sensor has; divided by the governor's thinning. */
+const MOST_POINTS = 240_000;
+
+export interface FrameLoopParts {
+  readonly settings: Settings;
+  readonly client: RobotClient;
+  readonly stage: Stage;
+  readonly held: HeldClouds;
+  readonly cloud: CloudView;
+  readonly clouds: SensorClouds;
+  readonly remembered: RememberedWorld;
+  readonly videos: VideoFeed;
+  readonly stats: PageStatistics;
+  readonly vr: VrSession;
+  /** Called before each picture in VR, because controllers send no events. */
+  readHeadset(): void;
+}
+
+export class FrameLoop {
+  readonly #parts: FrameLoopParts;
+  readonly #completion: GpuCompletion;
+  readonly #gate = new DrawGate();
+  readonly #governor: DrawingGovernor;
+  readonly #meter = new DisplayMeter();
+  readonly #gaps = new WorstGap();
+  #afterDrawing: (() => void)[] = [];
+
+  constructor(parts: FrameLoopParts) {
+    this.#parts = parts;
+    // A canvas of a fixed size is small, and there to be measured.
+    const { canvas } = parts.settings;
+    this.#governor = new DrawingGovernor(canvas === null && isSoftwareRenderer(parts.stage.gl));
+    this.#completion = new GpuCompletion(parts.stage.renderer);
+    this.#completion.onCost = (costMs) => this.#gate.onCost(costMs);
+  }
+
+  start(): void {
+    const { client, clouds, settings, stage } = this.#parts;
+    if (settings.drawEvery !== null) {
+      client.drawEvery(settings.drawEvery, settings.drawEvery);
+      clouds.every = settings.drawEvery;
+    }
+    this.#thin();
+    // Each session begins with a robot that knows nothing of this computer.
+    client.on('welcome', () => this.#tellDisplay());
+    stage.renderer.setAnimationLoop((nowMs) => this.#frame(nowMs));
+  }
+
+  /** Calls `act` in the next display frame, after drawing and before the frame is shown. */
+  afterNextFrame(act: () => void): void {
+    this.#afterDrawing.push(act);
+  }
+
+  /** Call this at each tick of the timer that reads the operator's hand. */
+  tick(nowMs: number): void {
+    this.#gaps.tick(nowMs);
+  }
+
+  /** Call this a few times a second. Draws less if the machine cannot keep up, and follows the scene that is seen. */
+  govern(nowMs: number): void {
+    const { client, clouds, stage, stats } = this.#parts;
+    followScene(stage, clouds.all.peek());
+    if (document.hidden || client.phase !== 'live') {
+      this.#governor.pause();
+      this.#meter.pause();
+      this.#gaps.pause();
+      return;
+    }
+    const coarser = this.#governor.update(stats.possibleFramesPerSecond, nowMs, this.#gaps.at(nowMs));
+    if (coarser) this.#thin();
+    if (this.#meter.update(nowMs) || coarser) this.#tellDisplay();
+  }
+
+  /** Draws as much as the governor says. */
+  #thin(): void {
+    const { client, clouds, settings, stage, stats } = this.#parts;
+    const { scale, every } = this.#governor.step;
+    stage.resolution = scale;
+    // A sampled cloud is not thinned further: a few thousand points are not what slows the machine down.
+    if (settings.drawEvery !== null) return;
+    client.drawEvery(every);
+    clouds.every = every;
+    stats.drawnOneOf = clouds.drawnOneOf(every);
+  }
+
+  /** What is decoded and not seen delays what is: the robot sends no more than this computer draws. */
+  #tellDisplay(): void {
+    const { framesPerSecond } = this.#meter;
+    const points = Math.ceil(MOST_POINTS / this.#governor.step.every);
+    const all = framesPerSecond >= ALL_FRAMES_PER_SECOND;
+    this.#parts.client.link.sendSession({
+      type: 'display',
+      framesPerSecond: all ? MOST_FRAMES_PER_SECOND : framesPerSecond,
+      points,
+    });
+  }
+
+  #frame(nowMs: number): void {
+    const { client, held, cloud, clouds, remembered, videos, settings, stage, stats, vr } = this.#parts;
+    // Videos are shown beside the scene: they need not wait until it can be drawn again.
+    const nowOnClockMs = performance.now();
+    videos.tick(nowOnClockMs);
+    held.tick(videos.shownMs, nowOnClockMs);
+    const inVr = vr.active.peek();
+    // In VR the headset's compositor sets the pace.
+    if (!inVr && this.#completion.busy) return;
+    const beganMs = performance.now();
+    cloud.update(beganMs);
+    clouds.update(beganMs);
+    if (!inVr && !this.#gate.mayDraw(cloud.endedFrame, beganMs)) {
+      stats.onSpared();
+      return;
+    }
+    this.#gate.onDraw(cloud.endedFrame, beganMs);
+    if (inVr) this.#parts.readHeadset();
+    stage.predicted?.update(performance.now());
+    stage.prepare(cloud, nowMs);
+    remembered.update(stage.viewCamera, cloud.colouring);
+    stage.renderer.render(stage.scene, stage.viewCamera);
+    // Wait only when a time is being measured: waiting for the GPU costs frames.
+    if (client.latency.wantsTime || settings.measure) {
+      this.#completion.wait();
+      this.#gate.onCost(performance.now() - beganMs);
+    } else if (!inVr) this.#completion.mark();
+    const endedMs = performance.now();
+    client.noteDrawn(endedMs);
+    this.#meter.onDrawn(cloud.endedFrame);
+    stats.onDrawn(endedMs - beganMs);
+    if (this.#afterDrawing.length > 0) {
+      for (const act of this.#afterDrawing) act();
+      this.#afterDrawing = [];
+    }
+  }
+}

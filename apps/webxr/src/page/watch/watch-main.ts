@@ -1,0 +1,59 @@
+import '../../panels/ui/style.css';
+import '../../panels/ui/picture-panels.css';
+import './watch.css';
+import { transformSupport } from '@farpoint/operator';
+import type { Failure } from '../../state/notices.ts';
+import { failureWords } from '../../words/words.ts';
+import { WatchApp } from './watch-app.ts';
+import { readWatchSettings } from './watch-settings.ts';
+
+function byId<T extends HTMLElement>(id: string, kind: new () => T): T {
+  const element = document.getElementById(id);
+  if (!(element instanceof kind)) throw new Error(`the page has no <${kind.name}> with id ${id}`);
+  return element;
+}
+
+const link = byId('link', HTMLElement);
+
+function fail({ title, text }: Failure): void {
+  const panel = byId('failure', HTMLElement);
+  panel.hidden = false;
+  link.hidden = true;
+  (panel.querySelector('h1') as HTMLElement).textContent = title;
+  (panel.querySelector('p') as HTMLElement).textContent = text;
+}
+
+function start(): void {
+  const settings = readWatchSettings(new URLSearchParams(window.location.search), window.location);
+  const transform = transformSupport();
+  if ('fault' in settings) {
+    fail({ title: 'Nothing to watch', text: settings.fault });
+    return;
+  }
+  if (typeof RTCPeerConnection === 'undefined' || transform === 'none') {
+    fail(transform === 'none' ? failureWords.noTransform : failureWords.noWebRtc);
+    return;
+  }
+  try {
+    const app = new WatchApp(settings, transform, {
+      stage: byId('stage', HTMLCanvasElement),
+      link,
+      pictures: byId('pictures', HTMLElement),
+      view: byId('view', HTMLButtonElement),
+      fromAbove: byId('from-above', HTMLButtonElement),
+    });
+    app.watcher.on('failed', ({ detail }) => {
+      console.error('cloud worker:', detail);
+      fail(failureWords.workerFailed);
+    });
+    app.start();
+    // The deployed page leaves this out. `vite build --mode testing` includes it.
+    if (import.meta.env.MODE === 'testing')
+      void import('../../testing/watch-api.ts').then(({ installWatchApi }) => installWatchApi(app));
+  } catch (error) {
+    console.error(error);
+    fail(failureWords.noWebGl2);
+  }
+}
+
+start();

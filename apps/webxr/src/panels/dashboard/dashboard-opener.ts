@@ -1,0 +1,99 @@
+/** Opens and closes the dashboard. Its code is loaded when it is first opened, so that the page starts without it. */
+import type { RobotClient } from '@farpoint/operator';
+import { computed, effect, type ReadonlySignal, signal } from '@preact/signals-core';
+import type { Settings } from '../../ground/settings.ts';
+import type { Moment } from '../../ground/telemetry/moment.ts';
+import type { PresentedInstant } from '../../ground/telemetry/presented-instant.ts';
+import type { TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
+import type { PageState } from '../../state/page-state.ts';
+import { elements } from '../ui/elements.ts';
+import type { Dashboard } from './dashboard.ts';
+
+export interface DashboardOpenerParts {
+  readonly client: RobotClient;
+  readonly state: PageState;
+  readonly settings: Pick<Settings, 'mapTiles' | 'synchronised'>;
+  readonly recorder: TelemetryRecorder;
+  readonly presented: PresentedInstant;
+  readonly inVr: ReadonlySignal<boolean>;
+}
+
+export class DashboardOpener {
+  readonly #parts: DashboardOpenerParts;
+  readonly #open = signal(false);
+  readonly #dashboard = signal<Dashboard | null>(null);
+  #loading = false;
+  /** Robot's clock minus page's clock, as last known, ms. */
+  #offsetMs: number | null = null;
+
+  constructor(parts: DashboardOpenerParts) {
+    this.#parts = parts;
+    const { state, client, inVr } = parts;
+    const { dashboardOpen, dashboard, alarm } = elements;
+    dashboardOpen.addEventListener('click', () => this.toggle());
+    alarm.addEventListener('click', () => {
+      alarm.blur();
+      this.#open.value = true;
+    });
+    client.on('welcome', () => {
+      this.#offsetMs = null;
+    });
+    // Without a robot there is nothing to show. While the link to one is lost, its last values stay.
+    const shown = computed(() => this.#open.value && state.link.connected.value);
+    effect(() => {
+      dashboardOpen.hidden = !state.link.connected.value;
+      dashboardOpen.ariaExpanded = String(shown.value);
+      dashboard.hidden = !shown.value || this.#dashboard.value === null;
+      document.body.classList.toggle('with-dashboard', !dashboard.hidden);
+    });
+    effect(() => {
+      if (shown.value) this.#load();
+    });
+    effect(() => {
+      const loaded = this.#dashboard.value;
+      if (loaded !== null) loaded.visible = shown.value && !inVr.value && state.looking.value;
+    });
+  }
+
+  toggle(): void {
+    this.#open.value = !this.#open.peek();
+  }
+
+  #load(): void {
+    if (this.#loading) return;
+    this.#loading = true;
+    const { client, state, settings, recorder } = this.#parts;
+    import('./dashboard.ts').then(
+      (module) => {
+        this.#dashboard.value = new module.Dashboard({
+          ...{
+            element: elements.dashboard,
+            recorder,
+            mapTiles: settings.mapTiles,
+            alarms: state.robot.alarms,
+          },
+          session: () => client.link.session,
+          momentAt: (nowMs) => this.#momentAt(nowMs),
+          close: () => {
+            this.#open.value = false;
+          },
+        });
+      },
+      (error: unknown) => {
+        console.error(error);
+        this.#loading = false;
+        this.#open.value = false;
+        state.notices.tell('The dashboard could not be loaded. Try again.', 'warning');
+      },
+    );
+  }
+
+  #momentAt(nowMs: number): Moment {
+    const { client, settings, presented, recorder } = this.#parts;
+    this.#offsetMs = client.link.session.clock.offsetMs ?? this.#offsetMs;
+    // Before the clocks have been compared, what came last is taken as new.
+    const offsetMs = this.#offsetMs ?? recorder.newestMs - recorder.heardMs;
+    const robotNowMs = Number.isFinite(offsetMs) ? nowMs + offsetMs : 0;
+    return { instantMs: settings.synchronised ? presented.at(nowMs) : null, robotNowMs };
+  }
+}

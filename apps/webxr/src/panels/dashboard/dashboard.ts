@@ -1,0 +1,190 @@
+/** The dashboard beside the picture: tiles with the robot's telemetry, arranged by the operator. Loaded when opened. */
+import './dashboard.css';
+import 'uplot/dist/uPlot.min.css';
+import type { RobotSession } from '@farpoint/operator';
+import { effect, type ReadonlySignal, signal } from '@preact/signals-core';
+import type { MapTiles } from '../../ground/telemetry/map-tiles.ts';
+import type { Moment } from '../../ground/telemetry/moment.ts';
+import type { TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
+import type { Words } from '../../words/words.ts';
+import { quietButton, selectOf } from '../ui/panel-parts.ts';
+import { changed, DEFAULT_LAYOUT, moved, placed, TILE_SIZES, WINDOWS_S } from './layout.ts';
+import { ageText, spanText } from './number-words.ts';
+import { loadLayout, storeLayout } from './stored-layout.ts';
+import { part, setText, type TileFrame } from './tile.ts';
+import { TileFrameView } from './tile-frame.ts';
+import { type TileKind, tileKinds } from './tile-kinds.ts';
+
+export interface DashboardParts {
+  readonly element: HTMLElement;
+  readonly recorder: TelemetryRecorder;
+  readonly mapTiles: MapTiles | null;
+  readonly alarms: ReadonlySignal<readonly Words[]>;
+  session(): RobotSession;
+  /** The instant whose values are shown now. @param nowMs page's clock */
+  momentAt(nowMs: number): Moment;
+  close(): void;
+}
+
+/** Without telemetry for this long, the robot is silent, ms. */
+const SILENT_MS = 1000;
+const HEADER_MS = 250;
+
+export class Dashboard {
+  readonly #parts: DashboardParts;
+  readonly #layout = signal(loadLayout());
+  readonly #arranging = signal(false);
+  readonly #revision = signal(-1);
+  readonly #views = new Map<string, TileFrameView>();
+  readonly #state = part('state', 'span');
+  readonly #grid = part('tiles');
+  readonly #hidden = part('hidden-tiles');
+  #kinds: readonly TileKind[] = [];
+  #headerDueMs = 0;
+  #frame: number | null = null;
+
+  constructor(parts: DashboardParts) {
+    this.#parts = parts;
+    parts.element.replaceChildren(this.#header(), this.#alarms(), this.#hidden, this.#grid);
+    let first = true;
+    effect(() => {
+      const layout = this.#layout.value;
+      if (!first) storeLayout(layout);
+      first = false;
+    });
+    effect(() => this.#arrange());
+  }
+
+  /** Draws while it is open and somebody can look. */
+  set visible(visible: boolean) {
+    if (!visible && this.#frame !== null) {
+      cancelAnimationFrame(this.#frame);
+      this.#frame = null;
+    } else if (visible && this.#frame === null) this.#frame = requestAnimationFrame(() => this.#draw());
+  }
+
+  #draw(): void {
+    this.#frame = requestAnimationFrame(() => this.#draw());
+    const nowMs = performance.now();
+    const { recorder, momentAt } = this.#parts;
+    this.#revision.value = recorder.revision;
+    const moment = momentAt(nowMs);
+    const frame: TileFrame = { nowMs, moment, windowMs: this.#layout.peek().windowS * 1000 };
+    for (const view of this.#views.values()) view.draw(frame);
+    if (nowMs < this.#headerDueMs) return;
+    this.#headerDueMs = nowMs + HEADER_MS;
+    const silentMs = nowMs - recorder.heardMs;
+    const isSilent = !(silentMs < SILENT_MS);
+    setText(this.#state, stateWords(silentMs, moment));
+    this.#state.dataset.tone = isSilent ? 'bad' : 'neutral';
+  }
+
+  #header(): HTMLElement {
+    const header = part('heads');
+    const title = document.createElement('h2');
+    title.textContent = 'Dashboard';
+    const texts = WINDOWS_S.map(spanText);
+    const span = selectOf('How far back curves reach', texts, (text) => {
+      const windowS = WINDOWS_S[texts.indexOf(text)];
+      if (windowS !== undefined) this.#layout.value = { ...this.#layout.peek(), windowS };
+    });
+    effect(() => {
+      span.selectedIndex = WINDOWS_S.indexOf(this.#layout.value.windowS);
+    });
+    const arrange = quietButton('Arrange', 'Choose, order and size the tiles', () => {
+      this.#arranging.value = !this.#arranging.peek();
+    });
+    const reset = quietButton('Reset', 'The tiles as they were at first', () => {
+      this.#layout.value = DEFAULT_LAYOUT;
+    });
+    effect(() => {
+      arrange.ariaPressed = String(this.#arranging.value);
+      reset.hidden = !this.#arranging.value;
+    });
+    const close = quietButton('✕', 'Close the dashboard (B)', () => this.#parts.close());
+    close.ariaLabel = 'Close the dashboard';
+    header.append(title, this.#state, span, reset, arrange, close);
+    return header;
+  }
+
+  #alarms(): HTMLElement {
+    const list = document.createElement('ul');
+    list.className = 'alarms';
+    list.ariaLabel = 'Alarms';
+    list.setAttribute('role', 'alert');
+    effect(() => {
+      const alarms = this.#parts.alarms.value;
+      list.hidden = alarms.length === 0;
+      while (list.children.length > alarms.length) list.lastElementChild?.remove();
+      while (list.children.length < alarms.length) list.append(document.createElement('li'));
+      alarms.forEach(({ text, tone }, i) => {
+        const item = list.children[i] as HTMLElement;
+        setText(item, `⚠ ${text}`);
+        item.dataset.tone = tone;
+      });
+    });
+    return list;
+  }
+
+  /** Makes, moves and removes tiles, as the layout and what the robot measures ask for. */
+  #arrange(): void {
+    const arranging = this.#arranging.value;
+    void this.#revision.value;
+    const layout = this.#layout.value;
+    this.#kinds = tileKinds(this.#parts);
+    const kinds = new Map(this.#kinds.map((kind) => [kind.id, kind]));
+    const tiles = placed(layout, this.#kinds);
+    const shown = tiles.filter((tile) => tile.shown);
+    for (const [id, view] of this.#views) {
+      if (shown.some((tile) => tile.id === id)) continue;
+      view.dispose();
+      this.#views.delete(id);
+    }
+    const elements = shown.flatMap(({ id, size }) => {
+      const kind = kinds.get(id);
+      if (kind === undefined) return [];
+      const view = this.#views.get(id) ?? this.#view(kind);
+      this.#views.set(id, view);
+      view.show({ title: kind.title, size, arranging });
+      return [view.element];
+    });
+    // Moving an element that stays would restart its observers and lose the focus.
+    elements.forEach((element, i) => {
+      if (this.#grid.children[i] !== element)
+        this.#grid.insertBefore(element, this.#grid.children[i] ?? null);
+    });
+    const hidden = tiles.filter((tile) => !tile.shown);
+    this.#hidden.hidden = !arranging || hidden.length === 0;
+    this.#hidden.replaceChildren(
+      ...hidden.map(({ id }) => {
+        const title = kinds.get(id)?.title ?? id;
+        return quietButton(`+ ${title}`, `Show ${title}`, () => this.#change(id, { shown: true }));
+      }),
+    );
+  }
+
+  #view({ id, make }: TileKind): TileFrameView {
+    return new TileFrameView(make(), {
+      move: (by) => {
+        this.#layout.value = moved(this.#layout.peek(), this.#kinds, id, by);
+      },
+      resize: () => {
+        const size = placed(this.#layout.peek(), this.#kinds).find((tile) => tile.id === id)?.size ?? 'small';
+        const next = TILE_SIZES[(TILE_SIZES.indexOf(size) + 1) % TILE_SIZES.length] ?? 'small';
+        this.#change(id, { size: next });
+      },
+      hide: () => this.#change(id, { shown: false }),
+    });
+  }
+
+  #change(id: string, change: Parameters<typeof changed>[3]): void {
+    this.#layout.value = changed(this.#layout.peek(), this.#kinds, id, change);
+  }
+}
+
+function stateWords(silentMs: number, { instantMs, robotNowMs }: Moment): string {
+  if (silentMs === Number.POSITIVE_INFINITY) return 'No data from the robot yet';
+  if (!(silentMs < SILENT_MS)) return `No data from the robot for ${ageText(silentMs)}`;
+  if (instantMs === null) return 'Newest values';
+  return `In step with the picture, ${ageText(Math.max(0, robotNowMs - instantMs))} old`;
+}

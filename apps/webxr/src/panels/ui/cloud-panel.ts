@@ -1,0 +1,150 @@
+/**
+ * The panel for clouds: what their colours mean, as colour bars to read values off, and the controls for it. It has
+ * no field to type in and no control keeps the focus after a click, because both would take keys from driving.
+ */
+import type { CloudView } from '@farpoint/cloud-view';
+import { effect, type ReadonlySignal, type Signal, signal, untracked } from '@preact/signals-core';
+import type { Switches } from '../../ground/switches.ts';
+import { type CloudAppearance, UNNAMED } from '../../state/cloud-appearance.ts';
+import type { RobotState } from '../../state/robot-state.ts';
+import { colourControls } from './colour-controls.ts';
+import { cutControls } from './cut-controls.ts';
+import { elements } from './elements.ts';
+import { hazardLegend } from './hazard-legend.ts';
+import { boundLeftColumn } from './left-column.ts';
+import { type Legend, legendOf } from './legend.ts';
+import { type MemoryControlsParts, memoryControls } from './memory-controls.ts';
+import { quietButton, rowOf } from './panel-parts.ts';
+import { surfaceControls } from './surface-controls.ts';
+
+export interface CloudPanelParts {
+  readonly appearance: CloudAppearance;
+  /** Empty for a robot with one sensor. */
+  readonly sensors: Switches;
+  readonly views: ReadonlySignal<readonly CloudView[]>;
+  readonly memory: MemoryControlsParts;
+  readonly robot: Pick<RobotState, 'heights'>;
+}
+
+export class CloudPanel {
+  readonly #parts: CloudPanelParts;
+  #legends: readonly Legend[] = [];
+
+  constructor(parts: CloudPanelParts) {
+    this.#parts = parts;
+    const { appearance } = parts;
+    const open = signal(false);
+    const fromAbove = quietButton('From above', 'The surroundings from above (T)', () => {
+      appearance.fromAbove.value = !appearance.fromAbove.peek();
+    });
+    fromAbove.id = 'from-above';
+    const colours = quietButton('Colours', 'Colours of the clouds, heights that are drawn', () => {
+      open.value = !open.peek();
+    });
+    colours.id = 'colours-open';
+    const legends = element('legends');
+    const controls = element('controls');
+    const heads = element('heads');
+    heads.append(fromAbove, colours);
+    elements.clouds.append(heads, legends, controls);
+    boundLeftColumn(controls);
+    effect(() => {
+      fromAbove.ariaPressed = String(appearance.fromAbove.value);
+    });
+    effect(() => {
+      colours.ariaExpanded = String(open.value);
+      controls.hidden = !open.value;
+    });
+    effect(() => {
+      this.#legends = this.#sensors().flatMap(({ name, on, view }) => (on ? this.#legendOf(name, view) : []));
+      const hazards = appearance.hazards.value ? [hazardLegend(parts.robot.heights.value)] : [];
+      legends.replaceChildren(...this.#legends.map((legend) => legend.element), ...hazards);
+    });
+    const ofSensors = element('');
+    const drawing = [surfaceControls(appearance), memoryControls(appearance, parts.memory)];
+    const drawn = [hazardSwitch, frustaSwitch, navigationSwitch, modelSwitch].map((made) => made(appearance));
+    controls.append(ofSensors, ...drawing, cutControls(appearance), ...drawn);
+    effect(() => {
+      const parts = this.#names().map((name, i) =>
+        untracked(() =>
+          colourControls(name, appearance, () => this.#parts.views.peek()[i]?.colouring.range ?? null),
+        ),
+      );
+      ofSensors.replaceChildren(...parts.map((part) => part.element));
+      return () => {
+        for (const { dispose } of parts) dispose();
+      };
+    });
+  }
+
+  /** Brings the numbers up to date. Call it a few times a second. */
+  update(): void {
+    for (const legend of this.#legends) legend.update();
+  }
+
+  #names(): string[] {
+    const all = this.#parts.sensors.all.value;
+    return all.length === 0 ? [UNNAMED] : all.map(({ name }) => name);
+  }
+
+  #sensors(): { name: string; on: boolean; view: CloudView | undefined }[] {
+    const { sensors, views } = this.#parts;
+    return this.#names().map((name, i) => ({
+      ...{ name, view: views.value[i] },
+      on: sensors.all.value[i]?.on.value ?? true,
+    }));
+  }
+
+  #legendOf(name: string, view: CloudView | undefined): Legend[] {
+    const { mode } = this.#parts.appearance.lookOf(name);
+    if (mode === 'captured' || view === undefined) return [];
+    return [legendOf(name === UNNAMED ? '' : `${name}: `, mode, view)];
+  }
+}
+
+function hazardSwitch({ hazards }: CloudAppearance): HTMLElement {
+  const button = quietButton('', 'Tint what the robot would hit, and where its floor is missing (H)', () => {
+    hazards.value = !hazards.peek();
+  });
+  button.id = 'hazards';
+  effect(() => {
+    button.textContent = hazards.value ? 'Tinted' : 'Not tinted';
+    button.ariaPressed = String(hazards.value);
+  });
+  return rowOf('Hazards', button);
+}
+
+function frustaSwitch({ frusta }: CloudAppearance): HTMLElement {
+  const button = drawnButton(frusta, 'Where the sensors are, and how far they see to the sides');
+  button.id = 'frusta';
+  return rowOf('Frusta', button);
+}
+
+function navigationSwitch({ navigation }: CloudAppearance): HTMLElement {
+  const button = drawnButton(navigation, 'The path that the robot’s own navigator has planned, and its map');
+  button.id = 'navigation';
+  return rowOf('Path, map', button);
+}
+
+function modelSwitch({ model }: CloudAppearance): HTMLElement {
+  const button = drawnButton(model, 'What the robot looks like, by its own description');
+  button.id = 'robot-model';
+  return rowOf('Robot', button);
+}
+
+function drawnButton(drawn: Signal<boolean>, title: string): HTMLButtonElement {
+  const button = quietButton('', title, () => {
+    drawn.value = !drawn.peek();
+  });
+  effect(() => {
+    button.textContent = drawn.value ? 'Drawn' : 'Not drawn';
+    button.ariaPressed = String(drawn.value);
+  });
+  return button;
+}
+
+function element(className: string): HTMLElement {
+  const made = document.createElement('div');
+  made.className = className;
+  return made;
+}

@@ -1,0 +1,168 @@
+/** Maps buttons, mouse, wheel and keys to actions. */
+import { LatencyError, type RobotClient } from '@farpoint/operator';
+import { effect } from '@preact/signals-core';
+import type { PredictedView } from '../../scene/view/predicted-view.ts';
+import type { Stage } from '../../scene/view/stage.ts';
+import type { HeadsetMode, VrSession } from '../../scene/view/vr-session.ts';
+import type { CloudAppearance } from '../../state/cloud-appearance.ts';
+import type { PageState } from '../../state/page-state.ts';
+import { hazardNotice } from '../../words/hazard-words.ts';
+import { predictionWords } from '../../words/view-words.ts';
+import { elements } from './elements.ts';
+import type { EstopUi } from './estop-ui.ts';
+import { startLook } from './look-controls.ts';
+import type { Action } from './operator-inputs.ts';
+import { initSettingsDialog } from './settings-dialog.ts';
+
+const latencyFailureWords: Record<LatencyError['reason'], string> = {
+  timeout: 'No green cloud arrived: the request or the whole cloud was lost.',
+  'no-session': 'Connect to a robot first.',
+  'no-lease': 'Someone else is driving. Only the driver can run a latency test.',
+  busy: 'A latency test is already running.',
+};
+
+/** What the controls act on. */
+export interface Controlled {
+  readonly client: RobotClient;
+  readonly state: PageState;
+  readonly appearance: CloudAppearance;
+  readonly stage: Pick<Stage, 'look' | 'camera'>;
+  readonly vr: VrSession;
+  /** Shows the next view in the headset. */
+  nextHeadsetView(): void;
+  readonly estop: EstopUi;
+  readonly predicted: Pick<PredictedView, 'on'>;
+  choose(robotId: string): void;
+  /** Opens or closes the dashboard. */
+  toggleDashboard(): void;
+}
+
+export class ControlsUi {
+  readonly #parts: Controlled;
+
+  constructor(parts: Controlled) {
+    this.#parts = parts;
+  }
+
+  start(): void {
+    const { client, state, estop } = this.#parts;
+    elements.disconnect.addEventListener('click', () => client.leave());
+    estop.start();
+    elements.latency.addEventListener('click', ({ timeStamp }) => this.act('latency-test', timeStamp));
+    elements.view.addEventListener('click', () => this.act('view', performance.now()));
+    elements.take.addEventListener('click', () => client.takeOver());
+    elements.release.addEventListener('click', () => client.driver.releaseLease());
+    // A button that kept the focus would take the space bar, which is the drive grip.
+    for (const button of document.querySelectorAll<HTMLButtonElement>('#bar button, #drive button')) {
+      button.addEventListener('click', () => button.blur());
+    }
+    initSettingsDialog(state.pointScale);
+    this.#startVr();
+    startLook(elements.stage, this.#parts.stage);
+  }
+
+  act(action: Action, timeMs: number): void {
+    const { stage, estop, appearance, vr } = this.#parts;
+    const inVr = vr.active.peek();
+    const { fromAbove } = appearance;
+    switch (action) {
+      case 'estop':
+        estop.stop();
+        return;
+      case 'latency-test':
+        this.#testLatency(timeMs);
+        return;
+      case 'recentre':
+        if (inVr) vr.recentre();
+        else stage.look.recentre();
+        return;
+      case 'view':
+        if (inVr) this.#parts.nextHeadsetView();
+        // From above, it returns to the view from before.
+        else if (fromAbove.peek()) fromAbove.value = false;
+        else stage.look.switchMode();
+        return;
+      case 'from-above':
+        fromAbove.value = !fromAbove.peek();
+        return;
+      case 'hazards':
+        this.#toggleHazards();
+        return;
+      case 'enlarge':
+        this.#parts.state.enlarged.next();
+        return;
+      case 'dashboard':
+        this.#parts.toggleDashboard();
+        return;
+      case 'predict':
+        this.#togglePrediction();
+        return;
+      case 'swap':
+        this.#parts.state.swap();
+        return;
+      case 'next-robot':
+        this.#nextRobot();
+    }
+  }
+
+  #testLatency(startedAtMs: number): void {
+    const { client, state } = this.#parts;
+    client.latencyTest(startedAtMs).then(
+      ({ mtpMs, firstMs }) => {
+        const text = `Motion to photon ${mtpMs.toFixed(0)} ms (first points ${firstMs.toFixed(0)} ms)`;
+        state.notices.tell(text, 'good');
+      },
+      (error: unknown) => {
+        if (!(error instanceof LatencyError)) throw error;
+        state.notices.tell(latencyFailureWords[error.reason], 'warning');
+      },
+    );
+  }
+
+  #togglePrediction(): void {
+    const { predicted, state } = this.#parts;
+    predicted.on.value = !predicted.on.peek();
+    state.notices.tell(predictionWords(predicted.on.peek()));
+    state.sample();
+  }
+
+  #toggleHazards(): void {
+    const { appearance, state } = this.#parts;
+    const { hazards } = appearance;
+    hazards.value = !hazards.peek();
+    state.notices.tell(hazardNotice(hazards.peek(), state.robot.heights.peek()));
+  }
+
+  #nextRobot(): void {
+    const { link, notices } = this.#parts.state;
+    if (link.chosenRobotId.value === null) return;
+    const next = link.nextRobot.value;
+    if (next === null) notices.tell('No other robot is available.');
+    else this.#parts.choose(next.id);
+  }
+
+  #startVr(): void {
+    const { vr, state } = this.#parts;
+    effect(() => {
+      const reason = vr.unavailable.value;
+      elements.vr.hidden = reason !== null;
+      elements.vrReason.hidden = reason === null || reason === undefined;
+      elements.vrReason.textContent = reason ?? null;
+    });
+    effect(() => {
+      const isLeaving = vr.active.value;
+      elements.vr.textContent = isLeaving ? `Leave ${vr.passthrough.value ? 'AR' : 'VR'}` : 'Enter VR';
+      elements.ar.hidden = isLeaving || !vr.canPassThrough.value;
+    });
+    const enter = (mode: HeadsetMode, name: string) => {
+      vr.toggle(mode).catch((error: unknown) => {
+        state.notices.tell(
+          `Could not enter ${name}: ${error instanceof Error ? error.message : error}`,
+          'bad',
+        );
+      });
+    };
+    elements.vr.addEventListener('click', () => enter('immersive-vr', 'VR'));
+    elements.ar.addEventListener('click', () => enter('immersive-ar', 'AR'));
+  }
+}

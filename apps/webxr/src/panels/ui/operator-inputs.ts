@@ -1,0 +1,202 @@
+/** Every input device of the page. Held inputs count as released when the page no longer receives their events. */
+import type { DriveInput, PressedButtons } from '@farpoint/operator';
+import type { Hand } from '../../ground/headset-settings.ts';
+import type { Notices } from '../../state/notices.ts';
+import { GamepadInput } from '../../take/drive/gamepad-input.ts';
+import { HeadsetInput, type Tracks, type XrController } from '../../take/drive/headset-input.ts';
+import { KeyboardInput } from '../../take/drive/keyboard-input.ts';
+import { PickGamepad, unknownGamepadWords } from '../../take/drive/pick-gamepad.ts';
+import type { ReleaseControl } from '../../take/drive/release-hold.ts';
+import { TouchJoystick } from '../../take/drive/touch-joystick.ts';
+import type { TalkControl } from '../../take/sound/talk-hold.ts';
+import { elements } from './elements.ts';
+
+export type Action =
+  | 'estop'
+  | 'latency-test'
+  | 'recentre'
+  | 'view'
+  | 'from-above'
+  | 'hazards'
+  | 'enlarge'
+  | 'dashboard'
+  | 'predict'
+  | 'swap'
+  | 'next-robot';
+
+/** Stops the robot wherever the focus is, except in a text field. */
+const STOP_KEY = 'KeyX';
+const ACTION_KEYS: Readonly<Record<string, Action>> = {
+  KeyL: 'latency-test',
+  KeyC: 'recentre',
+  KeyV: 'view',
+  KeyT: 'from-above',
+  KeyH: 'hazards',
+  KeyE: 'enlarge',
+  KeyB: 'dashboard',
+  KeyF: 'swap',
+  KeyP: 'predict',
+  KeyN: 'next-robot',
+};
+/** Hold to release the emergency stop. Enter on the release control does the same. */
+const RELEASE_KEY = 'KeyR';
+/** Hold to speak. */
+const TALK_KEY = 'KeyM';
+
+export interface InputPort {
+  /** A grip or a stick changed. */
+  onChange(): void;
+  onAction(action: Action, timeMs: number): void;
+  /** The release control of the emergency stop was pressed or let go. */
+  onRelease(control: ReleaseControl, held: boolean): void;
+  /** A control with which the operator speaks was pressed or let go. */
+  onTalk(control: TalkControl, held: boolean): void;
+  /** Whether there is a robot to drive. */
+  mayDrive(): boolean;
+}
+
+export class OperatorInputs {
+  readonly all: readonly DriveInput[];
+  readonly #keyboard = new KeyboardInput();
+  readonly #gamepad = new GamepadInput();
+  readonly #headset: HeadsetInput;
+  readonly #touch: TouchJoystick;
+  readonly #port: InputPort;
+  readonly #notices: Pick<Notices, 'tell'>;
+  readonly #pick = new PickGamepad();
+
+  /** @param driveHand the hand that drives in the headset */
+  constructor(port: InputPort, driveHand: Hand, notices: Pick<Notices, 'tell'>) {
+    this.#port = port;
+    this.#notices = notices;
+    this.#headset = new HeadsetInput(driveHand);
+    this.#touch = new TouchJoystick(elements.joystick, elements.knob, () => port.onChange());
+    this.all = [this.#headset, this.#touch, this.#gamepad, this.#keyboard];
+    window.addEventListener('keydown', (event) => this.#onKey(event, true));
+    window.addEventListener('keyup', (event) => this.#onKey(event, false));
+    window.addEventListener('blur', () => this.releaseAll());
+    document.addEventListener('visibilitychange', () => {
+      if (document.hidden) this.releaseAll();
+    });
+  }
+
+  releaseAll(): void {
+    this.#keyboard.releaseAll();
+    this.#touch.release();
+    this.#headset.release();
+    this.#gamepad.release();
+    for (const control of ['key', 'pointer', 'headset'] as const) {
+      this.#port.onRelease(control, false);
+      this.#port.onTalk(control, false);
+    }
+    this.#port.onChange();
+  }
+
+  /**
+   * Polls the gamepads, which send no events. Keys and fingers that are down stay so while this is called: a page that
+   * hangs does not hear that they were let go.
+   */
+  poll(nowMs: number): void {
+    this.#keyboard.runs(nowMs);
+    this.#touch.runs(nowMs);
+    const pad = this.#pick.pick(navigator.getGamepads?.() ?? [], (name) =>
+      this.#notices.tell(unknownGamepadWords(name), 'warning'),
+    );
+    this.#buttons(this.#gamepad.read(pad, nowMs), 'gamepad');
+  }
+
+  /** Whether the headset's grip is held. */
+  get isHeadsetGripped(): boolean {
+    return this.#headset.held;
+  }
+
+  /** Deflection to the right of the stick that turns the view in the headset, −1…1. */
+  get turnStick(): number {
+    return this.#headset.turnStick;
+  }
+
+  /** Call this before each display frame in VR. @param grabbing whether a hand holds something of the view */
+  readHeadset<Source extends XrController>(
+    sources: Iterable<Source>,
+    tracks: Tracks<Source>,
+    grabbing: boolean,
+  ): void {
+    const wasHeld = this.#headset.held;
+    const pressed = this.#headset.read(sources, performance.now(), tracks, grabbing);
+    this.#buttons(pressed, 'headset');
+    if (pressed.nextView) this.#port.onAction('view', performance.now());
+    if (pressed.recentre) this.#port.onAction('recentre', performance.now());
+    this.#port.onTalk('headset', this.#headset.talks);
+    if (wasHeld !== this.#headset.held) this.#port.onChange();
+  }
+
+  #buttons(pressed: PressedButtons, control: ReleaseControl): void {
+    if (pressed.estop) this.#port.onAction('estop', performance.now());
+    this.#port.onRelease(control, pressed.releaseHeld);
+    if (pressed.latencyTest) this.#port.onAction('latency-test', performance.now());
+    if (pressed.nextRobot) this.#port.onAction('next-robot', performance.now());
+  }
+
+  #onKey(event: KeyboardEvent, down: boolean): void {
+    const { target } = event;
+    const typing = target instanceof HTMLInputElement && target.type !== 'range';
+    const elsewhere = target instanceof HTMLInputElement || elements.settings.open;
+    const driving = this.#port.mayDrive() && !elsewhere;
+    // A released key counts as released wherever the focus is by now.
+    if (!down) {
+      if (event.code === RELEASE_KEY || event.code === 'Enter') this.#port.onRelease('key', false);
+      if (event.code === TALK_KEY) this.#port.onTalk('key', false);
+      if (!this.#keyboard.key(event.code, false, performance.now())) return;
+      if (driving) event.preventDefault();
+      this.#port.onChange();
+      return;
+    }
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (!typing && this.#onEstopKey(event)) return;
+    if (elsewhere) return;
+    const choosing = target instanceof HTMLSelectElement;
+    if (choosing && event.code.startsWith('Arrow')) return;
+    // They move a panel that has the focus, unless somebody drives.
+    if (isPanelKey(event) && !this.#keyboard.held) return;
+    // Space would press a focused button. Driving takes precedence while there is a robot.
+    if (driving && this.#keyboard.key(event.code, true, performance.now())) {
+      event.preventDefault();
+      if (!event.repeat) this.#port.onChange();
+      return;
+    }
+    if (event.code === TALK_KEY && driving) {
+      if (choosing) event.preventDefault();
+      if (!event.repeat) this.#port.onTalk('key', true);
+      return;
+    }
+    const action = ACTION_KEYS[event.code];
+    if (action === undefined) return;
+    // A letter would also select an entry of the list.
+    if (choosing) event.preventDefault();
+    if (!event.repeat) this.#port.onAction(action, event.timeStamp);
+  }
+
+  /**
+   * Handles the keys of the emergency stop, which take precedence over all others. @returns whether it was one of
+   * them
+   */
+  #onEstopKey(event: KeyboardEvent): boolean {
+    const { target, code } = event;
+    const { estop, estopRelease } = elements;
+    const isSpaceOnControl = code === 'Space' && (target === estop || target === estopRelease);
+    const isRelease = code === RELEASE_KEY || (code === 'Enter' && target === estopRelease);
+    if (code === STOP_KEY || isSpaceOnControl) {
+      if (!event.repeat) this.#port.onAction('estop', event.timeStamp);
+    } else if (isRelease && !elements.settings.open) {
+      // Key repeat is not a new press.
+      if (!event.repeat) this.#port.onRelease('key', true);
+    } else return false;
+    // The key must not click the focused element or select from a list.
+    event.preventDefault();
+    return true;
+  }
+}
+
+function isPanelKey({ target, code }: KeyboardEvent): boolean {
+  return target instanceof HTMLElement && target.dataset.panel !== undefined && code.startsWith('Arrow');
+}

@@ -1,0 +1,171 @@
+/** Places what carries the operator's head in the robot's world, by view, recentring and turning. Allocates nothing. */
+import { type Signal, signal } from '@preact/signals-core';
+import { Group, type Object3D } from 'three';
+import type { HeadsetSettings } from '../../ground/headset-settings.ts';
+import { frontSide } from './front-side.ts';
+import { headYaw, OperatorOrigin } from './operator-origin.ts';
+import { OperatorTurn } from './operator-turn.ts';
+import { ABOVE_M, type HeadsetView, RigPose, type WorldPlace } from './rig-pose.ts';
+import { TableModel } from './table-model.ts';
+import { ViewHeading } from './view-heading.ts';
+import { VignetteAmount } from './vignette-amount.ts';
+
+/** The robot's place and heading as the view follows them. */
+export interface FollowedRobot extends WorldPlace {
+  readonly yaw: number;
+}
+
+export class HeadsetRig {
+  readonly view: Signal<HeadsetView> = signal('first-person');
+  /** Where the operator's eyes are at rest, in the tracked space. */
+  readonly origin = new OperatorOrigin();
+  /** The world on the table. */
+  readonly model = new TableModel();
+  /** Carries what hangs before the eyes at rest; a child of the rig. */
+  readonly front = new Group();
+  /** Deflection to the right of the stick that turns the view, −1…1. */
+  turnStick = 0;
+  /** Height of the operator's floor in the tracked space, m; `null` while it is not known. */
+  floorY: number | null = null;
+  /** Whether the operator sees the own room: then nothing moves them, and nothing needs to be dark. */
+  passthrough = false;
+  /** To which side the robot's front is, in first person: −1 left, 1 right, 0 in view. */
+  frontSide: -1 | 0 | 1 = 0;
+  readonly #pose = new RigPose();
+  readonly #heading: ViewHeading;
+  readonly #turn: OperatorTurn;
+  readonly #amount: VignetteAmount;
+  readonly #settings: HeadsetSettings;
+  /** Whether the view is where it was in the last frame, but for motion: not after a jump. */
+  #moves = false;
+
+  constructor(settings: HeadsetSettings) {
+    this.#settings = settings;
+    this.#heading = new ViewHeading(settings.turn === 'robot');
+    this.#turn = new OperatorTurn(settings);
+    this.#amount = new VignetteAmount(settings.vignette);
+  }
+
+  /** Where ahead in the room points in the world, radians. */
+  get yaw(): number {
+    return this.#pose.yaw;
+  }
+
+  /** How dark the edge of the view is, 0 … 1. */
+  get darkness(): number {
+    return this.#amount.value;
+  }
+
+  /** A session begins, or the headset has recentred by itself: the eyes at rest are where it says. */
+  begin(): void {
+    this.origin.reset();
+    this.model.reset();
+    this.align();
+  }
+
+  /** The robot's heading becomes ahead. */
+  align(): void {
+    this.#heading.align();
+    this.#turn.disarm();
+    this.#amount.clear();
+    this.#moves = false;
+  }
+
+  /** Changes the view. What hands hold of the model, they let go. */
+  show(view: HeadsetView): void {
+    this.view.value = view;
+    this.model.letGo();
+    this.#moves = false;
+  }
+
+  /**
+   * The head's place becomes the eyes' place at rest, and the model returns to its first place.
+   *
+   * @param orientation of the head in the tracked space
+   */
+  recentre(position: DOMPointReadOnly, orientation: DOMPointReadOnly): void {
+    this.origin.recentre(position, orientation);
+    this.model.reset();
+    this.align();
+  }
+
+  /**
+   * Call this before each display frame in VR.
+   *
+   * @param rig carries the tracked space
+   * @param head the operator's head, a child of the rig
+   * @param camera the robot's camera
+   * @param ground height of the robot's floor in its world, m
+   */
+  place(rig: Group, head: Object3D, camera: FollowedRobot, ground: number, elapsedMs: number): void {
+    const pose = this.#pose;
+    const { x, y, z, yaw } = pose;
+    const by = this.#turn.by(this.turnStick, elapsedMs);
+    this.#heading.follow(camera.yaw);
+    this.#turnView(by, head);
+    this.#setPose(camera, ground);
+    this.#apply(rig);
+    const isInside = this.view.peek() === 'first-person';
+    this.frontSide = isInside ? frontSide(camera.yaw, rig.rotation.y + headYaw(head.quaternion)) : 0;
+    const seconds = elapsedMs / 1000;
+    const moves = this.#moves && !this.passthrough && this.view.peek() !== 'tabletop' && seconds > 0;
+    this.#moves = true;
+    const { turn } = this.#settings;
+    // A step is over before anybody could become sick of it.
+    const turnRate = moves && turn !== 'snap' ? (pose.yaw - yaw) / seconds : 0;
+    const isMoved = moves && turn === 'robot';
+    const speed = isMoved ? Math.hypot(pose.x - x, pose.y - y, pose.z - z) / seconds : 0;
+    this.#amount.update(turnRate, speed, elapsedMs);
+  }
+
+  #turnView(by: number, { position: head }: Object3D): void {
+    const heading = this.#heading;
+    const view = this.view.peek();
+    if (view === 'tabletop') heading.turn(by - this.model.turned);
+    else if (by === 0) return;
+    else if (view === 'over-shoulder') heading.turn(by);
+    else heading.turnAbout(by, this.origin.rightOf(head.x, head.z), this.origin.behind(head.x, head.z));
+  }
+
+  #setPose(camera: FollowedRobot, ground: number): void {
+    const { yaw, shiftX, shiftZ } = this.#heading;
+    const pose = this.#pose;
+    switch (this.view.peek()) {
+      case 'first-person':
+        pose.firstPerson(camera, this.#eyeHeight(ground) ?? camera.z, yaw);
+        pose.x += shiftX;
+        pose.z += shiftZ;
+        return;
+      case 'over-shoulder':
+        pose.overShoulder(camera, this.#eyeHeight(ground) ?? camera.z + ABOVE_M, yaw);
+        return;
+      case 'tabletop':
+        pose.tabletop(camera.x, camera.y, ground, this.model, yaw);
+    }
+  }
+
+  /** Height of a standing operator's eyes at rest in the robot's world, m; `null` for a seated one. */
+  #eyeHeight(ground: number): number | null {
+    const { floorY } = this;
+    if (this.#settings.posture === 'seated' || floorY === null) return null;
+    return ground - this.origin.above(floorY);
+  }
+
+  /** The tracked space's own origin is elsewhere than the operator's. */
+  #apply(rig: Group): void {
+    const pose = this.#pose;
+    const { origin } = this;
+    const yaw = pose.yaw - origin.yaw;
+    const cos = Math.cos(yaw);
+    const sin = Math.sin(yaw);
+    rig.position.set(
+      pose.x - pose.scale * (origin.x * cos + origin.z * sin),
+      pose.y - pose.scale * origin.y,
+      pose.z - pose.scale * (origin.z * cos - origin.x * sin),
+    );
+    rig.rotation.y = yaw;
+    rig.scale.setScalar(pose.scale);
+    this.front.position.set(origin.x, origin.y, origin.z);
+    this.front.rotation.y = origin.yaw;
+  }
+}

@@ -1,0 +1,150 @@
+/**
+ * The status in VR: a small panel on the wrist of the hand that does not drive, or low in front of the operator if there is
+ * no such controller.
+ */
+import {
+  CanvasTexture,
+  Group,
+  Mesh,
+  MeshBasicMaterial,
+  type Object3D,
+  PlaneGeometry,
+  SRGBColorSpace,
+  type WebGLRenderer,
+} from 'three';
+import type { Hand } from '../../ground/headset-settings.ts';
+import type { Tone } from '../../words/words.ts';
+import { fitText } from '../fitted-text.ts';
+
+const WIDTH = 512;
+const HEIGHT = 376;
+const PANEL_M = 0.18;
+const GAP_M = 0.02;
+/** From one line to the next, and from the edge to the text, pixels. */
+const LINE = 44;
+const EDGE = 24;
+const MOST_LINES = 8;
+const COLOURS: Record<Tone, string> = {
+  good: '#35c9b5',
+  neutral: '#9fb2c1',
+  warning: '#f0b429',
+  bad: '#ff5d5d',
+};
+
+export interface PanelLine {
+  text: string;
+  tone: Tone;
+}
+
+export class WristPanel {
+  readonly #group = new Group();
+  readonly #hand: Hand;
+  readonly #context: CanvasRenderingContext2D;
+  readonly #texture: CanvasTexture;
+  #shown = '';
+  #lines: readonly PanelLine[] = [];
+  /** Progress shown by the bar at the bottom, in twentieths. */
+  #progress = 0;
+
+  /**
+   * @param rig carries the tracked space
+   * @param front carries what hangs before the operator
+   * @param hand on whose wrist it is
+   */
+  constructor(renderer: WebGLRenderer, rig: Group, front: Group, hand: Hand) {
+    this.#hand = hand;
+    const canvas = document.createElement('canvas');
+    canvas.width = WIDTH;
+    canvas.height = HEIGHT;
+    this.#context = canvas.getContext('2d')!;
+    this.#texture = new CanvasTexture(canvas);
+    this.#texture.colorSpace = SRGBColorSpace;
+    const mesh = new Mesh(
+      new PlaneGeometry(PANEL_M, (PANEL_M * HEIGHT) / WIDTH),
+      new MeshBasicMaterial({ map: this.#texture, transparent: true, opacity: 0.92 }),
+    );
+    this.#group.add(mesh);
+    this.#group.visible = false;
+    const rest = (): void => {
+      front.add(this.#group);
+      this.#group.position.set(0, -0.32, -0.7);
+      this.#group.rotation.set(-0.5, 0, 0);
+      this.#group.scale.setScalar(1.6);
+    };
+    rest();
+    for (const index of [0, 1]) {
+      const grip = renderer.xr.getControllerGrip(index);
+      rig.add(grip);
+      grip.addEventListener('connected', ({ data }) => {
+        if (data.handedness !== hand) return;
+        grip.add(this.#group);
+        this.#group.position.set(0, 0.03, 0.06);
+        this.#group.rotation.set(-1.0, 0, 0);
+        this.#group.scale.setScalar(1);
+      });
+      grip.addEventListener('disconnected', () => {
+        if (this.#group.parent === grip) rest();
+      });
+    }
+  }
+
+  /** Adds an object beside the panel, on the inner side. It moves with the panel. */
+  addBeside(object: Object3D): void {
+    const inwards = this.#hand === 'left' ? 1 : -1;
+    object.position.set(inwards * (PANEL_M + GAP_M), (-PANEL_M * HEIGHT) / WIDTH / 2, 0);
+    this.#group.add(object);
+  }
+
+  /** What it shows; `null` while it is hidden. */
+  get shown(): readonly PanelLine[] | null {
+    return this.#group.visible ? this.#lines : null;
+  }
+
+  set visible(visible: boolean) {
+    this.#group.visible = visible;
+  }
+
+  /** Redraws only what has changed. Call this at most a few times a second. */
+  show(lines: readonly PanelLine[]): void {
+    const key = lines.map((line) => line.tone + line.text).join('\n');
+    if (key === this.#shown) return;
+    this.#shown = key;
+    this.#lines = lines;
+    this.#draw();
+  }
+
+  /** Shows a progress bar at the bottom. @param share 0–1; at 0 there is no bar */
+  showProgress(share: number): void {
+    const progress = Math.round(share * 20);
+    if (progress === this.#progress) return;
+    this.#progress = progress;
+    this.#draw();
+  }
+
+  #draw(): void {
+    const context = this.#context;
+    context.clearRect(0, 0, WIDTH, HEIGHT);
+    context.fillStyle = '#0d141bee';
+    context.beginPath();
+    context.roundRect(0, 0, WIDTH, HEIGHT, 24);
+    context.fill();
+    context.textBaseline = 'top';
+    for (const [index, line] of this.#lines.slice(0, MOST_LINES).entries()) {
+      const weight = index === 0 ? 600 : 400;
+      const measure = (text: string, size: number) => {
+        context.font = `${weight} ${size}px system-ui, sans-serif`;
+        return context.measureText(text).width;
+      };
+      const { rows, size } = fitText(line.text, index === 0 ? 36 : 30, WIDTH - 2 * EDGE, measure);
+      measure('', size);
+      context.fillStyle = COLOURS[line.tone];
+      const top = 20 + index * LINE - (rows.length > 1 ? 2 : 0);
+      for (const [row, text] of rows.entries()) context.fillText(text, EDGE, top + row * (size + 1));
+    }
+    if (this.#progress > 0) {
+      context.fillStyle = COLOURS.bad;
+      context.fillRect(24, HEIGHT - 10, ((WIDTH - 48) * this.#progress) / 20, 6);
+    }
+    this.#texture.needsUpdate = true;
+  }
+}

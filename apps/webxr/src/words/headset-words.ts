@@ -1,0 +1,25 @@
+/** What the headset says about its views. */
+import type { Hand } from '../ground/headset-settings.ts';
+import type { HeadsetView } from '../scene/headset/rig-pose.ts';
+
+export const HEADSET_VIEW_WORDS: Readonly<Record<HeadsetView, string>> = {
+  'first-person': 'First person',
+  'over-shoulder': 'Over the shoulder',
+  tabletop: 'Tabletop',
+};
+
+/** What the hands do in a view. @param driveHand the hand that drives */
+export function viewHint(view: HeadsetView, driveHand: Hand): string {
+  const drive = `squeeze ${driveHand}: drive`;
+  return view === 'tabletop'
+    ? `Trigger: move · both: turn, scale · ${drive}`
+    : `Other stick: turn · ${drive}`;
+}
+
+/** The view, unless it is the usual one. @param scale metres in the room of one metre of the world */
+export function viewFact(view: HeadsetView, scale: number): string | null {
+  if (view === 'first-person') return null;
+  return view === 'tabletop'
+    ? `${HEADSET_VIEW_WORDS[view]} 1:${Math.round(1 / scale)}`
+    : HEADSET_VIEW_WORDS[view];
+}

@@ -1,0 +1,48 @@
+/** What is near the robot, for people: metres from its edge, and the direction. */
+import { type NearHit, nearestHits, unseenDirections } from '../ground/near-field/directions.ts';
+import type { NearView } from '../ground/near-field/near-view.ts';
+import type { Tone, Words } from './tone.ts';
+
+/** Nearer than this is very near, and near, metres. */
+export const VERY_NEAR_M = 0.35;
+export const NEAR_M = 1;
+const ALL_AROUND = 'ahead,left,behind,right';
+
+/** What is nearest; or that nothing is known. */
+export function nearWords(view: NearView | null): Words {
+  if (view === null) return { text: 'No near-field data', tone: 'warning' };
+  const [nearest] = nearestHits(view.sectors);
+  const text = nearest === undefined ? 'Nothing near that sensors see' : hitText(nearest);
+  if (view.stale) return { text: `${(view.ageMs / 1000).toFixed(0)} s old: ${text}`, tone: 'warning' };
+  return { text: capitalised(text), tone: nearest === undefined ? 'neutral' : toneOf(nearest) };
+}
+
+/** What else is near in other directions, and where nothing is seen; empty if there is nothing to say. */
+export function nearDetails(view: NearView | null): string {
+  if (view === null) return '';
+  const others = nearestHits(view.sectors)
+    .slice(1)
+    .filter(({ metres }) => metres < NEAR_M)
+    .slice(0, 2)
+    .map(hitText);
+  const unseen = unseenDirections(view.sectors);
+  const hidden =
+    unseen.length === 0
+      ? []
+      : [unseen.join() === ALL_AROUND ? 'unseen all around' : `unseen: ${unseen.join(', ')}`];
+  return [...others, ...hidden].join(' · ');
+}
+
+function hitText({ kind, metres, direction }: NearHit): string {
+  const far = metres < 0.05 ? 'at its edge,' : `${metres.toFixed(1)} m`;
+  return `${kind === 'drop' ? 'drop ' : ''}${far} ${direction}`;
+}
+
+function toneOf({ kind, metres }: NearHit): Tone {
+  if (metres < VERY_NEAR_M) return 'bad';
+  return metres < NEAR_M || kind === 'drop' ? 'warning' : 'neutral';
+}
+
+function capitalised(text: string): string {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
