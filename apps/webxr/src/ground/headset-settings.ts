@@ -1,6 +1,10 @@
 /** What an operator can set about the headset. The browser keeps it; whatever it holds is checked here. */
 
 /** How the view turns: in steps, steadily, or with the robot. */
+/** From where the operator looks. */
+export const HEADSET_VIEWS = ['first-person', 'over-shoulder', 'tabletop'] as const;
+export type HeadsetView = (typeof HEADSET_VIEWS)[number];
+
 export const TURNS = ['snap', 'smooth', 'robot'] as const;
 export type Turn = (typeof TURNS)[number];
 

@@ -54,7 +54,7 @@ import { VideoFeed } from '../take/video/video-feed.ts';
 import { videoReceiver } from '../take/video/video-receiver.ts';
 import { PageStatistics, type PageStats } from '../words/page-stats.ts';
 import { viewAgeMs } from '../words/view-age.ts';
-import { leavingWords } from '../words/words.ts';
+import { leavingWords, videoWords } from '../words/words.ts';
 import { applyAppearance } from './apply-appearance.ts';
 import { FrameLoop } from './frame-loop.ts';
 import type { HeadsetControls } from './headset-controls.ts';
@@ -141,7 +141,7 @@ export class App {
     const { sensors, pointScale } = this.state;
     this.videos = new VideoFeed({
       ...{ client: this.client, views: this.state.videos, synchronised: settings.synchronised },
-      ...{ receiver, presented: this.presented, now: () => performance.now() },
+      ...{ receiver, words: videoWords, presented: this.presented, now: () => performance.now() },
       onShown: (captureMs) => this.client.seen.onShown(captureMs),
     });
     this.recorder = new TelemetryRecorder(this.client, () => performance.now());

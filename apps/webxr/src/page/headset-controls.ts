@@ -1,9 +1,8 @@
 /** Connects the headset with the page: what its hands and buttons do to the view, besides driving. */
 import { effect, untracked } from '@preact/signals-core';
-import type { HeadsetSettings } from '../ground/headset-settings.ts';
+import { HEADSET_VIEWS, type HeadsetSettings, type HeadsetView } from '../ground/headset-settings.ts';
 import type { OperatorInputs } from '../panels/ui/operator-inputs.ts';
 import { GrabbingHands } from '../scene/headset/grabbing-hands.ts';
-import { HEADSET_VIEWS, type HeadsetView } from '../scene/headset/rig-pose.ts';
 import { ViewSign } from '../scene/headset/view-sign.ts';
 import type { PicturePointer } from '../scene/view/picture-pointer.ts';
 import type { Stage } from '../scene/view/stage.ts';

@@ -13,13 +13,13 @@ import type {
   VideoCodec,
 } from '@farpoint/operator';
 import type { DriveState, LatencyFrame } from '@farpoint/protocol';
+import type { HeadsetView } from '../ground/headset-settings.ts';
 import type { NearHit } from '../ground/near-field/directions.ts';
-import type { HeadsetView } from '../scene/headset/rig-pose.ts';
 import type { RobotFigures } from '../scene/robot-model/robot-figures.ts';
 import type { DrivePath } from '../scene/view/drive-path.ts';
 import type { NearRing } from '../scene/view/near-ring.ts';
-import type { ViewFigures } from '../scene/view/predicted-view.ts';
 import type { PageStats } from '../words/page-stats.ts';
+import type { ViewFigures } from '../words/view-words.ts';
 import type { DriveRecording } from './drive-record.ts';
 
 export interface PageState {

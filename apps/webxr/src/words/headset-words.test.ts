@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { HEADSET_VIEWS } from '../scene/headset/rig-pose.ts';
+import { HEADSET_VIEWS } from '../ground/headset-settings.ts';
 import { viewFact, viewHint } from './headset-words.ts';
 
 test('says which view is shown, unless it is the usual one, and the scale of a model', () => {

@@ -1,6 +1,5 @@
 /** What the headset says about its views. */
-import type { Hand } from '../ground/headset-settings.ts';
-import type { HeadsetView } from '../scene/headset/rig-pose.ts';
+import type { Hand, HeadsetView } from '../ground/headset-settings.ts';
 
 export const HEADSET_VIEW_WORDS: Readonly<Record<HeadsetView, string>> = {
   'first-person': 'First person',

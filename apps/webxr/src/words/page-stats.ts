@@ -2,9 +2,9 @@
 
 import { type Distribution, type DropCounts, SampleWindow, type StreamStats } from '@farpoint/operator';
 import { RateMeter } from '@farpoint/timing';
-import type { ViewFigures } from '../scene/view/predicted-view.ts';
 import type { VideoColourFigures } from '../take/video/video-colour.ts';
 import type { VideoStats } from '../take/video/video-figures.ts';
+import type { ViewFigures } from './view-words.ts';
 
 export interface PageStats extends StreamStats {
   /** Since the session began. */

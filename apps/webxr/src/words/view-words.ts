@@ -1,5 +1,13 @@
 /** Says whether what is shown is where the robot reported itself, or a prediction. */
-import type { ViewFigures } from '../scene/view/predicted-view.ts';
+import type { PredictionState } from '@farpoint/operator/prediction';
+
+/** What the page says of the view. */
+export interface ViewFigures {
+  /** Why it is predicted, or not; `off`: the operator has switched it off. */
+  state: PredictionState | 'off';
+  /** How much later than the newest report the shown pose is, ms; 0 where it is as reported. */
+  aheadMs: number;
+}
 
 export function viewWords({ state, aheadMs }: ViewFigures): string {
   switch (state) {

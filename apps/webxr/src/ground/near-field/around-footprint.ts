@@ -1,5 +1,10 @@
 /** Where something is whose direction and distance from the robot's edge are known. No three.js here. */
-import type { FloorPoint } from '../../scene/view/swept-path.ts';
+
+/** On the floor, m: x ahead of base_link, y to its left. */
+export interface FloorPoint {
+  readonly x: number;
+  readonly y: number;
+}
 
 /** How far beyond its ends a side of the outline still counts, metres: no ray slips through between two sides. */
 const SEAM_M = 1e-9;

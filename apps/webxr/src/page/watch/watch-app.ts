@@ -12,6 +12,7 @@ import { HeldClouds } from '../../take/video/held-clouds.ts';
 import { VideoFeed } from '../../take/video/video-feed.ts';
 import { videoReceiver } from '../../take/video/video-receiver.ts';
 import { VideoViews } from '../../take/video/video-views.ts';
+import { videoWords } from '../../words/words.ts';
 import { showWatchPanels } from './watch-panels.ts';
 import type { WatchSettings } from './watch-settings.ts';
 import { watchWords } from './watch-words.ts';
@@ -58,7 +59,7 @@ export class WatchApp {
     this.views = new VideoViews(this.#nowMs, () => document.createElement('canvas'));
     this.#enlarged = new Enlarged(this.views.views);
     this.videos = new VideoFeed({
-      ...{ client: watcher, views: this.views, synchronised, presented: null },
+      ...{ client: watcher, views: this.views, words: videoWords, synchronised, presented: null },
       // Its frames tell the timestamps with which the relay's were paired.
       receiver: videoReceiver('native'),
       captureMs: (video, { rtpTimestamp }) =>

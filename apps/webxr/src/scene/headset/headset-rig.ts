@@ -1,11 +1,11 @@
 /** Places what carries the operator's head in the robot's world, by view, recentring and turning. Allocates nothing. */
 import { type Signal, signal } from '@preact/signals-core';
 import { Group, type Object3D } from 'three';
-import type { HeadsetSettings } from '../../ground/headset-settings.ts';
+import type { HeadsetSettings, HeadsetView } from '../../ground/headset-settings.ts';
 import { frontSide } from './front-side.ts';
 import { headYaw, OperatorOrigin } from './operator-origin.ts';
 import { OperatorTurn } from './operator-turn.ts';
-import { ABOVE_M, type HeadsetView, RigPose, type WorldPlace } from './rig-pose.ts';
+import { ABOVE_M, RigPose, type WorldPlace } from './rig-pose.ts';
 import { TableModel } from './table-model.ts';
 import { ViewHeading } from './view-heading.ts';
 import { VignetteAmount } from './vignette-amount.ts';

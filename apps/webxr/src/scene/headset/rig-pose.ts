@@ -3,9 +3,6 @@
  * allocates nothing.
  */
 
-export const HEADSET_VIEWS = ['first-person', 'over-shoulder', 'tabletop'] as const;
-export type HeadsetView = (typeof HEADSET_VIEWS)[number];
-
 /** Over the shoulder: behind the robot's camera and above it, m. */
 export const BEHIND_M = 2.4;
 export const ABOVE_M = 0.6;

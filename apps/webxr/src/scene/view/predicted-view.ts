@@ -8,19 +8,11 @@ import {
   CameraMount,
   type HeadingPose,
   MotionPredictor,
-  type PredictionState,
   ReconciledPose,
 } from '@farpoint/operator/prediction';
 import { sequenceDelta32, stampUsOf } from '@farpoint/protocol';
 import { signal } from '@preact/signals-core';
-
-/** What the page says of the view. */
-export interface ViewFigures {
-  /** Why it is predicted, or not; `off`: the operator has switched it off. */
-  state: PredictionState | 'off';
-  /** How much later than the newest report the shown pose is, ms; 0 where it is as reported. */
-  aheadMs: number;
-}
+import type { ViewFigures } from '../../words/view-words.ts';
 
 /** A display frame takes about this long until it is seen, ms. */
 const LEAST_FRAME_MS = 5;

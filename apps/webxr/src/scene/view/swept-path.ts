@@ -1,9 +1,5 @@
 /** The floor that a robot sweeps with a constant velocity, in base_link (REP-103): metres, radians. No three.js here. */
-
-export interface FloorPoint {
-  x: number;
-  y: number;
-}
+import type { FloorPoint } from '../../ground/near-field/around-footprint.ts';
 
 /** What a robot sweeps on an arc, to either side of base_link's way. */
 export interface SweptWidth {

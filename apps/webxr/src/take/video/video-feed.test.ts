@@ -29,6 +29,7 @@ class Bench extends RobotVoice {
     this.feed = new VideoFeed({
       client: client as unknown as RobotClient,
       views: this.views,
+      words: { tooOld: 'Update it.', noCodec: 'No codec.' },
       synchronised: options.synchronised ?? true,
       presented: this.presented,
       now: () => this.nowMs,

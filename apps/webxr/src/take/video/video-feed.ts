@@ -13,7 +13,6 @@ import {
 } from '@farpoint/operator';
 import { effect, signal, untracked } from '@preact/signals-core';
 import type { PresentedInstant } from '../../ground/telemetry/presented-instant.ts';
-import { videoWords } from '../../words/words.ts';
 import { captureMsOf } from './frame-time.ts';
 import type { Reader, ReadFrame } from './readers/open-reader.ts';
 import type { VideoImage } from './readers/video-image.ts';
@@ -33,6 +32,8 @@ export interface VideoSource {
 export interface VideoFeedParts {
   readonly client: VideoSource;
   readonly views: VideoViews;
+  /** Why this browser cannot show a video. */
+  readonly words: Readonly<Record<'tooOld' | 'noCodec', string>>;
   /** Whether frames wait for what was captured at the same time. */
   readonly synchronised: boolean;
   /** `null` if this browser cannot read videos. */
@@ -156,12 +157,12 @@ export class VideoFeed {
   }
 
   #onTrack(videoTrack: VideoTrack): void {
-    const { views, receiver } = this.#parts;
+    const { views, receiver, words } = this.#parts;
     const { video, track } = videoTrack;
     // It has ended if the browser has refused the video's line in the robot's offer.
     const ended = track.readyState === 'ended';
     if (receiver === null || ended) {
-      views.cannotShow(video, ended ? videoWords.noCodec : videoWords.tooOld);
+      views.cannotShow(video, ended ? words.noCodec : words.tooOld);
       return;
     }
     // Without the video for a moment, so that the reader of its earlier track ends.
@@ -190,7 +191,7 @@ export class VideoFeed {
           onFrame: (frame) => this.#onFrame(video, frame),
           onUnsupported: (detail) => {
             console.warn(`video ${video} cannot be decoded:`, detail);
-            this.#parts.views.cannotShow(video, videoWords.noCodec);
+            this.#parts.views.cannotShow(video, this.#parts.words.noCodec);
           },
         },
       );
