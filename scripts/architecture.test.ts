@@ -10,7 +10,7 @@ import { workspaceFiles as files, readWorkspaceFile as read } from './lib/worksp
 const MAX_LINES = 300;
 const DEVELOPERS = /\.test\.ts$|\/(?:testing|deploy|vectors)\/|(?:\.config|\/build)\.ts$/;
 
-const rooms = parseRooms(read('docs/architecture.md'));
+const rooms = parseRooms(read('docs/architecture.md')).filter(({ folder }) => !folder.includes('/src/'));
 const manifests = files.filter((file) =>
   /^(?:(?:packages|apps)\/[^/]+|wasm-codec|e2e|bench)\/package\.json$/.test(file),
 );

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { importedFiles } from './file-imports.ts';
+import { importedFiles, startedFiles } from './file-imports.ts';
 
 test('finds the files that a file imports by path, in every form, and nothing else', () => {
   const source = `
@@ -24,4 +24,10 @@ test('finds the files that a file imports by path, in every form, and nothing el
     'packages/p/src/e.ts',
     'packages/p/src/h/h.ts',
   ]);
+});
+
+test('a thread that a file starts is found', () => {
+  const source =
+    "new Worker(new URL('../b/worker.ts', import.meta.url));\n// new URL('./c.ts')\nnew URL('https://a.ts');";
+  expect([...startedFiles('src/a/main.ts', source)]).toEqual(['src/b/worker.ts']);
 });
