@@ -91,9 +91,13 @@ try {
       id: `sim-${index + 1}`,
       name: `Simulated robot ${index + 1}`,
       args: [
-        ...[...simArguments(availableParallelism()), '--sim-seed', String(index + 1), ...args],
+        ...simArguments(availableParallelism()),
+        '--sim-seed',
+        String(index + 1),
+        ...args,
         // Browsers must recognise the robot the next time, too.
-        ...['--robot-key', `${repositoryRoot}/.farpoint/robot-keys/sim-${index + 1}.json`],
+        '--robot-key',
+        `${repositoryRoot}/.farpoint/robot-keys/sim-${index + 1}.json`,
       ],
       adminPort,
     })),

@@ -138,16 +138,19 @@ async function run(packets: number, fps: number, seconds: number): Promise<RunRe
       name: 'Simulated robot',
       reference: true,
       args: [
-        ...[
-          '--fps',
-          String(fps),
-          '--packet-log',
-          sentFile,
-          '--max-points',
-          String(packets * POINTS_PER_PACKET),
-        ],
+        '--fps',
+        String(fps),
+        '--packet-log',
+        sentFile,
+        '--max-points',
+        String(packets * POINTS_PER_PACKET),
         // Slightly more than the frames need, so that pacing leaves a pause before the next frame.
-        ...['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', (mbps * 1.05).toFixed(2)],
+        '--rate-control',
+        'fixed',
+        '--plan',
+        'paper',
+        '--bitrate-mbps',
+        (mbps * 1.05).toFixed(2),
       ],
     });
     bridge = await BridgeProcess.start(stack, {

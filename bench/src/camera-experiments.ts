@@ -31,21 +31,32 @@ function one(size: typeof small, framesPerS: number, kbitPerS: number): BenchCam
 
 export const CAMERA_EXPERIMENTS: readonly CameraExperiment[] = [
   ...[30, 60].map((rate) => ({
-    ...{ figure: 13, name: `960×480, ${rate}/s, 512 kbit/s`, cameras: one(small, rate, 512) },
-    ...{ synchronised: true, found: '60/s is slightly later than 30/s' },
+    figure: 13,
+    name: `960×480, ${rate}/s, 512 kbit/s`,
+    cameras: one(small, rate, 512),
+    synchronised: true,
+    found: '60/s is slightly later than 30/s',
   })),
   ...[30, 60].map((rate) => ({
-    ...{ figure: 14, name: `1024×768, ${rate}/s, 2048 kbit/s`, cameras: one(medium, rate, 2048) },
-    ...{ synchronised: true, found: '60/s is slightly later than 30/s' },
+    figure: 14,
+    name: `1024×768, ${rate}/s, 2048 kbit/s`,
+    cameras: one(medium, rate, 2048),
+    synchronised: true,
+    found: '60/s is slightly later than 30/s',
   })),
   {
-    ...{ figure: 15, name: '1920×1080, 60/s, 1024 kbit/s', cameras: one(large, 60, 1024) },
-    ...{ synchronised: true, found: 'one core cannot encode it: latency grows without end' },
+    figure: 15,
+    name: '1920×1080, 60/s, 1024 kbit/s',
+    cameras: one(large, 60, 1024),
+    synchronised: true,
+    found: 'one core cannot encode it: latency grows without end',
   },
   {
-    ...{ figure: 16, name: '2 × 1920×1080, 30/s, 2048 kbit/s' },
+    figure: 16,
+    name: '2 × 1920×1080, 30/s, 2048 kbit/s',
     cameras: [...one(large, 30, 2048), ...one(large, 30, 2048)],
-    ...{ synchronised: true, found: 'no bottleneck' },
+    synchronised: true,
+    found: 'no bottleneck',
   },
   ...[
     { cameras: two, name: '2 × 1024×768, 30/s, 512 kbit/s', found: 'differ by more than 10 ms' },
@@ -65,8 +76,11 @@ export const CAMERA_EXPERIMENTS: readonly CameraExperiment[] = [
     },
   ]),
   ...[512, 1024, 2048, 4096].map((kbitPerS) => ({
-    ...{ figure: null, name: `1024×768, 30/s, ${kbitPerS} kbit/s`, cameras: one(medium, 30, kbitPerS) },
-    ...{ synchronised: true, found: null },
+    figure: null,
+    name: `1024×768, 30/s, ${kbitPerS} kbit/s`,
+    cameras: one(medium, 30, kbitPerS),
+    synchronised: true,
+    found: null,
   })),
 ];
 

@@ -26,7 +26,9 @@ function panelOf({ title, run }: PlottedRun): Panel {
     xLabel: 'time, s',
     yLabel: 'glass to glass, ms',
     series: run.series.map(({ s, ms }, camera) => ({
-      ...{ label: `camera ${camera + 1}`, x: s, y: ms },
+      label: `camera ${camera + 1}`,
+      x: s,
+      y: ms,
       // Cameras in step lie on one another.
       dashed: camera > 0,
     })),

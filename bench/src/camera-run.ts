@@ -167,7 +167,11 @@ function cameraOptions({ cameras, encoder, content }: CameraSetup) {
   return cameras.map(({ width, height, framesPerS, kbitPerS }, i) => ({
     name: cameraName(i),
     source: { kind: 'test', pattern: patterns[i % patterns.length], width, height, framesPerS },
-    ...{ encoder, width, height, framesPerS, kbitPerS },
+    encoder,
+    width,
+    height,
+    framesPerS,
+    kbitPerS,
   }));
 }
 

@@ -38,7 +38,8 @@ export function sharesSeen(
   const onWire = videoBytes.map((bytes) => bytes * VIDEO_OVERHEAD);
   const cloud = bytesSent - onWire.reduce((sum, bytes) => sum + bytes, 0);
   const pair = (stream: string, weight: number, bytes: number): SharePair => ({
-    ...{ stream, asked: Number((weight / weights).toFixed(3)) },
+    stream,
+    asked: Number((weight / weights).toFixed(3)),
     seen: Number((bytes / Math.max(bytesSent, 1)).toFixed(3)),
   });
   return [

@@ -39,8 +39,18 @@ const LOADS: Readonly<Record<CpuLoad, Omit<LiveStackOptions, 'log' | 'robot'> & 
   drive: { args: simArguments(SMALL_COMPUTER_CORES), canvas: '1280x720', ownCanvas: true },
   sample: {
     args: [
-      ...['--mode', 'points64', '--fps', '30', '--max-points', '30000'],
-      ...['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', '300'],
+      '--mode',
+      'points64',
+      '--fps',
+      '30',
+      '--max-points',
+      '30000',
+      '--rate-control',
+      'fixed',
+      '--plan',
+      'paper',
+      '--bitrate-mbps',
+      '300',
     ],
     canvas: '160x90',
   },
@@ -103,7 +113,10 @@ export const bench: Bench = {
       if (values.json)
         printJson({
           bench: 'cpu',
-          ...{ load: name, seconds, calibrationMs: speedMs, cores: availableParallelism() },
+          load: name,
+          seconds,
+          calibrationMs: speedMs,
+          cores: availableParallelism(),
           framesPerSecond: Number(framesPerSecond.toFixed(1)),
           rows,
         });

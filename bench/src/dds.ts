@@ -60,7 +60,9 @@ export const bench: Bench = {
     const command = findPeer(kind);
     if (command === null) throw new Error(`no ${kind} here: ${PEER_REMEDY[kind]}`);
     const run: Run = {
-      ...{ kind, command, reliability },
+      kind,
+      command,
+      reliability,
       side: numberOption('side', values.side, 1),
       hz: numberOption('hz', values.hz, 0.1),
       seconds: numberOption('seconds', values.seconds, 1),
@@ -79,8 +81,13 @@ export const bench: Bench = {
       ['frames/s', 'torn', 'robot, MB', 'robot, cores', 'node, cores', 'Twists', 'commands'],
       [
         [
-          ...[result.framesPerSecond, result.torn, result.rssMbMax, result.robotCpu, result.peerCpu],
-          ...[result.twists, result.commands],
+          result.framesPerSecond,
+          result.torn,
+          result.rssMbMax,
+          result.robotCpu,
+          result.peerCpu,
+          result.twists,
+          result.commands,
         ],
       ],
     );
@@ -120,7 +127,13 @@ async function measure({ command, side, hz, seconds, mbps, reliability }: Run): 
   const domain = testDomain();
   writeFileSync(config, configuration(domain, reliability));
   const peer = await Peer.start(command, {
-    ...{ domain, cloud: 'rt/points', side, hz, reliability, twist: 'rt/cmd_vel', echo: 'rt/echo' },
+    domain,
+    cloud: 'rt/points',
+    side,
+    hz,
+    reliability,
+    twist: 'rt/cmd_vel',
+    echo: 'rt/echo',
   });
   let stack: LocalStack | null = null;
   try {
@@ -131,8 +144,16 @@ async function measure({ command, side, hz, seconds, mbps, reliability }: Run): 
           id: ROBOT,
           name: 'Robot in a ROS 2 graph',
           args: [
-            ...['--config', config, '--frame-log', frameLog],
-            ...['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', String(mbps)],
+            '--config',
+            config,
+            '--frame-log',
+            frameLog,
+            '--rate-control',
+            'fixed',
+            '--plan',
+            'paper',
+            '--bitrate-mbps',
+            String(mbps),
           ],
         },
       ],

@@ -43,7 +43,9 @@ export function printFaults(faults: readonly FaultTime[]): void {
   printTable(
     ['fault', 'braking after, ms', 'limit, ms', ''],
     faults.map(({ fault, brakingAfterMs, limitMs, ok }) => [
-      ...[fault, Math.round(brakingAfterMs), Math.round(limitMs)],
+      fault,
+      Math.round(brakingAfterMs),
+      Math.round(limitMs),
       ok ? '' : 'LATE',
     ]),
   );

@@ -112,23 +112,27 @@ export const bench: Bench = {
         'grips lost',
       ],
       rows.map((row) => [
-        ...[
-          row.size,
-          row.metres,
-          row.heldS,
-          row.guardedS,
-          row.obeyedShare,
-          row.viewAgeMs.p50,
-          row.viewAgeMs.p95,
-        ],
-        ...[row.drawnFramesPerSecond, row.displayFramesPerSecond, row.gripsLost],
+        row.size,
+        row.metres,
+        row.heldS,
+        row.guardedS,
+        row.obeyedShare,
+        row.viewAgeMs.p50,
+        row.viewAgeMs.p95,
+        row.drawnFramesPerSecond,
+        row.displayFramesPerSecond,
+        row.gripsLost,
       ]),
     );
     for (const { size, whyNotS } of rows) console.log(`${size}: not obeyed, s: ${JSON.stringify(whyNotS)}`);
     if (values.json)
       printJson({
         bench: 'first-drive',
-        ...{ seconds, busy, throttle, browser: kind, headset: values.headset },
+        seconds,
+        busy,
+        throttle,
+        browser: kind,
+        headset: values.headset,
         cores: availableParallelism(),
         rows,
       });

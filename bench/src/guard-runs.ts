@@ -97,9 +97,17 @@ export const bench: Bench = {
         '%',
       ],
       rows.map((row) => [
-        ...[row.world, row.runs, Math.round(row.metres), row.contacts, row.falls, row.unseen],
+        row.world,
+        row.runs,
+        Math.round(row.metres),
+        row.contacts,
+        row.falls,
+        row.unseen,
         row.nearestEdgeM === null ? '' : (100 * row.nearestEdgeM).toFixed(1),
-        ...[row.stops, row.freeCommands, row.falseStops, 100 * row.falseShare],
+        row.stops,
+        row.freeCommands,
+        row.falseStops,
+        100 * row.falseShare,
       ]),
     );
     const bound = rounded(distribution(boundMs), 4);
@@ -144,12 +152,17 @@ export function summaryOf(world: string, runs: readonly GuardedRun[]) {
   const falseStops = sum((run) => run.falseStops);
   const nearest = Math.min(...runs.map(({ nearestEdgeM }) => nearestEdgeM));
   return {
-    ...{ world, runs: runs.length, metres: sum((run) => run.metres) },
-    ...{ contacts: sum((run) => run.contacts.length), stops: sum((run) => run.stops) },
+    world,
+    runs: runs.length,
+    metres: sum((run) => run.metres),
+    contacts: sum((run) => run.contacts.length),
+    stops: sum((run) => run.stops),
     falls: runs.filter(({ fellAtS, fellUnseen }) => fellAtS !== null && !fellUnseen).length,
     ...unseenOf(runs),
     nearestEdgeM: Number.isFinite(nearest) ? nearest : null,
-    ...{ freeCommands, falseStops, falseShare: freeCommands === 0 ? 0 : falseStops / freeCommands },
+    freeCommands,
+    falseStops,
+    falseShare: freeCommands === 0 ? 0 : falseStops / freeCommands,
   };
 }
 

@@ -20,8 +20,16 @@ Kernel benchmark, in one process. Times the step from a whole cloud to the grid 
 included, and so is the search for missing floor of which an image has no depth. Then the guard's decision for one command, and the near field that operators are told, in simulated drives.`;
 
 const SETTINGS = {
-  ...{ side: 160, cellM: 0.05, clearanceM: 0.04, heightM: 1.1, dropM: 0.15, slope: 0.01, lowRayM: 0.15 },
-  ...{ nearPoints: 14, leastPoints: 2, confirm: false },
+  side: 160,
+  cellM: 0.05,
+  clearanceM: 0.04,
+  heightM: 1.1,
+  dropM: 0.15,
+  slope: 0.01,
+  lowRayM: 0.15,
+  nearPoints: 14,
+  leastPoints: 2,
+  confirm: false,
 };
 
 const HERE = { x: 0, y: 0, yaw: 0 };
@@ -71,7 +79,11 @@ export const bench: Bench = {
     printTable(
       ['cloud', 'points', 'free', 'occupied', 'drop-offs', 'p50 ms', 'p95', 'p99', 'max'],
       rows.map(({ cloud, points, seen, ms }) => [
-        ...[cloud, points, seen.free, seen.occupied, seen.dropOffs],
+        cloud,
+        points,
+        seen.free,
+        seen.occupied,
+        seen.dropOffs,
         ...distributionCells(ms),
       ]),
     );
@@ -159,7 +171,9 @@ function timeImage(
     return seen;
   };
   return {
-    ...{ cloud, points: depth.length, seen: look() },
+    cloud,
+    points: depth.length,
+    seen: look(),
     ms: rounded(distribution(timeCalls(look, rounds)), 3),
   };
 }
@@ -180,5 +194,5 @@ function timePoints(
     grid.points.set(frame);
     return grid.look({ points });
   };
-  return { ...{ cloud, points, seen: look() }, ms: rounded(distribution(timeCalls(look, rounds)), 3) };
+  return { cloud, points, seen: look(), ms: rounded(distribution(timeCalls(look, rounds)), 3) };
 }

@@ -86,14 +86,15 @@ export const bench: Bench = {
         'p95',
       ],
       runs.map(({ viewers, uplinkBytesPerS, robotCpu, framesPerS, spreadMs, cloudAheadMs }) => [
-        ...[viewers, Math.round(uplinkBytesPerS), robotCpu, framesPerS[0]],
-        ...[
-          framesPerS.length > 1 ? Math.min(...framesPerS.slice(1)) : null,
-          spreadMs?.p50,
-          spreadMs?.p99,
-          cloudAheadMs?.p50,
-          cloudAheadMs?.p95,
-        ],
+        viewers,
+        Math.round(uplinkBytesPerS),
+        robotCpu,
+        framesPerS[0],
+        framesPerS.length > 1 ? Math.min(...framesPerS.slice(1)) : null,
+        spreadMs?.p50,
+        spreadMs?.p99,
+        cloudAheadMs?.p50,
+        cloudAheadMs?.p95,
       ]),
     );
     if (values.json)
@@ -110,7 +111,11 @@ async function measure({ viewers: count, seconds, mbps, encoder }: RunOptions) {
   try {
     const config = join(folder, 'farpoint.yaml');
     const cameras = ['pinwheel', 'ball'].map((pattern) => ({
-      ...{ name: pattern, encoder, ...CAMERA, kbitPerS: 600, source: { kind: 'test', pattern, ...CAMERA } },
+      name: pattern,
+      encoder,
+      ...CAMERA,
+      kbitPerS: 600,
+      source: { kind: 'test', pattern, ...CAMERA },
     }));
     const broadcast = { janus: janus.url, adminKey: janus.adminKey, mbps };
     writeFileSync(config, JSON.stringify({ robot: { videos: cameras, broadcast } }));

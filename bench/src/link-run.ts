@@ -64,7 +64,12 @@ export async function drivePage(page: Page, seconds: number): Promise<PageRun> {
       const { session, link, holder } = farpoint.state();
       series.push({
         timeMs: performance.now(),
-        ...{ packetsReceived, packetsLost, framesDrawn, pointsDrawn, session, link },
+        packetsReceived,
+        packetsLost,
+        framesDrawn,
+        pointsDrawn,
+        session,
+        link,
       });
       if (session === 'live' && holder === 'nobody') farpoint.requestLease();
     }, 100);
@@ -98,7 +103,9 @@ export async function drivePage(page: Page, seconds: number): Promise<PageRun> {
   return {
     series: shift(series),
     latencies: shift(latencies).map(({ timeMs, mtpMs, firstMs, arrivedMs, robot }) => ({
-      ...{ timeMs, mtpMs, firstMs },
+      timeMs,
+      mtpMs,
+      firstMs,
       parts:
         mtpMs === null || robot === null
           ? null

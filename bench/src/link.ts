@@ -56,16 +56,29 @@ export const bench: Bench = {
       id: `sim-${i + 1}`,
       name: `Simulated robot ${i + 1}`,
       args: [
-        ...['--fps', String(fps), '--plan', values.plan, '--rate-control', values['rate-control']],
-        ...['--mode', values.mode, ...(sensors > 1 ? ['--sim-lidars', String(sensors - 1)] : [])],
-        ...['--bitrate-mbps', '200', '--stats', robotFiles[i] as string],
+        '--fps',
+        String(fps),
+        '--plan',
+        values.plan,
+        '--rate-control',
+        values['rate-control'],
+        '--mode',
+        values.mode,
+        ...(sensors > 1 ? ['--sim-lidars', String(sensors - 1)] : []),
+        '--bitrate-mbps',
+        '200',
+        '--stats',
+        robotFiles[i] as string,
       ],
     });
     const capacity =
       values.trace === undefined
         ? ['--rate-mbps', String(rateMbps)]
         : [
-            ...['--up-trace', values.trace, '--down-rate-mbps', String(DOWNLINK_MBPS)],
+            '--up-trace',
+            values.trace,
+            '--down-rate-mbps',
+            String(DOWNLINK_MBPS),
             ...downlinkOutages(traceOutages(values.trace)),
           ];
     const live = await startLiveStack({
@@ -77,15 +90,16 @@ export const bench: Bench = {
       link: {
         args: [
           ...capacity,
-          ...[
-            '--rtt-ms',
-            values['rtt-ms'],
-            '--jitter-ms',
-            values['jitter-ms'],
-            '--queue-ms',
-            values['queue-ms'],
-          ],
-          ...['--loss', values.loss, '--burst-loss', values['burst-loss']],
+          '--rtt-ms',
+          values['rtt-ms'],
+          '--jitter-ms',
+          values['jitter-ms'],
+          '--queue-ms',
+          values['queue-ms'],
+          '--loss',
+          values.loss,
+          '--burst-loss',
+          values['burst-loss'],
           ...(values.cross === undefined ? [] : ['--up-cross', values.cross]),
         ],
         statsFile: linkFile,
@@ -161,11 +175,9 @@ export const bench: Bench = {
       const result = {
         bench: 'link',
         link: values.trace === undefined ? `${rateMbps} Mbit/s` : basename(values.trace),
-        ...{
-          rttMs: Number(values['rtt-ms']),
-          queueLimitMs: Number(values['queue-ms']),
-          loss: Number(values.loss),
-        },
+        rttMs: Number(values['rtt-ms']),
+        queueLimitMs: Number(values['queue-ms']),
+        loss: Number(values.loss),
         mode: values.mode,
         drawnShare: Number((1 / drawEvery).toFixed(4)),
         plan: values.plan,
@@ -251,8 +263,12 @@ export const bench: Bench = {
         ],
         [
           [
-            ...[result.utilisation, result.pointsPerFrame, result.framesPerSecond, result.lossRate],
-            ...[robotCores, robotCores === null ? null : robotCores - result.robotCpu.simulator],
+            result.utilisation,
+            result.pointsPerFrame,
+            result.framesPerSecond,
+            result.lossRate,
+            robotCores,
+            robotCores === null ? null : robotCores - result.robotCpu.simulator,
             result.recoverySeconds,
           ],
         ],
@@ -261,7 +277,9 @@ export const bench: Bench = {
         printTable(
           ['sensor', 'points a frame', 'frames/s', 'frame latency, ms: p50', 'p95', 'p99', 'max', 'share'],
           perSensor.map((row) => [
-            ...[row.name, row.pointsPerFrame, row.framesPerSecond],
+            row.name,
+            row.pointsPerFrame,
+            row.framesPerSecond,
             ...distributionCells(row.frameLatencyMs),
             row.share,
           ]),
@@ -282,7 +300,11 @@ export const bench: Bench = {
         const svg = plotLink({
           title: `Farpoint over ${result.link}, RTT ${values['rtt-ms']} ms`,
           subtitle: `${values.mode === 'auto' ? 'the whole cloud' : 'points64'}, ${values.plan} plan, ${values['rate-control']} rate; motion to photon p50 ${mtpMs.p50} ms, p95 ${mtpMs.p95} ms; utilisation ${(result.utilisation * 100).toFixed(0)} %`,
-          ...{ zeroMs, bins: allBins, robot: allRobot, latencies: within(latencies, zeroMs), outages },
+          zeroMs,
+          bins: allBins,
+          robot: allRobot,
+          latencies: within(latencies, zeroMs),
+          outages,
         });
         writeFileSync(values.plot, svg);
         console.error(`${values.plot} written`);

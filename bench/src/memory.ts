@@ -28,7 +28,9 @@ export const bench: Bench = {
     const [seconds, seed] = [numberOption('seconds', values.seconds, 5), numberOption('seed', values.seed)];
     const { distancesM, workMs, remembered, ghosts, surfels, bytes } = await rememberedDrive(seconds, seed);
     const result = {
-      ...{ remembered: share(remembered), ghosts: share(ghosts), surfels },
+      remembered: share(remembered),
+      ghosts: share(ghosts),
+      surfels,
       megabytes: Math.round(bytes / 1e5) / 10,
       distanceM: rounded(distribution(distancesM), 4),
       workMs: rounded(distribution(workMs), 2),
@@ -37,8 +39,14 @@ export const bench: Bench = {
       ['remembered', 'ghosts', 'surfels', 'MB', 'distance p50 m', 'p95', 'work p50 ms', 'p95'],
       [
         [
-          ...[result.remembered, result.ghosts, surfels, result.megabytes],
-          ...[result.distanceM.p50, result.distanceM.p95, result.workMs.p50, result.workMs.p95],
+          result.remembered,
+          result.ghosts,
+          surfels,
+          result.megabytes,
+          result.distanceM.p50,
+          result.distanceM.p95,
+          result.workMs.p50,
+          result.workMs.p95,
         ],
       ],
     );

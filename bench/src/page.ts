@@ -121,12 +121,10 @@ export const bench: Bench = {
       const half = memory.slice(memory.length >> 1);
       const result = {
         bench: 'page',
-        ...{
-          seconds,
-          surface: values.surface,
-          memory: values.memory,
-          drawnShare: Number((1 / every).toFixed(4)),
-        },
+        seconds,
+        surface: values.surface,
+        memory: values.memory,
+        drawnShare: Number((1 / every).toFixed(4)),
         calibrationMs: speedMs,
         budget,
         framesPerSecond: Number(((profile.frames * 1000) / PROFILE_MS).toFixed(1)),

@@ -71,8 +71,12 @@ export const bench: Bench = {
         if (size.width !== width || size.height !== height)
           throw new Error(`the canvas is ${size.width}×${size.height}, not ${values.size}`);
         pictures.push({
-          ...{ mode, pixels: Uint8Array.from(data), channels },
-          ...{ pointsPerFrame, framesPerSecond, mbps: BitRate.toMbps(bitsPerSecond) },
+          mode,
+          pixels: Uint8Array.from(data),
+          channels,
+          pointsPerFrame,
+          framesPerSecond,
+          mbps: BitRate.toMbps(bitsPerSecond),
         });
       } finally {
         await live.close();

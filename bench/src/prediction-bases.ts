@@ -16,8 +16,14 @@ export const baseKinds = [
 export type BaseKind = (typeof baseKinds)[number];
 
 const FLOOR: WorldDescription = {
-  ...{ name: 'floor', start: { x: 0, y: 0, yaw: 0 }, lampSpacing: 4, materials: {} },
-  ...{ boxes: [], panels: [], ellipsoids: [], movers: [] },
+  name: 'floor',
+  start: { x: 0, y: 0, yaw: 0 },
+  lampSpacing: 4,
+  materials: {},
+  boxes: [],
+  panels: [],
+  ellipsoids: [],
+  movers: [],
 };
 
 export function newBase(kind: BaseKind): DrivenBase {

@@ -187,8 +187,12 @@ function drive(spec: DriveSpec, { hand, fromMs, knownMs, endMs }: Drive): Omit<D
       newestMs = Math.max(newestMs, message.robotMs);
     } else
       predictor.onReport({
-        ...{ robotMs: message.robotMs, arrivedMs: atMs, ...message.pose },
-        ...{ held: false, factor: 1, mostLinear: LIMITS.maxLinear },
+        robotMs: message.robotMs,
+        arrivedMs: atMs,
+        ...message.pose,
+        held: false,
+        factor: 1,
+        mostLinear: LIMITS.maxLinear,
       });
   });
   const up = new Way<Up>(upMs, spec, spec.seed, (message, atMs) => {
@@ -286,7 +290,11 @@ function drive(spec: DriveSpec, { hand, fromMs, knownMs, endMs }: Drive): Omit<D
   const [predicted, without] = [errors.predicted.all, errors.without.all];
   const { delayMs, linear, angular } = predictor.model;
   return {
-    ...{ spec, predicted, cold: errors.cold.all, without, newest: errors.newest.all },
+    spec,
+    predicted,
+    cold: errors.cold.all,
+    without,
+    newest: errors.newest.all,
     ratioM: without.errorM.p95 / predicted.errorM.p95,
     ratioDeg: without.errorDeg.p95 / predicted.errorDeg.p95,
     correctionM: correctionM,

@@ -18,7 +18,14 @@ const TARGETS = { errorM: 0.05, errorDeg: 2, ratio: 3, correctionM: 0.03, inputT
 
 function specs(rounds: number, seed: number): Record<string, DriveSpec> {
   const of = (loopMs: number, base: BaseKind, other: Partial<DriveSpec> = {}): DriveSpec => ({
-    ...{ base, loopMs, upShare: 0.5, jitterMs: 0, loss: 0, noiseM: 0, rounds, seed },
+    base,
+    loopMs,
+    upShare: 0.5,
+    jitterMs: 0,
+    loss: 0,
+    noiseM: 0,
+    rounds,
+    seed,
     ...other,
   });
   return {
@@ -72,27 +79,41 @@ export const bench: Bench = {
     const results = Object.entries(specs(rounds, seed)).map(([link, spec]) => ({ link, ...driveOnce(spec) }));
     printTable(
       [
-        ...[
-          'loop',
-          'error p50, cm',
-          'p95',
-          'yaw p50, °',
-          'p95',
-          'first round p95, cm',
-          '°',
-          'first turn p95, °',
-        ],
-        ...['without p95, cm', '°', '× less, m', '°', 'correction, cm', '°', 'input to view, ms'],
+        'loop',
+        'error p50, cm',
+        'p95',
+        'yaw p50, °',
+        'p95',
+        'first round p95, cm',
+        '°',
+        'first turn p95, °',
+        'without p95, cm',
+        '°',
+        '× less, m',
+        '°',
+        'correction, cm',
+        '°',
+        'input to view, ms',
       ],
       results.map((result) => {
         const { link, predicted, cold, firstTurn, without, ratioM, ratioDeg } = result;
         const { correctionM, correctionDeg } = result;
         return [
-          ...[link, predicted.errorM.p50 * 100, predicted.errorM.p95 * 100],
-          ...[predicted.errorDeg.p50, predicted.errorDeg.p95, cold.errorM.p95 * 100, cold.errorDeg.p95],
+          link,
+          predicted.errorM.p50 * 100,
+          predicted.errorM.p95 * 100,
+          predicted.errorDeg.p50,
+          predicted.errorDeg.p95,
+          cold.errorM.p95 * 100,
+          cold.errorDeg.p95,
           firstTurn.errorDeg.p95,
-          ...[without.errorM.p95 * 100, without.errorDeg.p95, ratioM, ratioDeg],
-          ...[correctionM * 100, correctionDeg, result.inputToViewMs.max],
+          without.errorM.p95 * 100,
+          without.errorDeg.p95,
+          ratioM,
+          ratioDeg,
+          correctionM * 100,
+          correctionDeg,
+          result.inputToViewMs.max,
         ];
       }),
     );
@@ -105,10 +126,19 @@ export const bench: Bench = {
       target;
     printJson({
       bench: 'prediction',
-      ...{ loopMs: TARGET_LOOP_MS, errorM: predicted.errorM, errorDeg: predicted.errorDeg },
+      loopMs: TARGET_LOOP_MS,
+      errorM: predicted.errorM,
+      errorDeg: predicted.errorDeg,
       firstTurnDeg: firstTurn.errorDeg,
-      ...{ withoutM: without.errorM, withoutDeg: without.errorDeg, ratioM, ratioDeg },
-      ...{ correctionM, correctionDeg, inputToViewMs, ok: meetsTargets(target), rows: results },
+      withoutM: without.errorM,
+      withoutDeg: without.errorDeg,
+      ratioM,
+      ratioDeg,
+      correctionM,
+      correctionDeg,
+      inputToViewMs,
+      ok: meetsTargets(target),
+      rows: results,
     });
   },
 };

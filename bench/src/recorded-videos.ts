@@ -62,7 +62,8 @@ export function recordedVideo(frames: readonly RecordedFrame[], framesPerS: numb
   const bytes = frames.reduce((sum, frame) => sum + frame.bytes, 0);
   const perSecond = (value: number, digits: number) => Number((value / (seconds || 1)).toFixed(digits));
   return {
-    ...{ frames: frames.length, lost },
+    frames: frames.length,
+    lost,
     keptShare: frames.length === 0 ? 0 : Number((frames.length / (frames.length + lost)).toFixed(4)),
     framesPerSecond: perSecond(frames.length - 1, 2),
     bytesPerSecond: perSecond(bytes, 0),

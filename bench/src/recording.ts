@@ -74,19 +74,38 @@ export const bench: Bench = {
     try {
       console.error('without a recording');
       const plain = await measure('farpoint', {
-        ...{ size, fps, mbps, seconds: Math.min(seconds, 20), pictures, videos },
+        size,
+        fps,
+        mbps,
+        seconds: Math.min(seconds, 20),
+        pictures,
+        videos,
         robotArgs: sourceArgs,
       });
       console.error(`with one, ${seconds} s`);
       const memoryMb: number[] = [];
       let encoded = NOTHING_ENCODED;
       const recorded = await measure('farpoint', {
-        ...{ size, fps, mbps, seconds, pictures, videos },
+        size,
+        fps,
+        mbps,
+        seconds,
+        pictures,
+        videos,
         robotArgs: [
           ...sourceArgs,
-          ...['--record', path, '--record-clouds', 'both', '--record-max', 'none'],
-          ...['--record-captured-fps', values['captured-fps'], '--record-sent-fps', '120'],
-          ...['--record-compression', compression],
+          '--record',
+          path,
+          '--record-clouds',
+          'both',
+          '--record-max',
+          'none',
+          '--record-captured-fps',
+          values['captured-fps'],
+          '--record-sent-fps',
+          '120',
+          '--record-compression',
+          compression,
         ],
         onSecond: (pid) => memoryMb.push(residentMb(pid)),
         onEnd: async (adminUrl) => {
@@ -97,16 +116,14 @@ export const bench: Bench = {
       const fifth = Math.max(1, Math.floor(memoryMb.length / 5));
       const result = {
         bench: 'recording',
-        ...{
-          points: size * size,
-          fps,
-          seconds,
-          mbps,
-          compression,
-          picturesPerSecond,
-          videoCameras: videos,
-          capturedFps: Number(values['captured-fps']),
-        },
+        points: size * size,
+        fps,
+        seconds,
+        mbps,
+        compression,
+        picturesPerSecond,
+        videoCameras: videos,
+        capturedFps: Number(values['captured-fps']),
         latencyMs: recorded.latencyMs,
         latencyMsWithout: plain.latencyMs,
         addedMs: {
@@ -149,9 +166,15 @@ export const bench: Bench = {
         ],
         [
           [
-            ...[result.framesPerSecond, result.robotCpu, result.robotCpuWithout],
-            ...[result.robotMainCpu, result.robotMainCpuWithout],
-            ...[result.rssMbBegin, result.rssMbEnd, result.rssMbMax, result.fileMbPerSecond],
+            result.framesPerSecond,
+            result.robotCpu,
+            result.robotCpuWithout,
+            result.robotMainCpu,
+            result.robotMainCpuWithout,
+            result.rssMbBegin,
+            result.rssMbEnd,
+            result.rssMbMax,
+            result.fileMbPerSecond,
           ],
         ],
       );
@@ -163,8 +186,13 @@ export const bench: Bench = {
         printTable(
           ['video', 'recorded', 'lost', 'kept, %', 'skipped by the encoder', 'frames/s', 'kB/s'],
           file.videos.map(({ name, frames, lost, keptShare, framesPerSecond, bytesPerSecond }, i) => [
-            ...[name, frames, lost, keptShare * 100, encoded.skipped[i]],
-            ...[framesPerSecond, bytesPerSecond / 1000],
+            name,
+            frames,
+            lost,
+            keptShare * 100,
+            encoded.skipped[i],
+            framesPerSecond,
+            bytesPerSecond / 1000,
           ]),
         );
       }

@@ -45,8 +45,10 @@ export const bench: Bench = {
     if (values.help) return console.log(USAGE);
     const losses = values.loss.split(',').map((text) => numberOption('loss', text));
     const link = [
-      ...['--rtt-ms', String(numberOption('rtt-ms', values['rtt-ms']))],
-      ...['--rate-mbps', String(numberOption('mbps', values.mbps, 1))],
+      '--rtt-ms',
+      String(numberOption('rtt-ms', values['rtt-ms'])),
+      '--rate-mbps',
+      String(numberOption('mbps', values.mbps, 1)),
     ];
     const seconds = numberOption('seconds', values.seconds, 1);
     const robot = values.robot.split(' ').filter((word) => word !== '');

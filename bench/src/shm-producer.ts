@@ -55,7 +55,10 @@ function nowMs(): number {
 
 function farpointPublisher(): (frame: number) => boolean {
   const producer = new CloudProducer({
-    ...{ folder: values.folder, format: 'points', maxPoints: count, framesPerSecond: 1000 / intervalMs },
+    folder: values.folder,
+    format: 'points',
+    maxPoints: count,
+    framesPerSecond: 1000 / intervalMs,
   });
   const words = new Uint32Array(scene.points.buffer, scene.points.byteOffset, count * 4).slice();
   const { fx, fy, cx, cy } = simulation.intrinsics;

@@ -90,8 +90,13 @@ export const bench: Bench = {
     printTable(
       ['', 'frames/s', 'torn', 'robot, MB', 'robot, cores', 'producer, cores', 'points sent'],
       rows.map(([layout, result]) => [
-        ...[layout, result.framesPerSecond, result.torn, result.rssMbMax],
-        ...[result.robotCpu, result.producerCpu, result.pointsPerFrame],
+        layout,
+        result.framesPerSecond,
+        result.torn,
+        result.rssMbMax,
+        result.robotCpu,
+        result.producerCpu,
+        result.pointsPerFrame,
       ]),
     );
     if (!values.json) return;
@@ -99,7 +104,10 @@ export const bench: Bench = {
     const worst = all.reduce((a, b) => (b.latencyMs.p99 > a.latencyMs.p99 ? b : a));
     printJson({
       bench: 'shm',
-      ...{ points: size * size, fps, seconds, mbps },
+      points: size * size,
+      fps,
+      seconds,
+      mbps,
       // Of the layouts measured, the worst.
       latencyMs: worst.latencyMs,
       framesPerSecond: Math.min(...all.map((result) => result.framesPerSecond)),
@@ -139,8 +147,17 @@ export async function measure(
   const producer = spawn(
     process.execPath,
     [
-      ...[join(import.meta.dirname, 'shm-producer.ts'), '--layout', layout, '--folder', folder],
-      ...['--size', String(size), '--fps', String(fps), '--log', producerLog],
+      join(import.meta.dirname, 'shm-producer.ts'),
+      '--layout',
+      layout,
+      '--folder',
+      folder,
+      '--size',
+      String(size),
+      '--fps',
+      String(fps),
+      '--log',
+      producerLog,
       ...(pictures ? ['--scene'] : []),
     ],
     { stdio: ['ignore', 'inherit', 'inherit'] },
@@ -153,9 +170,22 @@ export async function measure(
           id: ROBOT,
           name: 'Robot with a camera in shared memory',
           args: [
-            ...['--source', 'shm', '--shm-layout', layout, '--shm-folder', folder, '--fps', String(fps)],
-            ...['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', String(mbps)],
-            ...['--frame-log', frameLog],
+            '--source',
+            'shm',
+            '--shm-layout',
+            layout,
+            '--shm-folder',
+            folder,
+            '--fps',
+            String(fps),
+            '--rate-control',
+            'fixed',
+            '--plan',
+            'paper',
+            '--bitrate-mbps',
+            String(mbps),
+            '--frame-log',
+            frameLog,
             ...robotArgs,
           ],
         },
@@ -233,7 +263,13 @@ async function killAll(
     console.error(`${layout}: ${frames} frames of ${points} points, both sides killed at random`);
     try {
       results[layout] = await runKillTest({
-        ...{ layout, folder, frames, points, leastKills: 10, seed, lifeMs: [20, 1500] },
+        layout,
+        folder,
+        frames,
+        points,
+        leastKills: 10,
+        seed,
+        lifeMs: [20, 1500],
       });
     } finally {
       rmSync(folder, { recursive: true, force: true });
@@ -242,8 +278,13 @@ async function killAll(
   printTable(
     ['', 'frames', 'torn', 'producer kills', 'reader kills', 'longest pause, ms', 'frames/s'],
     Object.entries(results).map(([layout, result]) => [
-      ...[layout, result.frames, result.torn, result.producerKills, result.readerKills],
-      ...[result.longestPauseMs, result.frames / result.seconds],
+      layout,
+      result.frames,
+      result.torn,
+      result.producerKills,
+      result.readerKills,
+      result.longestPauseMs,
+      result.frames / result.seconds,
     ]),
   );
   return results;

@@ -48,8 +48,11 @@ export interface Stop {
 
 /** As the robot's defaults. */
 export const RAMPS: Readonly<RampLimits> = Object.freeze({
-  ...{ accelerationMps2: 1, decelerationMps2: 2, emergencyMps2: 4 },
-  ...{ turnRadps2: 3, emergencyTurnRadps2: 6 },
+  accelerationMps2: 1,
+  decelerationMps2: 2,
+  emergencyMps2: 4,
+  turnRadps2: 3,
+  emergencyTurnRadps2: 6,
 });
 export const VIEW = {
   slowMs: 250,

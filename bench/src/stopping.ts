@@ -45,7 +45,10 @@ const endsUnbounded = (cause: StopCause) => cause === 'sight' || cause === 'link
 
 function seriesOf(rows: readonly Row[], label: string, dashed: boolean): Series {
   return {
-    ...{ label, dashed, x: rows.map(({ latencyMs }) => latencyMs), y: rows.map(({ metres }) => metres) },
+    label,
+    dashed,
+    x: rows.map(({ latencyMs }) => latencyMs),
+    y: rows.map(({ metres }) => metres),
   };
 }
 
@@ -86,7 +89,12 @@ export const bench: Bench = {
       rows
         .filter(({ askedMps }) => askedMps === SHOWN_MPS)
         .map(({ cause, latencyMs, bounded, drivenMps, brakesMs, metres }) => [
-          ...[cause, latencyMs, bounded ? 'all' : 'watchdog', drivenMps, brakesMs, metres],
+          cause,
+          latencyMs,
+          bounded ? 'all' : 'watchdog',
+          drivenMps,
+          brakesMs,
+          metres,
         ]),
     );
     const felt = [0.5, 1, 1.5].map((mps) => ({ mps, ...feltMs(mps) }));

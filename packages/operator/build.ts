@@ -4,8 +4,11 @@ import { buildBrowserPackage } from '../../scripts/lib/browser-package.ts';
 await buildBrowserPackage({
   folder: import.meta.dirname,
   entries: [
-    ...['index.ts', 'cloud/cloud-worker.ts', 'memory/memory-worker.ts'],
-    ...['pictures/picture-worker.ts', 'watch/stamp-worker.ts'],
+    'index.ts',
+    'cloud/cloud-worker.ts',
+    'memory/memory-worker.ts',
+    'pictures/picture-worker.ts',
+    'watch/stamp-worker.ts',
   ],
   assets: ['../../wasm-codec/pkg/farpoint_codec_bg.wasm'],
 });

@@ -49,7 +49,11 @@ function toComponent(crate: LockedCrate): BillOfMaterials['components'][number] 
   const { name, version, checksum } = crate;
   const purl = crateUrl(crate);
   return {
-    ...{ type: 'library', name, version, purl, 'bom-ref': purl },
+    type: 'library',
+    name,
+    version,
+    purl,
+    'bom-ref': purl,
     ...(checksum === null ? {} : { hashes: [{ alg: 'SHA-256', content: checksum }] }),
   };
 }

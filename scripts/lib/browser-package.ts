@@ -107,8 +107,13 @@ function declare(spec: BrowserPackage, dist: string): void {
   const bundled = bundledIndexes(spec);
   const config = join(dist, 'tsconfig.json');
   const compilerOptions = {
-    ...{ composite: false, incremental: false, declaration: true, types: [] },
-    ...{ rootDir: root, outDir: out, tsBuildInfoFile: null },
+    composite: false,
+    incremental: false,
+    declaration: true,
+    types: [],
+    rootDir: root,
+    outDir: out,
+    tsBuildInfoFile: null,
     paths: Object.fromEntries([...bundled].map(([name, file]) => [name, [file]])),
   };
   const include = ['../src/index.ts'];

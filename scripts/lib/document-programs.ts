@@ -6,7 +6,9 @@ import { type DocumentCommand, documentCommands, shellWords } from './document-c
 import { root } from './run.ts';
 
 const FILES = [
-  ...['README.md', 'CONTRIBUTING.md', 'examples/README.md'],
+  'README.md',
+  'CONTRIBUTING.md',
+  'examples/README.md',
   ...readdirSync(join(root, 'docs'))
     .filter((name) => name.endsWith('.md'))
     .map((name) => `docs/${name}`),

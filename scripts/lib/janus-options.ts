@@ -53,7 +53,11 @@ export class JanusOptionError extends Error {
  */
 export function readJanusOptions(argv: readonly string[]): JanusScriptOptions | null {
   const { values, tokens } = parseArgs({
-    ...{ args: [...argv], options: OPTIONS, strict: false, tokens: true, allowPositionals: true },
+    args: [...argv],
+    options: OPTIONS,
+    strict: false,
+    tokens: true,
+    allowPositionals: true,
   });
   for (const token of tokens) {
     if (token.kind === 'positional')
@@ -86,10 +90,13 @@ export function readJanusOptions(argv: readonly string[]): JanusScriptOptions | 
   return {
     verbose: values.verbose === true,
     server: {
-      ...{ host, port, publicAddress },
+      host,
+      port,
+      publicAddress,
       ...(folder === null ? {} : { folder }),
       ...(adminKey === null ? {} : { adminKey }),
-      ...{ robotPorts, viewerPorts },
+      robotPorts,
+      viewerPorts,
       ...(certificate === null || key === null ? {} : { certificate: { certificate, key } }),
     },
   };

@@ -4,8 +4,17 @@ import { root } from './run.ts';
 
 /** Installed or built files; as in `.gitignore`. */
 const NOT_SOURCES = new Set([
-  ...['.git', '.farpoint', '.vitest', 'node_modules', '__pycache__', 'coverage'],
-  ...['build', 'dist', 'dist-testing', 'output', 'target'],
+  '.git',
+  '.farpoint',
+  '.vitest',
+  'node_modules',
+  '__pycache__',
+  'coverage',
+  'build',
+  'dist',
+  'dist-testing',
+  'output',
+  'target',
 ]);
 
 /** Paths of the project's own files, relative to the repository's root, with `/` between folders. */

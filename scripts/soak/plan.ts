@@ -26,36 +26,53 @@ const LAYERS = ['pure', 'scenario', 'page', 'stack', 'smoke'] as const;
 const SCENARIO_LOGS = ['.farpoint/event-logs-1', '.farpoint/event-logs-2'];
 
 const bench = (name: string, what: string, minutes: number): SoakPart => ({
-  ...{ name, what, minutes, hasFigures: true },
+  name,
+  what,
+  minutes,
+  hasFigures: true,
   commands: () => [{ args: ['bench/main.ts', name, '--json'] }],
 });
 
 export const PARTS: readonly SoakPart[] = [
   {
-    ...{ name: 'quarantine', what: 'no test is in quarantine longer than was promised', minutes: 0 },
+    name: 'quarantine',
+    what: 'no test is in quarantine longer than was promised',
+    minutes: 0,
     commands: () => [],
   },
   {
-    ...{ name: 'all', what: 'every test, in its long form (pnpm test --all)', minutes: 30 },
+    name: 'all',
+    what: 'every test, in its long form (pnpm test --all)',
+    minutes: 30,
     commands: () => [{ args: [TEST, '--all'] }],
   },
   {
-    ...{ name: 'load', what: 'each layer three times beside two busy programs', minutes: 40, steps: LAYERS },
+    name: 'load',
+    what: 'each layer three times beside two busy programs',
+    minutes: 40,
+    steps: LAYERS,
     commands: (steps) => [{ args: [TEST, '--only', steps.join(), '--repeat', '3', '--load', '2'] }],
   },
   {
-    ...{ name: 'properties', what: 'all cases of long tests, with another seed', minutes: 4 },
+    name: 'properties',
+    what: 'all cases of long tests, with another seed',
+    minutes: 4,
     commands: (_, seed) => [
       {
         args: [TEST, '--only', 'pure'],
         env: {
-          ...{ FARPOINT_LONG_TESTS: '1', FAST_CHECK_SEED: String(seed), PROPTEST_RNG_SEED: String(seed) },
+          FARPOINT_LONG_TESTS: '1',
+          FAST_CHECK_SEED: String(seed),
+          PROPTEST_RNG_SEED: String(seed),
         },
       },
     ],
   },
   {
-    ...{ name: 'scenarios', what: 'scenarios twice, with equal logs', minutes: 1, steps: ['scenario'] },
+    name: 'scenarios',
+    what: 'scenarios twice, with equal logs',
+    minutes: 1,
+    steps: ['scenario'],
     equalLogs: SCENARIO_LOGS,
     commands: () =>
       SCENARIO_LOGS.map((folder) => ({
@@ -64,11 +81,16 @@ export const PARTS: readonly SoakPart[] = [
       })),
   },
   {
-    ...{ name: 'firefox', what: 'Firefox ten times', minutes: 10, steps: ['firefox'] },
+    name: 'firefox',
+    what: 'Firefox ten times',
+    minutes: 10,
+    steps: ['firefox'],
     commands: () => [{ args: [TEST, '--only', 'firefox', '--repeat', '10'] }],
   },
   {
-    ...{ name: 'mutants', what: 'tests find each fault of tests/mutants.yaml', minutes: 60 },
+    name: 'mutants',
+    what: 'tests find each fault of tests/mutants.yaml',
+    minutes: 60,
     commands: () => [{ args: ['scripts/mutants.ts'] }],
   },
   bench('faults', 'the table of faults on real clocks, with its strict limits', 4),

@@ -42,13 +42,23 @@ export function resultsPage(
       : `${failed.length} of ${results.length} parts failed: ${failed.map((each) => each.name).join(', ')}`;
   const of = commit === null ? 'With uncommitted changes' : `Commit ${commit.slice(0, 8)}`;
   const details = failed.flatMap((result) => [
-    ...['', `## ${result.name}: ${result.what}`, ''],
-    ...['```', ...result.lastLines.slice(-MOST_LAST_LINES).map(cut), '```'],
+    '',
+    `## ${result.name}: ${result.what}`,
+    '',
+    '```',
+    ...result.lastLines.slice(-MOST_LAST_LINES).map(cut),
+    '```',
   ]);
   return [
-    ...[`# Soak of ${at.toISOString().slice(0, 16).replace('T', ' ')} UTC`, ''],
-    ...[`${verdict}, in ${durationWords(total)}. ${of}, seed ${seed}.`, ''],
-    ...['```', ...rows, '```', ...details, ''],
+    `# Soak of ${at.toISOString().slice(0, 16).replace('T', ' ')} UTC`,
+    '',
+    `${verdict}, in ${durationWords(total)}. ${of}, seed ${seed}.`,
+    '',
+    '```',
+    ...rows,
+    '```',
+    ...details,
+    '',
   ].join('\n');
 }
 

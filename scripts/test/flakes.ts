@@ -105,7 +105,11 @@ export function flakeLines({ layers, tests }: Flakes): string[] {
   const rows = tests
     .slice(0, MOST_TESTS)
     .map(({ step, test, tries, first, afterRerun }) => [
-      ...[String(first), String(afterRerun), String(tries), step, test],
+      String(first),
+      String(afterRerun),
+      String(tries),
+      step,
+      test,
     ]);
   const head = ['first', 'after', 'of', 'step', 'test'];
   const widths = head.map((_, column) =>

@@ -37,8 +37,10 @@ export function workspacePackages(): WorkspacePackage[] {
         JSON.parse(readWorkspaceFile(file)),
       );
       return {
-        ...{ folder: dirname(file), name },
-        ...{ uses: Object.keys(dependencies), testsUse: Object.keys(devDependencies) },
+        folder: dirname(file),
+        name,
+        uses: Object.keys(dependencies),
+        testsUse: Object.keys(devDependencies),
       };
     });
 }
@@ -61,7 +63,9 @@ export async function groupStates(
     );
     const tools = await toolsOf(group);
     states.push({
-      ...{ group, inputs, tools },
+      group,
+      inputs,
+      tools,
       provenAt: all ? null : (proven.proof(group.name, inputs, tools)?.at ?? null),
       missing: group.needs.filter((name) => missing.includes(name)),
       hasChanged: proven.hasChanged(group.name, inputs),

@@ -28,7 +28,12 @@ export async function runSteps(steps: readonly Step[], context: TestRun, around 
     console.log(ok ? `  ✓ ${seconds} s` : `  ✗ failed after ${seconds} s`);
     const isOfTest = judged.some(({ verdict }) => verdict === 'failed');
     summaries.push({
-      ...{ name: step.name, ms, ok, judged, notTested, proven: result.proven ?? [] },
+      name: step.name,
+      ms,
+      ok,
+      judged,
+      notTested,
+      proven: result.proven ?? [],
       // The end of a log is what its reader looks at first.
       failure:
         ok || (isOfTest && failure === null)

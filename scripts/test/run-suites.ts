@@ -122,8 +122,16 @@ export async function runPlaywright({
     const { code, output } = await run(
       'pnpm',
       [
-        ...['--dir', 'e2e', 'exec', 'playwright', 'test', '--project', project],
-        ...['--reporter', 'list,json', ...args],
+        '--dir',
+        'e2e',
+        'exec',
+        'playwright',
+        'test',
+        '--project',
+        project,
+        '--reporter',
+        'list,json',
+        ...args,
       ],
       { echo: true, env: { PLAYWRIGHT_JSON_OUTPUT_FILE: file, ...env } },
     );

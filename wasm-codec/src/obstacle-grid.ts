@@ -80,8 +80,15 @@ export class ObstacleGrid implements Disposable {
       ? Binding.create(
           capacity,
           side,
-          ...([cellM, clearanceM, heightM, dropM, slope, lowRayM] as const),
-          ...([nearPoints, leastPoints, confirm] as const),
+          cellM,
+          clearanceM,
+          heightM,
+          dropM,
+          slope,
+          lowRayM,
+          nearPoints,
+          leastPoints,
+          confirm,
         )
       : undefined;
     if (binding === undefined) {

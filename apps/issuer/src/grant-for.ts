@@ -26,8 +26,17 @@ export function grantFor(
   const known = Object.entries(robotKeys).filter(([robot]) => coversRobot(robots, robot));
   const from = Math.floor(nowS);
   return grantClaimsSchema.parse({
-    ...{ iss: issuer, sub: subject, name, aud: AUDIENCE, role, robots, cnf: { jkt: key }, jti: id },
-    ...{ iat: from, nbf: from, exp: from + Math.round(hours * 3600) },
+    iss: issuer,
+    sub: subject,
+    name,
+    aud: AUDIENCE,
+    role,
+    robots,
+    cnf: { jkt: key },
+    jti: id,
+    iat: from,
+    nbf: from,
+    exp: from + Math.round(hours * 3600),
     ...(known.length === 0 ? {} : { robotKeys: Object.fromEntries(known) }),
   });
 }

@@ -27,8 +27,12 @@ export async function startIssuer(options: IssuerOptions, rim: IssuerRim): Promi
   await checkLengths(rules, terms, signingKey, where);
   const provider = new Provider(
     {
-      ...{ provider: issuer, clientId, clientSecret: options.clientSecret, scope: options.scope },
-      ...{ userInfo: options.userInfo, timeoutMs: options.providerTimeoutMs },
+      provider: issuer,
+      clientId,
+      clientSecret: options.clientSecret,
+      scope: options.scope,
+      userInfo: options.userInfo,
+      timeoutMs: options.providerTimeoutMs,
     },
     `${url}/callback`,
   );
@@ -45,7 +49,11 @@ export async function startIssuer(options: IssuerOptions, rim: IssuerRim): Promi
   // A provider that is away is no fault of this program: a restart would not help.
   health.add('provider', () => ({ ok: true, detail: { reachable: provider.reachable } }));
   const server = await startServer(desk, {
-    ...{ host, port, url, trustProxy, now: Date.now },
+    host,
+    port,
+    url,
+    trustProxy,
+    now: Date.now,
     onError: (error) => log.error({ err: error }, 'a request failed'),
   });
   log.info({ host, port: server.port, url, provider: issuer, rules: rules.length }, 'listening');

@@ -65,8 +65,12 @@ export class Provider {
   ): Promise<string> {
     const config = await this.#configuration(nowMs);
     return buildAuthorizationUrl(config, {
-      ...{ redirect_uri: this.#callbackUrl, scope: this.#options.scope, state, nonce },
-      ...{ code_challenge: await calculatePKCECodeChallenge(verifier), code_challenge_method: 'S256' },
+      redirect_uri: this.#callbackUrl,
+      scope: this.#options.scope,
+      state,
+      nonce,
+      code_challenge: await calculatePKCECodeChallenge(verifier),
+      code_challenge_method: 'S256',
     }).href;
   }
 
@@ -86,7 +90,10 @@ export class Provider {
     const config = await this.#configuration(nowMs);
     try {
       const tokens = await authorizationCodeGrant(config, new URL(`${this.#callbackUrl}?${query}`), {
-        ...{ expectedState: state, expectedNonce: nonce, pkceCodeVerifier: verifier, idTokenExpected: true },
+        expectedState: state,
+        expectedNonce: nonce,
+        pkceCodeVerifier: verifier,
+        idTokenExpected: true,
       });
       const claims = tokens.claims();
       if (claims === undefined) throw new SignInRefusedError('unproven', 'there is no ID token');

@@ -41,11 +41,26 @@ export class DriveCore {
     this.driving = openDrive(options, { ...parts, heard, count });
     const { station: drive, estop, returns } = this.driving;
     this.host = new RobotSessionHost({
-      ...{ drive, estop, counters, recording, audit, commandLog, log, operators, sensors, videos, now },
+      drive,
+      estop,
+      counters,
+      recording,
+      audit,
+      commandLog,
+      log,
+      operators,
+      sensors,
+      videos,
+      now,
       driverLeft: () => returns?.drive.left(now()),
     });
     this.paths = new PathKeeper({
-      ...{ operators, drive, signaling, counters, log, now },
+      operators,
+      drive,
+      signaling,
+      counters,
+      log,
+      now,
       limits: silenceLimits(options.silenceMs, options.leaseSilenceMs),
       leaseChanged: () => this.host.leaseChanged('expired'),
     });

@@ -85,20 +85,27 @@ export class Robot {
     const state = () => this.#state;
     this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
     this.#core = new DriveCore(options, {
-      ...{ ...parts, counters: this.counters, signaling: this.signaling, commandLog: this.#logs.commands },
+      ...parts,
+      counters: this.counters,
+      signaling: this.signaling,
+      commandLog: this.#logs.commands,
       operators: () => this.operators,
       alsoHeard: () => this.reference?.operator,
       sensors: () => this.sensors,
       videos: () => this.cameras.videos,
-      ...{ now: monotonicMs, log },
+      now: monotonicMs,
+      log,
     });
     const { driving, host } = this.#core;
     const { station, estop, status, fix } = driving;
     [this.driving, this.drive, this.obstacles, this.#host] = [driving, station, parts.obstacles, host];
     this.sessions = new OperatorSessions(
       {
-        ...{ id: options.id, places: options.places, iceServers: options.iceServers },
-        ...{ grants, robotKey },
+        id: options.id,
+        places: options.places,
+        iceServers: options.iceServers,
+        grants,
+        robotKey,
         peer: {
           ...this.#peerOptions,
           pictures: capture.cameras.length > 0,
@@ -109,8 +116,13 @@ export class Robot {
         makeController: (transportFeedback) => makeRateController(options, transportFeedback),
         claims: () => this.sensors.claims,
         mostVideoBitsPerSecond: (video, codecs) => this.cameras.videos.mostBitsPerSecond(video, codecs),
-        ...{ sendLoop: this.#sendLoop, packetLog: this.#logs.packets, host: this.#host },
-        ...{ signaling: this.signaling, counters: this.counters, audit, log },
+        sendLoop: this.#sendLoop,
+        packetLog: this.#logs.packets,
+        host: this.#host,
+        signaling: this.signaling,
+        counters: this.counters,
+        audit,
+        log,
       },
       {
         resume: (request, iceServers) => void this.#core.paths.resume(request, iceServers),
@@ -144,7 +156,9 @@ export class Robot {
       captures,
       {
         targets: () => [...watching(), ...(this.reference?.targets ?? [])],
-        ...{ sendLoop: this.#sendLoop, counters: this.counters, frameLog: this.#logs.frames },
+        sendLoop: this.#sendLoop,
+        counters: this.counters,
+        frameLog: this.#logs.frames,
         driver: () => station.guard.leaseHolder,
         onFrame: (frame) => recording?.frame(frame),
         wantedAnyway: () => recording?.wantsClouds === true,
@@ -170,7 +184,11 @@ export class Robot {
       log,
     };
     this.cameras = new RobotCameras({
-      ...{ ...shared, policy: options.pictures, capture, videos, taker: recording },
+      ...shared,
+      policy: options.pictures,
+      capture,
+      videos,
+      taker: recording,
       videoTargets: watching,
       onMade: (picture) => recording?.picture(picture),
       onStateChanged: () => {
@@ -195,8 +213,16 @@ export class Robot {
     }
     this.#ticking = setInterval(() => this.#tick(), TICK_MS);
     this.#reports = new RobotReports({
-      ...{ operators: this.operators, counters: this.counters, telemetry, board, status, recording, log },
-      ...{ state, statisticsFile: options.statisticsFile, now: monotonicMs },
+      operators: this.operators,
+      counters: this.counters,
+      telemetry,
+      board,
+      status,
+      recording,
+      log,
+      state,
+      statisticsFile: options.statisticsFile,
+      now: monotonicMs,
     });
   }
 
@@ -213,7 +239,9 @@ export class Robot {
     this.reference = openReferenceProfile(
       this.#options,
       {
-        ...{ peer: this.#peerOptions, packetLog: this.#logs.packets, sendLoop: this.#sendLoop },
+        peer: this.#peerOptions,
+        packetLog: this.#logs.packets,
+        sendLoop: this.#sendLoop,
         onBudgetChanged: () => this.sensors.updateBudgets(),
       },
       this.#host,

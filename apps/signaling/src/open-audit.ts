@@ -18,7 +18,10 @@ export async function openAudit(options: SignalingOptions, log: Logger): Promise
   const { auditLog: path, auditMax: maxBytes } = options;
   if (path === null) return { audit: noAudit, close: () => Promise.resolve() };
   const audit = await AuditLog.open({
-    ...{ path, maxBytes, nowMs: Date.now, clockMs: () => performance.now() },
+    path,
+    maxBytes,
+    nowMs: Date.now,
+    clockMs: () => performance.now(),
     onFault: (error) => {
       if (error === null) log.info({ path }, 'the audit log is written again');
       else

@@ -40,7 +40,12 @@ export function nativeOrganised(
   return measured('farpoint-organised-codec', [new Uint8Array(head), points(cloud)], (file) => [
     file,
     '--json',
-    ...['--level', `${depthLevel}`, '--mode', mode, '--rounds', `${rounds}`],
+    '--level',
+    `${depthLevel}`,
+    '--mode',
+    mode,
+    '--rounds',
+    `${rounds}`,
     ...quality,
     ...budget,
   ]);

@@ -77,8 +77,12 @@ export async function rememberedDrive(seconds: number, seed: number): Promise<Dr
   }
   const surfels = distancesM.length;
   return {
-    ...{ remembered: rememberedShare(map, seen), distancesM, ghosts: ghosts / surfels, surfels },
-    ...{ bytes: map.store.bytes, workMs },
+    remembered: rememberedShare(map, seen),
+    distancesM,
+    ghosts: ghosts / surfels,
+    surfels,
+    bytes: map.store.bytes,
+    workMs,
   };
 }
 

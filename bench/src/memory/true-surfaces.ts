@@ -44,14 +44,18 @@ export class TrueSurfaces {
 
 function ofBox({ centre, size, yaw = 0 }: Box): Solid {
   return {
-    ...{ ...centre, cos: Math.cos(yaw), sin: Math.sin(yaw) },
+    ...centre,
+    cos: Math.cos(yaw),
+    sin: Math.sin(yaw),
     half: [size.x / 2, size.y / 2, size.z / 2],
   };
 }
 
 function ofPanel({ centre, width, height, yaw, level }: Panel): Solid {
   return {
-    ...{ ...centre, cos: Math.cos(yaw), sin: Math.sin(yaw) },
+    ...centre,
+    cos: Math.cos(yaw),
+    sin: Math.sin(yaw),
     half: level === undefined ? [0, width / 2, height / 2] : [height / 2, width / 2, 0],
   };
 }

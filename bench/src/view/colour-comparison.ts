@@ -55,10 +55,7 @@ export async function compareColours(options: ComparisonOptions): Promise<void> 
     Object.entries(outcomes).map(([name, outcome]) => {
       const { framesPerSecond, whole, depthLevel, videoMbps, eyes } = outcome;
       const [eye, shoulder] = [eyes.eye, eyes.shoulder] as [PictureDifference, PictureDifference];
-      return [
-        ...[name, framesPerSecond, whole, depthLevel, videoMbps],
-        ...[eye.ssim, eye.depthErrorM, shoulder.ssim],
-      ];
+      return [name, framesPerSecond, whole, depthLevel, videoMbps, eye.ssim, eye.depthErrorM, shoulder.ssim];
     }),
   );
   if (options.json) printJson({ bench: 'view', comparison: 'video-colour', ...options, ...outcomes });
@@ -69,7 +66,9 @@ async function drawn(browser: ViewBrowser, options: ComparisonOptions, painted: 
   const cloudMbps = painted ? rateMbps - videoMbps : rateMbps;
   // The same seed: every mode sees the same drive.
   const drive = await SimulatedDrive.create(await loadCodecFromDisk(), {
-    ...{ ...options, rateMbps: cloudMbps, colourQuality: painted ? quality : undefined },
+    ...options,
+    rateMbps: cloudMbps,
+    colourQuality: painted ? quality : undefined,
   });
   const video = painted ? await PictureVideo.open(BitRate.fromMbps(videoMbps), framesPerSecond) : null;
   await browser.begin(drive.streamHeader, { surface: true, memory: false, size });

@@ -38,7 +38,9 @@ export class PictureVideo {
     if (!chosen.ok) throw new Error(`${chosen.failure.sentence}; ${chosen.failure.remedy}`);
     const { encoder } = chosen;
     const process = new VideoProcess({
-      ...{ source: { kind: 'frames' }, encoder, settings: { bitsPerS, framesPerS } },
+      source: { kind: 'frames' },
+      encoder,
+      settings: { bitsPerS, framesPerS },
       onFrame: ({ key, bytes }) => video.#encoded.resolve({ key, bytes }),
       onFailure: ({ sentence }) => video.#encoded.reject(new Error(sentence)),
     });
@@ -51,7 +53,12 @@ export class PictureVideo {
     this.#encoded = Promise.withResolvers();
     const captureNs = BigInt(captureTimeUs) * NS_PER_US;
     this.#process.pushFrame({
-      ...{ captureNs, format: 'rgba', width, height, stride: 4 * width, bytes: rgba },
+      captureNs,
+      format: 'rgba',
+      width,
+      height,
+      stride: 4 * width,
+      bytes: rgba,
     });
     const { key, bytes } = await this.#encoded.promise;
     this.bytes += bytes.length;

@@ -119,10 +119,15 @@ export class SimulatedDrive {
     const eyes = await Promise.all(
       EYES.map(({ fieldOfView, mount }) =>
         SimulatedCamera.create({
-          ...{ world, seed },
+          world,
+          seed,
           camera: {
             ...mount,
-            ...{ width: size, height: size, fieldOfView: (fieldOfView * Math.PI) / 180, near: 0.05, far: 60 },
+            width: size,
+            height: size,
+            fieldOfView: (fieldOfView * Math.PI) / 180,
+            near: 0.05,
+            far: 60,
           },
         }),
       ),

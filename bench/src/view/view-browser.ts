@@ -66,7 +66,8 @@ export class ViewBrowser {
   /** What an eye sees. @param fieldOfView vertical, degrees */
   async look(eye: Pose, fieldOfView: number): Promise<{ picture: Picture; drawMs: number }> {
     const seen = await this.#page.evaluate((given) => window.view.look(given.eye, given.fieldOfView), {
-      ...{ eye, fieldOfView },
+      eye,
+      fieldOfView,
     });
     const depth = Buffer.from(seen.depth, 'base64');
     const picture = {

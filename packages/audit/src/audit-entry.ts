@@ -59,7 +59,13 @@ export function makeEntry(
 ): { line: string; end: ChainEnd } {
   const { kind, subject, session, robot, details } = event;
   const body = {
-    ...{ version: 1, sequence, time: new Date(timeMs).toISOString(), kind, session, robot, details },
+    version: 1,
+    sequence,
+    time: new Date(timeMs).toISOString(),
+    kind,
+    session,
+    robot,
+    details,
     subject: subject === undefined ? undefined : { ...subject, name: subject.name.slice(0, MAX_NAME) },
     previous,
   };

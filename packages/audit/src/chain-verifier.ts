@@ -93,7 +93,9 @@ export class ChainVerifier {
       return whole
         ? { kind: 'changed', entry, place, detail: `entry ${entry} is not what was written` }
         : {
-            ...{ kind: 'torn', entry, place },
+            kind: 'torn',
+            entry,
+            place,
             detail: `entry ${entry} is incomplete: the program ended while it wrote it, or it was changed`,
           };
     }
@@ -101,7 +103,10 @@ export class ChainVerifier {
       return { kind: 'empty', entry: 0, place, detail: 'there is no entry' };
     const { expected } = this.#options;
     return {
-      ...{ first: this.#first, last: this.#last.entry, entries: this.#entries, torn: this.#torn },
+      first: this.#first,
+      last: this.#last.entry,
+      entries: this.#entries,
+      torn: this.#torn,
       containsExpected: expected === undefined ? null : this.#foundExpected,
     };
   }
@@ -189,7 +194,9 @@ export class ChainVerifier {
     }
     if (sequence < expected)
       return {
-        ...{ kind: 'inserted', entry: sequence, place },
+        kind: 'inserted',
+        entry: sequence,
+        place,
         detail: `a second entry ${sequence} comes after entry ${expected - 1}`,
       };
     const changed = this.#last ?? { entry, place };

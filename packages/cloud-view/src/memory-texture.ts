@@ -28,10 +28,7 @@ export class MemoryTexture {
     state.pixelStorei(gl.UNPACK_ALIGNMENT, 4);
     state.pixelStorei(gl.UNPACK_ROW_LENGTH, 0);
     const [x, y] = [(page % PAGES_PER_ROW) * pageSurfels, Math.floor(page / PAGES_PER_ROW)];
-    gl.texSubImage2D(
-      ...([gl.TEXTURE_2D, 0, x, y, surfels, 1] as const),
-      ...([gl.RG_INTEGER, gl.UNSIGNED_INT, words, from] as const),
-    );
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, x, y, surfels, 1, gl.RG_INTEGER, gl.UNSIGNED_INT, words, from);
   }
 
   /** A lost GPU context was restored: everything must be written again. */

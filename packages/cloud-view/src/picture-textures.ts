@@ -57,8 +57,17 @@ export class PictureTextures {
     state.pixelStorei(gl.UNPACK_ALIGNMENT, 4);
     state.pixelStorei(gl.UNPACK_ROW_LENGTH, 0);
     gl.texSubImage3D(
-      ...([gl.TEXTURE_2D_ARRAY, 0, 0, 0, layer, this.width, this.height, 1] as const),
-      ...([gl.RGBA, gl.UNSIGNED_BYTE, image] as const),
+      gl.TEXTURE_2D_ARRAY,
+      0,
+      0,
+      0,
+      layer,
+      this.width,
+      this.height,
+      1,
+      gl.RGBA,
+      gl.UNSIGNED_BYTE,
+      image,
     );
   }
 

@@ -251,8 +251,18 @@ export function createSurfaceMaterial(points: PointUniforms): {
     fragmentShader,
     uniforms: {
       ...uniforms,
-      ...{ viewportHeight, freshness, colourMode, colourRange, colourMap, ringMap, ringScale },
-      ...{ groundHeight, heightCut, hazardBase, hazardUp, hazardBand },
+      viewportHeight,
+      freshness,
+      colourMode,
+      colourRange,
+      colourMap,
+      ringMap,
+      ringScale,
+      groundHeight,
+      heightCut,
+      hazardBase,
+      hazardUp,
+      hazardBand,
     },
   });
   return { material, uniforms };

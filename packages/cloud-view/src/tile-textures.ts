@@ -56,9 +56,16 @@ export class TileTextures {
       const rows = column === 0 ? Math.max(Math.floor((tiles - done) / this.perRow), 1) : 1;
       const width = Math.min(this.perRow - column, tiles - done);
       gl.texSubImage2D(
-        ...([gl.TEXTURE_2D, 0, column * TILE_SAMPLES, Math.floor(tile / this.perRow)] as const),
-        ...([width * TILE_SAMPLES, rows, gl.RED_INTEGER, gl.UNSIGNED_INT] as const),
-        ...([samples, from + done * TILE_SAMPLES] as const),
+        gl.TEXTURE_2D,
+        0,
+        column * TILE_SAMPLES,
+        Math.floor(tile / this.perRow),
+        width * TILE_SAMPLES,
+        rows,
+        gl.RED_INTEGER,
+        gl.UNSIGNED_INT,
+        samples,
+        from + done * TILE_SAMPLES,
       );
       done += width * rows;
     }
@@ -71,8 +78,15 @@ export class TileTextures {
     this.#bind(this.slots);
     const rows = this.#slotRows.length / SLOTS_PER_ROW;
     gl.texSubImage2D(
-      ...([gl.TEXTURE_2D, 0, 0, 0, SLOTS_PER_ROW, rows] as const),
-      ...([gl.RED_INTEGER, gl.UNSIGNED_BYTE, this.#slotRows] as const),
+      gl.TEXTURE_2D,
+      0,
+      0,
+      0,
+      SLOTS_PER_ROW,
+      rows,
+      gl.RED_INTEGER,
+      gl.UNSIGNED_BYTE,
+      this.#slotRows,
     );
   }
 

@@ -92,7 +92,10 @@ export class PacketPacer<T extends PacedFrame> {
   /** In order of lane number. */
   readonly #lanes: Lane<T>[] = [];
   readonly #drops: Record<FrameDropReason, number> = {
-    ...{ superseded: 0, overdue: 0, undecodable: 0, cleared: 0 },
+    superseded: 0,
+    overdue: 0,
+    undecodable: 0,
+    cleared: 0,
   };
   #bitsPerSecond: number;
   /** The next packet must not be sent before this time. */

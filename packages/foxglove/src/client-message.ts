@@ -16,8 +16,15 @@ export type ClientMessage = z.infer<typeof schema>;
 
 /** Operations of the protocol that this server does not offer: they would change something on the robot. */
 const NOT_OFFERED: readonly string[] = [
-  ...['advertise', 'unadvertise', 'getParameters', 'setParameters', 'subscribeParameterUpdates'],
-  ...['unsubscribeParameterUpdates', 'subscribeConnectionGraph', 'unsubscribeConnectionGraph', 'fetchAsset'],
+  'advertise',
+  'unadvertise',
+  'getParameters',
+  'setParameters',
+  'subscribeParameterUpdates',
+  'unsubscribeParameterUpdates',
+  'subscribeConnectionGraph',
+  'unsubscribeConnectionGraph',
+  'fetchAsset',
 ];
 
 export type MessageRefusal =

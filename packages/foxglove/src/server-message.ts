@@ -36,7 +36,9 @@ export function advertise(channels: readonly Channel[]): string {
   return JSON.stringify({
     op: 'advertise',
     channels: channels.map(({ id, topic, messageEncoding, schema }) => ({
-      ...{ id, topic, encoding: messageEncoding },
+      id,
+      topic,
+      encoding: messageEncoding,
       schemaName: schema?.name ?? '',
       schema: schema?.text ?? '',
       ...(schema === null ? {} : { schemaEncoding: schema.encoding }),

@@ -103,8 +103,16 @@ export async function grantHash(text: string): Promise<string> {
 function toGrant(claims: GrantClaims, keyId: string): Grant {
   const { sub, name, role, robots, cnf, jti, iss, iat, exp } = claims;
   return {
-    ...{ subject: sub, name, role, robots, operatorKey: cnf.jkt, id: jti, issuer: iss },
-    ...{ issuedAtS: iat, expiresAtS: exp, keyId },
+    subject: sub,
+    name,
+    role,
+    robots,
+    operatorKey: cnf.jkt,
+    id: jti,
+    issuer: iss,
+    issuedAtS: iat,
+    expiresAtS: exp,
+    keyId,
   };
 }
 

@@ -62,8 +62,12 @@ export async function makeProof(
   nowS: number,
 ): Promise<string> {
   const claims: z.infer<typeof claimsSchema> = {
-    ...{ aud: robot, session, fp: operatorFingerprint, rfp: robotFingerprint },
-    ...{ gth: await grantHash(grant), iat: Math.floor(nowS) },
+    aud: robot,
+    session,
+    fp: operatorFingerprint,
+    rfp: robotFingerprint,
+    gth: await grantHash(grant),
+    iat: Math.floor(nowS),
   };
   return await new CompactSign(new TextEncoder().encode(JSON.stringify(claims)))
     .setProtectedHeader({ typ: PROOF_TYPE, alg: 'ES256', jwk: publicJwk })

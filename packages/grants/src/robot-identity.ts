@@ -71,7 +71,10 @@ export async function makeIdentity(
   nowS: number,
 ): Promise<string> {
   const claims: z.infer<typeof claimsSchema> = {
-    ...{ iss: robot, session, fp: robotFingerprint, iat: Math.floor(nowS) },
+    iss: robot,
+    session,
+    fp: robotFingerprint,
+    iat: Math.floor(nowS),
   };
   return await new CompactSign(new TextEncoder().encode(JSON.stringify(claims)))
     .setProtectedHeader({ typ: IDENTITY_TYPE, alg: 'ES256', jwk: publicJwk })

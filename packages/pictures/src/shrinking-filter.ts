@@ -76,7 +76,8 @@ export class ShrinkingFilter {
 export function rgbaRows(pixels: { width: number; height: number; rgba: Uint8Array }): PictureRows {
   const { width, height, rgba } = pixels;
   return {
-    ...{ width, height },
+    width,
+    height,
     readRow: (row, into) => into.set(rgba.subarray(row * width * 4, (row + 1) * width * 4)),
   };
 }

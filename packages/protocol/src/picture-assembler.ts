@@ -76,7 +76,12 @@ export class PictureAssembler {
     this.#finish(camera, header.pictureId);
     const { format, width, height, pictureId, captureTimeUs } = header;
     return {
-      ...{ format, camera: header.camera, width, height, pictureId, captureTimeUs },
+      format,
+      camera: header.camera,
+      width,
+      height,
+      pictureId,
+      captureTimeUs,
       bytes: picture.bytes.subarray(0, picture.length),
     };
   }

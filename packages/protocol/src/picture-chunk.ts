@@ -56,8 +56,14 @@ export type PictureChunkFault =
 
 export function emptyPictureChunkHeader(): PictureChunkHeader {
   return {
-    ...{ format: 'jpeg', camera: 0, width: 0, height: 0, index: 0, count: 0 },
-    ...{ pictureId: 0, captureTimeUs: 0 },
+    format: 'jpeg',
+    camera: 0,
+    width: 0,
+    height: 0,
+    index: 0,
+    count: 0,
+    pictureId: 0,
+    captureTimeUs: 0,
   };
 }
 

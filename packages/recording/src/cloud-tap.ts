@@ -112,8 +112,16 @@ export class CloudTap {
       packets * slotBytes,
       (buffer) => copyPackets(new Uint8Array(buffer), packets),
       (stamp) => ({
-        ...{ type: 'sent', ...stamp, to, capturedAtMs, pose },
-        ...{ format, points, packets, slotBytes, streamHeader },
+        type: 'sent',
+        ...stamp,
+        to,
+        capturedAtMs,
+        pose,
+        format,
+        points,
+        packets,
+        slotBytes,
+        streamHeader,
       }),
     );
   }

@@ -151,7 +151,10 @@ export interface LiveWishes {
 }
 
 export const NO_LIVE_WISHES: LiveWishes = {
-  ...{ clouds: { captured: false, sent: false }, pictures: [], videos: [], events: [] },
+  clouds: { captured: false, sent: false },
+  pictures: [],
+  videos: [],
+  events: [],
 };
 
 /** For `/metrics`. */

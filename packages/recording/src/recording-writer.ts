@@ -59,7 +59,10 @@ export class RecordingWriter {
   faults = 0;
   /** Clouds, pictures and frames of videos that never arrived here because the writer did not keep up. */
   readonly dropped: Record<CloudKind | 'pictures' | 'videos', number> = {
-    ...{ captured: 0, sent: 0, pictures: 0, videos: 0 },
+    captured: 0,
+    sent: 0,
+    pictures: 0,
+    videos: 0,
   };
   readonly out: MessageOutputs;
   readonly #epochNs: bigint;
@@ -112,7 +115,9 @@ export class RecordingWriter {
     events.push(...this.#telemetry.liveWishes);
     return {
       clouds: { captured: wants('captured'), sent: wants('sent') },
-      ...{ pictures: wanted(this.#cameras), videos: wanted(this.#videos), events },
+      pictures: wanted(this.#cameras),
+      videos: wanted(this.#videos),
+      events,
     };
   }
 
@@ -155,7 +160,10 @@ export class RecordingWriter {
     const topics = pictureTopics(cameras.map((camera) => camera.name));
     this.#cameras = cameras.map(({ name: camera, ofCloud }, i) => ({
       channel: this.out.addChannel({
-        ...{ topic: topics[i] as string, messageEncoding: 'cdr', schema, metadata: { camera } },
+        topic: topics[i] as string,
+        messageEncoding: 'cdr',
+        schema,
+        metadata: { camera },
       }),
       // The positions of the other cameras are unknown.
       frame: ofCloud ? CAMERA_FRAME : camera,
@@ -189,7 +197,10 @@ export class RecordingWriter {
     const topics = videoTopics(videos.map((video) => video.name));
     this.#videos = videos.map(({ name: camera, format }, i) => ({
       channel: this.out.addChannel({
-        ...{ topic: topics[i] as string, messageEncoding: 'cdr', schema, metadata: { camera, format } },
+        topic: topics[i] as string,
+        messageEncoding: 'cdr',
+        schema,
+        metadata: { camera, format },
       }),
       frame: camera,
     }));

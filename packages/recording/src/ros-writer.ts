@@ -61,8 +61,12 @@ export function pointCloud2(
 ): Uint8Array[] {
   const head = clouds.writeMessage({
     header: headerOf(stampNs, CAMERA_FRAME),
-    ...{ height, width, fields: FIELDS, is_bigendian: false },
-    ...{ point_step: RECORDED_POINT_BYTES, row_step: RECORDED_POINT_BYTES * width },
+    height,
+    width,
+    fields: FIELDS,
+    is_bigendian: false,
+    point_step: RECORDED_POINT_BYTES,
+    row_step: RECORDED_POINT_BYTES * width,
     data: new Uint8Array(0),
     is_dense: false,
   });

@@ -25,7 +25,10 @@ export class TelemetryChannels {
     const named = quantityTopics(quantities);
     this.#quantities = quantities.map(({ topic: source, field, label, unit }, i) =>
       this.#open(named[i] as string, 'farpoint_msgs/msg/Sample', SAMPLE_SCHEMA, {
-        ...{ topic: source, field, label, unit },
+        topic: source,
+        field,
+        label,
+        unit,
       }),
     );
     const watched = alarmTopics(alarms.map(({ watches }) => watches));

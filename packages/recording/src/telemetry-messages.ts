@@ -34,7 +34,10 @@ export function diagnosticArray(
   nsOf: (ms: number) => bigint,
 ): Uint8Array {
   const status = reports.map(({ name, level, message, sinceMs }) => ({
-    ...{ level: LEVELS.indexOf(level), name: cdrText(name), message: cdrText(message), hardware_id: '' },
+    level: LEVELS.indexOf(level),
+    name: cdrText(name),
+    message: cdrText(message),
+    hardware_id: '',
     values: [{ key: SINCE_KEY, value: new Date(Number(nsOf(sinceMs) / NS_PER_MS)).toISOString() }],
   }));
   return diagnostics.writeMessage({ header: headerOf(stampNs, ''), status });

@@ -47,7 +47,9 @@ export class DiagnosticBoard {
   /** Every node's state after the last message, in the order in which they first reported. */
   get components(): DiagnosticReport[] {
     return [...this.#said.values()].map(({ status: { name, message }, level, sinceMs }) => ({
-      ...{ name, message, sinceMs },
+      name,
+      message,
+      sinceMs,
       level: LEVELS[level] ?? 'error',
     }));
   }

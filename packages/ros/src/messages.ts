@@ -144,7 +144,9 @@ export const foxgloveCompressedVideoSchema = foxgloveImage.extend({ format: z.st
 
 /** foxglove.RawImage: little-endian. */
 export const foxgloveRawImageSchema = foxgloveImage.extend({
-  ...{ height: z.int().min(0), width: z.int().min(0), step: z.int().min(0) },
+  height: z.int().min(0),
+  width: z.int().min(0),
+  step: z.int().min(0),
   encoding: z.string().max(128),
 });
 
@@ -154,9 +156,12 @@ const matrix = (length: number) =>
 export const cameraInfoSchema = z
   .object({
     header,
-    ...{ height: z.int().min(0), width: z.int().min(0) },
-    ...{ k: matrix(9).optional(), K: matrix(9).optional() },
-    ...{ p: matrix(12).optional(), P: matrix(12).optional() },
+    height: z.int().min(0),
+    width: z.int().min(0),
+    k: matrix(9).optional(),
+    K: matrix(9).optional(),
+    p: matrix(12).optional(),
+    P: matrix(12).optional(),
   })
   .transform(({ K, P, k, p, ...rest }) => ({ ...rest, k: k ?? K, p: p ?? P }));
 export type CameraInfo = z.infer<typeof cameraInfoSchema>;
@@ -175,7 +180,9 @@ export const batteryDetailsSchema = batteryStateSchema.extend({
 export const navSatFixSchema = z.object({
   header,
   status: z.object({ status: z.int(), service: z.int() }),
-  ...{ latitude: number, longitude: number, altitude: number },
+  latitude: number,
+  longitude: number,
+  altitude: number,
   position_covariance: z.union([z.array(number), z.instanceof(Float64Array)]),
   position_covariance_type: z.int(),
 });

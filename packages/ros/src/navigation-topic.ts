@@ -63,7 +63,8 @@ export class NavigationTopic {
     this.#waiting = news.kind === 'refused' && news.reason === 'unknown-frame' ? unplaced : null;
     const { topic, label } = this.#entry;
     return {
-      ...{ topic, label: shortened(label ?? LABELS[this.#kind], MOST_LABEL) },
+      topic,
+      label: shortened(label ?? LABELS[this.#kind], MOST_LABEL),
       level: news.kind === 'refused' ? 'warn' : 'ok',
       values: [['', wordsOf(news)]],
       navigation: news,

@@ -47,8 +47,12 @@ export function readMap(message: unknown): FramedMap {
     }
   }
   return {
-    ...{ frameId: header.frame_id, stampNs: stampNs(header.stamp) },
-    ...{ width: across, height: up, cellM: resolution * factor, cells },
+    frameId: header.frame_id,
+    stampNs: stampNs(header.stamp),
+    width: across,
+    height: up,
+    cellM: resolution * factor,
+    cells,
     origin: { position: info.origin.position, orientation },
   };
 }

@@ -20,7 +20,8 @@ export function readPath(message: unknown): FramedPath {
   const { header, poses } = pathSchema.parse(message);
   const points = poses.map(({ pose }) => pose.position);
   return {
-    ...{ frameId: header.frame_id, stampNs: stampNs(header.stamp) },
+    frameId: header.frame_id,
+    stampNs: stampNs(header.stamp),
     points: tellingPoints(points, MAX_PATH_POINTS, TOLERANCE_M),
   };
 }

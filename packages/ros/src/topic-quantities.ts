@@ -70,7 +70,8 @@ export function quantitiesOf({ topic, as, label, quantities = [] }: QuantityTopi
   if (known !== undefined) return known;
   const own = label ?? topic.slice(-READING_LIMITS.label);
   return quantities.map(({ field, label = quantities.length === 1 ? own : field, unit }) => ({
-    ...{ field, unit },
+    field,
+    unit,
     label: label.slice(-READING_LIMITS.label),
   }));
 }

@@ -47,8 +47,14 @@ const roles = Object.keys(TOPIC_ROLES) as [TopicRole, ...TopicRole[]];
 
 /** Messages per second that are read of what is shown to people, unless the table says otherwise; others have no limit. */
 const MOST_TOLD: Partial<Record<TopicRole, number>> = {
-  ...{ battery: 1, fix: 1, diagnostics: 1, text: 1 },
-  ...{ path: 5, map: 1, model: 1, joints: 20 },
+  battery: 1,
+  fix: 1,
+  diagnostics: 1,
+  text: 1,
+  path: 5,
+  map: 1,
+  model: 1,
+  joints: 20,
 };
 const MOST_TOPICS = 64;
 /** Suffix of image_transport's topics, and their type. */

@@ -49,7 +49,9 @@ export function readConfigFile(
   const values = new Map<string, unknown>();
   const written = new Map<string, unknown>();
   const file: ConfigFile = {
-    ...{ path, values, written },
+    path,
+    values,
+    written,
     place: (key, inside = []) => source.place([expected.section, ...key.split('.'), ...inside]),
   };
   const { root } = source;

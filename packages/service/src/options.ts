@@ -121,7 +121,9 @@ function findValue(
   if (variable !== undefined && variable !== '') return { source: 'environment', raw: variable };
   if (place.file !== null && file?.values.has(place.file))
     return {
-      ...{ source: 'config', raw: file.values.get(place.file), written: file.written.get(place.file) },
+      source: 'config',
+      raw: file.values.get(place.file),
+      written: file.written.get(place.file),
     };
   return null;
 }

@@ -46,8 +46,15 @@ export class MappedFile implements Disposable {
         addon,
         path,
         addon.open(
-          ...([path, writable || create, create, exclusive, create, bytes, mode] as const),
-          ...([owner === 'any' ? 0 : owner, owner === 'any'] as const),
+          path,
+          writable || create,
+          create,
+          exclusive,
+          create,
+          bytes,
+          mode,
+          owner === 'any' ? 0 : owner,
+          owner === 'any',
         ),
       );
     } catch (error) {

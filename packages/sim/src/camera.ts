@@ -50,7 +50,12 @@ export const DEFAULT_CAMERA: Readonly<Required<CameraOptions>> = {
 };
 
 const FLOOR_CAMERA = {
-  ...{ width: 128, height: 128, fieldOfView: 2, up: 0.5, pitch: 1, near: 0.1 },
+  width: 128,
+  height: 128,
+  fieldOfView: 2,
+  up: 0.5,
+  pitch: 1,
+  near: 0.1,
 } as const satisfies CameraOptions;
 
 /**

@@ -94,8 +94,13 @@ export class SimulatedLidar {
         width: VIEW_WIDTH,
         height: viewHeight(options.verticalFieldOfView),
         fieldOfView: CAMERA_FIELD,
-        ...{ forward: 0, up: options.up, pitch: 0, yaw: i * VIEW_FIELD },
-        ...{ near: 0.1, far: options.far, colourNoise: 0 as const },
+        forward: 0,
+        up: options.up,
+        pitch: 0,
+        yaw: i * VIEW_FIELD,
+        near: 0.1,
+        far: options.far,
+        colourNoise: 0 as const,
       };
       views.push(await SimulatedCamera.create({ world, seed, camera, wasm }));
     }

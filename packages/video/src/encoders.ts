@@ -227,7 +227,9 @@ export function encoderText(encoder: VideoEncoder, threads: number, extra = ''):
   if (encoder.codec === 'vp8') return [...before, own, 'video/x-vp8'].join(' ! ');
   const profile = encoder.profile === undefined ? [] : [`video/x-h264,profile=${encoder.profile}`];
   return [
-    ...[...before, own, ...profile],
+    ...before,
+    own,
+    ...profile,
     // Parameter sets before each key frame, whatever the encoder does.
     'h264parse config-interval=-1',
     'video/x-h264,stream-format=byte-stream,alignment=au',

@@ -107,7 +107,10 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
     options.fence == null ? null : openGeofence(options.fence, () => odometry.believed, base !== null);
   const letGo = afterGap === 'let-go';
   const guard = new DriveGuard({
-    ...{ limits, takePolicy, estopRelease, randomBytes: (bytes) => randomBytes(bytes) },
+    limits,
+    takePolicy,
+    estopRelease,
+    randomBytes: (bytes) => randomBytes(bytes),
     // A shorter gap does not stop the robot.
     letGoAfterMs: Math.max(limits.watchdogMs, resumeWithinMs),
   });
@@ -117,7 +120,10 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
     options.returns === undefined
       ? null
       : new ReturnStation(options.returns, {
-          ...{ limits, lookout: obstacles, audit, log },
+          limits,
+          lookout: obstacles,
+          audit,
+          log,
         });
   const supervisor = new MotionSupervisor(guard, {
     ramps,

@@ -65,14 +65,20 @@ function videoCamera(
   const ofSensor = ofCloud ? { ofSensor: 0 } : {};
   if (isFeedSource(source)) {
     return {
-      ...{ name, codecs, most, ...ofSensor },
+      name,
+      codecs,
+      most,
+      ...ofSensor,
       open: (codec, format, events) =>
         thread.open({ name, source, encoder: encoders.of(codec) }, format, events),
     };
   }
   const child = log.child({ camera: name });
   return {
-    ...{ name, codecs, most, ...ofSensor },
+    name,
+    codecs,
+    most,
+    ...ofSensor,
     open: (codec, format, events) =>
       new ProcessEncoder({ source, encoder: encoders.of(codec) }, format, events, child),
   };

@@ -32,7 +32,13 @@ export class RobotCameras {
     this.pictures =
       capture.cameras.length === 0 ? null : new PictureHub({ policy, capture, targets, driver, onMade, log });
     this.videos = new VideoHub({
-      ...{ cameras: videos, targets: videoTargets, driver, onStateChanged, onFrame, taker, log },
+      cameras: videos,
+      targets: videoTargets,
+      driver,
+      onStateChanged,
+      onFrame,
+      taker,
+      log,
     });
   }
 

@@ -129,7 +129,11 @@ export class ModelBoard {
   #toldTo(operator: object): Told {
     const never = Number.NEGATIVE_INFINITY;
     const told = this.#told.get(operator) ?? {
-      ...{ number: 0, parts: -1, partsMs: never, jointsMs: never, changes: -1 },
+      number: 0,
+      parts: -1,
+      partsMs: never,
+      jointsMs: never,
+      changes: -1,
     };
     this.#told.set(operator, told);
     return told;

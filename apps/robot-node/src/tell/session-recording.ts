@@ -75,7 +75,9 @@ export class SessionRecording implements VideoTaker {
       foxglove === null
         ? undefined
         : {
-            ...{ host: HOSTS[foxglove.reach], port: foxglove.port, mostClients: MOST_VIEWERS },
+            host: HOSTS[foxglove.reach],
+            port: foxglove.port,
+            mostClients: MOST_VIEWERS,
             allowedOrigins: foxglove.allowedOrigins,
             ownNames: foxglove.ownNames,
           };
@@ -227,8 +229,16 @@ export class SessionRecording implements VideoTaker {
     const { capturedAtMs, readyMs, captureMs, sampleMs, packMs } = frame;
     const now = monotonicMs();
     this.#recorder.json('latency', now, {
-      ...{ frameNumber, format, points, packets, validPoints, latencyTest },
-      ...{ capturedAtMs, captureMs, sampleMs, packMs },
+      frameNumber,
+      format,
+      points,
+      packets,
+      validPoints,
+      latencyTest,
+      capturedAtMs,
+      captureMs,
+      sampleMs,
+      packMs,
       readyAfterMs: readyMs - capturedAtMs,
       sendingAfterMs: now - capturedAtMs,
     });

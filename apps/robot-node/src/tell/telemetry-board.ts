@@ -56,7 +56,8 @@ export class TelemetryBoard {
     this.#own = { quantities: quantities.length, alarms: rules.length };
     const others = played.quantities.map(
       (quantity, i): Quantity => ({
-        ...{ type: 'quantity', number: quantities.length + i },
+        type: 'quantity',
+        number: quantities.length + i,
         ...quantity,
         recorded: true,
       }),

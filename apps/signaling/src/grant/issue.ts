@@ -73,10 +73,18 @@ export async function issue(argv: string[], { stdout, stderr, now }: CommandRim)
   const jkt = made === null ? await thumbprint(values.for ?? '') : await keyThumbprint(made.publicJwk);
   const nowS = Math.floor(now() / 1000);
   const claims = checked({
-    ...{ iss: issuer, sub: values.subject ?? name, name, aud: AUDIENCE, role, cnf: { jkt } },
-    ...{ iat: nowS, nbf: nowS, exp: nowS + Math.round(lasts * 86_400) },
+    iss: issuer,
+    sub: values.subject ?? name,
+    name,
+    aud: AUDIENCE,
+    role,
+    cnf: { jkt },
+    iat: nowS,
+    nbf: nowS,
+    exp: nowS + Math.round(lasts * 86_400),
     ...robotKeys(values['robot-key'] ?? []),
-    ...{ jti: randomBytes(12).toString('base64url'), robots: robots?.split(',').map((id) => id.trim()) },
+    jti: randomBytes(12).toString('base64url'),
+    robots: robots?.split(',').map((id) => id.trim()),
   });
   const signingKey = await parseSigningKey(readText('--key', values.key)).catch((error: unknown) => {
     if (error instanceof GrantKeysError) throw new CommandError(`--key ${values.key} ${error.message}`, 1);

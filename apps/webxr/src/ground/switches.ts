@@ -27,7 +27,8 @@ export class Switches {
   /** Takes the robot's list. An empty list begins a session. */
   set(entries: readonly { name: string }[]): void {
     this.#all.value = entries.map(({ name }, index) => ({
-      ...{ index, name },
+      index,
+      name,
       on: signal(!this.#switchedOff.has(name)),
     }));
   }

@@ -124,7 +124,14 @@ export class App {
     const access = new OperatorAccess(browserAccess(origin), () => Date.now() / 1000);
     const knownRobots = new StoredRobots(origin);
     this.client = new RobotClient({
-      ...{ signalingUrl, name, token, icePolicy, transform, bridge, knownRobots, openLink },
+      signalingUrl,
+      name,
+      token,
+      icePolicy,
+      transform,
+      bridge,
+      knownRobots,
+      openLink,
       credentials: () => access.credentials(),
       cloudFormats: mode === 'points64' ? ['points64'] : undefined,
       inputs: this.#inputs.all,
@@ -134,14 +141,23 @@ export class App {
     this.predicted = new PredictedView(this.client, settings.predict);
     this.stage.predicted = this.predicted;
     this.state = new PageState({
-      ...{ client: this.client, settings, notices, figures: () => this.figures() },
+      client: this.client,
+      settings,
+      notices,
+      figures: () => this.figures(),
       placements: new PanelPlacements(loadPlacements(), storePlacements),
-      ...{ now: () => performance.now(), newCanvas: () => document.createElement('canvas') },
+      now: () => performance.now(),
+      newCanvas: () => document.createElement('canvas'),
     });
     const { sensors, pointScale } = this.state;
     this.videos = new VideoFeed({
-      ...{ client: this.client, views: this.state.videos, synchronised: settings.synchronised },
-      ...{ receiver, words: videoWords, presented: this.presented, now: () => performance.now() },
+      client: this.client,
+      views: this.state.videos,
+      synchronised: settings.synchronised,
+      receiver,
+      words: videoWords,
+      presented: this.presented,
+      now: () => performance.now(),
       onShown: (captureMs) => this.client.seen.onShown(captureMs),
     });
     this.recorder = new TelemetryRecorder(this.client, () => performance.now());
@@ -152,12 +168,20 @@ export class App {
     this.remembered = new RememberedWorld({ renderer, world, client: this.client, held });
     this.clouds = new SensorClouds({ renderer, world, client: held, first: this.cloud, sensors, pointScale });
     this.videoColour = new VideoColour({
-      ...{ client: this.client, feed: this.videos, hold: this.hold, views: this.state.videos },
-      ...{ clouds: this.clouds.all, wanted: this.appearance.paint, synchronised: settings.synchronised },
+      client: this.client,
+      feed: this.videos,
+      hold: this.hold,
+      views: this.state.videos,
+      clouds: this.clouds.all,
+      wanted: this.appearance.paint,
+      synchronised: settings.synchronised,
     });
     this.vr = new VrSession(renderer, settings.headset);
     this.#access = new AccessUi({
-      ...{ access, knownRobots, client: this.client, link: this.state.link },
+      access,
+      knownRobots,
+      client: this.client,
+      link: this.state.link,
       signIn: new SignIn(tabStorage(), origin),
       tell: ({ text, tone }) => notices.tell(text, tone),
     });
@@ -168,19 +192,37 @@ export class App {
     const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });
     const toggleDashboard = () => dashboard.toggle();
     this.#controls = new ControlsUi({
-      ...{ client, state, stage, vr, appearance, estop: this.#estop, choose, toggleDashboard },
+      client,
+      state,
+      stage,
+      vr,
+      appearance,
+      estop: this.#estop,
+      choose,
+      toggleDashboard,
       nextHeadsetView: () => this.#headset?.nextView(),
       predicted: this.predicted,
     });
     const memory = { remembered: this.remembered, tell: notices.tell.bind(notices) };
     this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all, memory, robot: state.robot });
     this.#sound = new SoundUi({
-      ...{ client, player: this.player, state: state.sound },
+      client,
+      player: this.player,
+      state: state.sound,
       tell: ({ text, tone }) => notices.tell(text, tone),
     });
     const readHeadset = () => this.#headset?.read();
     this.frames = new FrameLoop({
-      ...{ settings, client, stage, held, cloud, clouds, videos, stats, vr, readHeadset },
+      settings,
+      client,
+      stage,
+      held,
+      cloud,
+      clouds,
+      videos,
+      stats,
+      vr,
+      readHeadset,
       remembered: this.remembered,
     });
   }
@@ -255,12 +297,23 @@ export class App {
     const { appearance, clouds } = this;
     const [inVr, { headset }] = [vr.active, stage];
     applyAppearance({
-      ...{ appearance, sensors: state.sensors, rings: state.rings, clouds, stage, inVr },
+      appearance,
+      sensors: state.sensors,
+      rings: state.rings,
+      clouds,
+      stage,
+      inVr,
       inTabletop: computed(() => headset.view.value === 'tabletop'),
-      ...{ client: this.client, remembered: this.remembered },
+      client: this.client,
+      remembered: this.remembered,
     });
     const { panel, controls } = openHeadset({
-      ...{ settings: this.settings.headset, stage, vr, inputs: this.#inputs, state, appearance },
+      settings: this.settings.headset,
+      stage,
+      vr,
+      inputs: this.#inputs,
+      state,
+      appearance,
       releaseProgress: this.#release.progress,
     });
     this.wrist = panel;

@@ -86,9 +86,13 @@ export class CloudAppearance {
     effect(() => {
       const { looks, cut, cutFromAbove, headingUp, surface, memory, paint, hazards } = this;
       const now = {
-        ...{ looks: looks.value, cut: cut.value },
-        ...{ cutFromAbove: cutFromAbove.value, headingUp: headingUp.value },
-        ...{ surface: surface.value, memory: memory.value, paint: paint.value },
+        looks: looks.value,
+        cut: cut.value,
+        cutFromAbove: cutFromAbove.value,
+        headingUp: headingUp.value,
+        surface: surface.value,
+        memory: memory.value,
+        paint: paint.value,
         hazards: hazards.value,
       };
       if (!first) store(now);

@@ -18,10 +18,12 @@ export function drivingState({ driver, link }: RobotClient, samples: Sampler) {
     /** Who drives, in a few words. */
     line: samples.of(() =>
       holderWords({
-        ...{ holder: driver.holder, driver: link.session.lease.driver ?? null },
+        holder: driver.holder,
+        driver: link.session.lease.driver ?? null,
         role: link.session.welcome?.access?.role ?? null,
         device: driver.stream.held ? (driver.input?.name ?? '') : null,
-        ...{ gripLost: driver.lost, paused: driver.paused },
+        gripLost: driver.lost,
+        paused: driver.paused,
       }),
     ),
   };

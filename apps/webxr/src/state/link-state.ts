@@ -36,8 +36,12 @@ export function linkState(client: RobotClient, samples: Sampler, signalingFault:
       if (signalingFault !== null && link.phase === 'none')
         return { text: `Signaling address: ${signalingFault}`, tone: 'bad' };
       return linkWords({
-        ...{ phase: link.phase, signaling: link.signaling, robotListed: link.robotListed },
-        ...{ lastLoss: link.lastLoss, maxOperators: link.maxOperators, lossDetail: link.lossDetail },
+        phase: link.phase,
+        signaling: link.signaling,
+        robotListed: link.robotListed,
+        lastLoss: link.lastLoss,
+        maxOperators: link.maxOperators,
+        lossDetail: link.lossDetail,
         grantLeftMs: link.session.grantEndsAtMs === null ? null : link.session.grantEndsAtMs - atMs,
         silentMs: link.silentMs(atMs),
         pointsSilentMs: atMs - client.pointsAtMs,

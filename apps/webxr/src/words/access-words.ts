@@ -75,7 +75,9 @@ export function obstacleOf(
       return {
         title: 'The robot does not admit you',
         text: `The robot says: ${detail ?? 'it admits only operators with a grant'}. ${remedy} the person who issues grants for one, and add it to this browser.`,
-        ...{ keys: null, mayTrust: false, needsGrant: true },
+        keys: null,
+        mayTrust: false,
+        needsGrant: true,
         signInHost: signInUrl === null ? null : new URL(signInUrl).host,
       };
     case 'robot-key-changed':
@@ -86,13 +88,18 @@ export function obstacleOf(
             ? 'It proves another key than the one in your grant. Do not drive it. Tell the person who issued the grant.'
             : 'It proves another key than the robot that this browser knows by this name. That is normal only if its computer was replaced or set up anew. Compare the new key with the one that the robot logs when it starts.',
         keys: changed === null ? null : { known: changed.known, shown: changed.shown },
-        ...{ mayTrust: changed !== null && !changed.byGrant, needsGrant: false, signInHost: null },
+        mayTrust: changed !== null && !changed.byGrant,
+        needsGrant: false,
+        signInHost: null,
       };
     case 'robot-unproven':
       return {
         title: 'This may be another robot',
         text: `This browser knows the robot by its key, but it did not prove it: ${detail ?? 'no proof'}. Somebody may stand between you and the robot.`,
-        ...{ keys: null, mayTrust: false, needsGrant: false, signInHost: null },
+        keys: null,
+        mayTrust: false,
+        needsGrant: false,
+        signInHost: null,
       };
     default:
       return null;

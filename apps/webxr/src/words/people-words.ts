@@ -29,7 +29,8 @@ export function shownPeople(operators: Operators | null, supervises: boolean): S
   return {
     line: `${total === 1 ? 'Only you are' : `${total} are`} here${drives}`,
     persons: listed.map(({ number, name, role, drives, you }) => ({
-      ...{ number, name },
+      number,
+      name,
       text: `${name} (${[you ? 'you' : null, drives ? 'driving' : activityOf[role]].filter((each) => each !== null).join(', ')})`,
       mayEnd: supervises && !you,
     })),

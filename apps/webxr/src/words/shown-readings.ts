@@ -26,7 +26,8 @@ export function shownReading({ reading, ageMs, intervalMs }: AgedReading): Shown
     intervalMs === null ? OLD_MS : Math.min(Math.max(OLD_INTERVALS * intervalMs, LEAST_OLD_MS), MOST_OLD_MS);
   const old = ageMs > oldMs;
   return {
-    ...{ topic, label },
+    topic,
+    label,
     text: old ? `${text} (${Math.round(ageMs / 1000)} s ago)` : text,
     tone: old && level === 'ok' ? 'warning' : tones[level],
   };

@@ -55,8 +55,11 @@ export class PictureDrawer {
     this.#target = new WebGLRenderTarget(size, size, { depthTexture });
     this.#metres = new WebGLRenderTarget(size, size, { type: FloatType, format: RGBAFormat });
     const material = new RawShaderMaterial({
-      ...{ glslVersion: GLSL3, vertexShader, fragmentShader },
-      ...{ depthTest: false, depthWrite: false },
+      glslVersion: GLSL3,
+      vertexShader,
+      fragmentShader,
+      depthTest: false,
+      depthWrite: false,
       uniforms: { depthMap: { value: depthTexture }, range: { value: [0, 0] } },
     });
     this.#quad = new Mesh(new PlaneGeometry(2, 2), material);

@@ -60,7 +60,10 @@ function confused(grant: string, secret: string): string {
 
 let sequence = 0;
 const payloadOf = (ids: readonly string[]): RevocationsPayload => ({
-  ...{ iss: 'attacker', iat: Math.floor(nowS()), seq: Math.floor(nowS()) + ++sequence, subjects: [] },
+  iss: 'attacker',
+  iat: Math.floor(nowS()),
+  seq: Math.floor(nowS()) + ++sequence,
+  subjects: [],
   grants: ids.map((jti) => ({ jti, exp: Math.floor(nowS()) + 3600 })),
 });
 const listOf = ({ signingKey }: TestIssuer, ids: readonly string[]) =>

@@ -150,7 +150,9 @@ export const rosTargets: readonly FuzzTarget[] = [
     name: 'protobuf-image',
     seeds: () => [Buffer.from('0a0408011002120663616d65726118042004280432047267623842', 'hex')],
     run: lazyDecoder({
-      ...{ name: 'foxglove.RawImage', messageEncoding: 'protobuf', schemaEncoding: 'protobuf' },
+      name: 'foxglove.RawImage',
+      messageEncoding: 'protobuf',
+      schemaEncoding: 'protobuf',
       schema: new Uint8Array(0),
     }) as (input: Uint8Array) => void,
     refusals: ['RosFault'],

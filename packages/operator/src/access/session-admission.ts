@@ -87,7 +87,9 @@ export class SessionAdmission {
         if (fingerprint === null)
           throw new StrangeRobotError('robot-unproven', 'its offer does not name one certificate');
         this.#robotKey = await verifyIdentity(identity, {
-          ...{ robot: robotId, session, robotFingerprint: fingerprint },
+          robot: robotId,
+          session,
+          robotFingerprint: fingerprint,
         });
       } catch (error) {
         if (!(error instanceof RobotIdentityError)) throw error;

@@ -78,7 +78,12 @@ export function checkConnectOptions(options: ConnectOptions, securePage: boolean
   if (!displayNameSchema.safeParse(name).success)
     throw new ConnectError('bad-name', `name: “${name}” cannot be shown; use fewer, printable characters`);
   return {
-    ...{ signalingUrl: address.url, robot, token, name, icePolicy, cloudFormats },
+    signalingUrl: address.url,
+    robot,
+    token,
+    name,
+    icePolicy,
+    cloudFormats,
     credentials: ticket === undefined ? credentials : ofTicket(ticket),
     knownRobots: robotKeys === undefined ? undefined : knownInMemory(robotKeys),
   };

@@ -69,8 +69,12 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
     const view = new DataView(header.buffer, header.byteOffset, header.byteLength);
     const float = (at: number) => view.getFloat32(at, true);
     this.#grid = {
-      ...{ width: view.getUint16(WIDTH_AT, true), height: view.getUint16(HEIGHT_AT, true) },
-      ...{ fx: float(FX_AT), fy: float(FY_AT), cx: float(CX_AT), cy: float(CY_AT) },
+      width: view.getUint16(WIDTH_AT, true),
+      height: view.getUint16(HEIGHT_AT, true),
+      fx: float(FX_AT),
+      fy: float(FY_AT),
+      cx: float(CX_AT),
+      cy: float(CY_AT),
     };
     const { width, height, fx, fy } = this.#grid;
     const area = (width / fx) * (height / fy);
@@ -143,8 +147,15 @@ export class OrganisedPacketDecoder implements PacketDecoder, Disposable {
     }
     if (decoder.isSurface) {
       this.#tiles.write(
-        ...([decoder.samples, result.firstTile, result.tiles, header, placement, receivedAtMs] as const),
-        ...([this.#look, this.#grid, writer] as const),
+        decoder.samples,
+        result.firstTile,
+        result.tiles,
+        header,
+        placement,
+        receivedAtMs,
+        this.#look,
+        this.#grid,
+        writer,
       );
       return;
     }

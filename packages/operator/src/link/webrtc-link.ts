@@ -168,8 +168,11 @@ export class WebRtcLink extends KeptLink {
     this.beginSession();
     const peer: IntroducedPeer = new IntroducedPeer(
       {
-        ...{ session, robotId: this.keeper.robotId ?? '', generation: this.generation },
-        ...{ link: this.#options, iceServers: this.#signaling.iceServers },
+        session,
+        robotId: this.keeper.robotId ?? '',
+        generation: this.generation,
+        link: this.#options,
+        iceServers: this.#signaling.iceServers,
       },
       {
         send: (message) => this.#signaling.send(message),

@@ -42,9 +42,18 @@ export function writePcd(
   const encoder = new TextEncoder();
   const header = encoder.encode(
     [
-      ...['# .PCD v0.7 - Point Cloud Data file format', `# ${SAVED} ${savedAt}`, 'VERSION 0.7'],
-      ...['FIELDS x y z rgb age', 'SIZE 4 4 4 4 4', 'TYPE F F F U F', 'COUNT 1 1 1 1 1'],
-      ...[`WIDTH ${points}`, 'HEIGHT 1', 'VIEWPOINT 0 0 0 1 0 0 0', `POINTS ${points}`, `DATA ${data}\n`],
+      '# .PCD v0.7 - Point Cloud Data file format',
+      `# ${SAVED} ${savedAt}`,
+      'VERSION 0.7',
+      'FIELDS x y z rgb age',
+      'SIZE 4 4 4 4 4',
+      'TYPE F F F U F',
+      'COUNT 1 1 1 1 1',
+      `WIDTH ${points}`,
+      'HEIGHT 1',
+      'VIEWPOINT 0 0 0 1 0 0 0',
+      `POINTS ${points}`,
+      `DATA ${data}\n`,
     ].join('\n'),
   );
   const ageOf = (seen: number) => Math.max(ticks - seen, 0) / TICKS_PER_S;

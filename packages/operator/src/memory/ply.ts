@@ -24,9 +24,17 @@ export function writePly(store: SurfelStore, ticks: number, savedAt: string): Ar
   const vertices = keptPoints(store);
   const header = new TextEncoder().encode(
     [
-      ...['ply', 'format binary_little_endian 1.0', `comment ${SAVED} ${savedAt}`],
-      ...[`element vertex ${vertices}`, 'property float x', 'property float y', 'property float z'],
-      ...['property uchar red', 'property uchar green', 'property uchar blue', 'property float age'],
+      'ply',
+      'format binary_little_endian 1.0',
+      `comment ${SAVED} ${savedAt}`,
+      `element vertex ${vertices}`,
+      'property float x',
+      'property float y',
+      'property float z',
+      'property uchar red',
+      'property uchar green',
+      'property uchar blue',
+      'property float age',
       'end_header\n',
     ].join('\n'),
   );
@@ -48,8 +56,22 @@ export function writePly(store: SurfelStore, ticks: number, savedAt: string): Ar
 }
 
 const SIZES = {
-  ...{ char: 1, uchar: 1, int8: 1, uint8: 1, short: 2, ushort: 2, int16: 2, uint16: 2 },
-  ...{ int: 4, uint: 4, int32: 4, uint32: 4, float: 4, float32: 4, double: 8, float64: 8 },
+  char: 1,
+  uchar: 1,
+  int8: 1,
+  uint8: 1,
+  short: 2,
+  ushort: 2,
+  int16: 2,
+  uint16: 2,
+  int: 4,
+  uint: 4,
+  int32: 4,
+  uint32: 4,
+  float: 4,
+  float32: 4,
+  double: 8,
+  float64: 8,
 } as const;
 type PlyType = keyof typeof SIZES;
 
@@ -79,8 +101,12 @@ export function readPly(bytes: Uint8Array): FilePoints {
   for (let vertex = 0; vertex < vertices; vertex++) {
     const from = dataAt + vertex * stride;
     file.add(
-      ...([numberAt(view, from, x), numberAt(view, from, y), numberAt(view, from, z)] as const),
-      ...([byteAt(view, from, red), byteAt(view, from, green), byteAt(view, from, blue)] as const),
+      numberAt(view, from, x),
+      numberAt(view, from, y),
+      numberAt(view, from, z),
+      byteAt(view, from, red),
+      byteAt(view, from, green),
+      byteAt(view, from, blue),
       numberAt(view, from, age),
     );
   }

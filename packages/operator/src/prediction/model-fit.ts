@@ -52,7 +52,12 @@ export class ModelFit {
     this.#commands = commands;
     this.#window = window;
     const knob = (axis: Knob['axis'], part: Part | null, step: number, leastStep: number): Knob => ({
-      ...{ axis, part, step, leastStep, direction: 1, failures: 0 },
+      axis,
+      part,
+      step,
+      leastStep,
+      direction: 1,
+      failures: 0,
     });
     const ofAxis = (axis: 'linear' | 'angular') => PARTS.map((part) => knob(axis, part, 0.3, 0.01));
     this.#knobs = [knob(null, null, 30, 1), ...ofAxis('linear'), ...ofAxis('angular')];

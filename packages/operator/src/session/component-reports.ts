@@ -50,7 +50,10 @@ export class ComponentReports {
   /** All components, by topic. */
   list(): ReportedComponents[] {
     return [...this.#topics].map(([topic, { timeMs, counts, recorded, reports }]) => ({
-      ...{ topic, timeMs, counts, recorded },
+      topic,
+      timeMs,
+      counts,
+      recorded,
       reports: [...reports.values()].map(({ report }) => report).sort(byUrgency),
     }));
   }

@@ -65,8 +65,12 @@ export class StopDelivery {
     if (robotId === null) return false;
     this.#press = nextSequence32(this.#press);
     this.#pending = {
-      ...{ press: this.#press, robotId, sinceMs: nowMs, repeatMs: nowMs },
-      ...{ sentPlain: null, sentNumbered: null },
+      press: this.#press,
+      robotId,
+      sinceMs: nowMs,
+      repeatMs: nowMs,
+      sentPlain: null,
+      sentNumbered: null,
     };
     this.#set('unconfirmed');
     this.tick(nowMs);

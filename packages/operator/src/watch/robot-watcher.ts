@@ -186,7 +186,10 @@ export class RobotWatcher {
     this.#describe(broadcast);
     this.#peer = new WatchPeer(
       {
-        ...{ broadcast, generation, cloudWorker: this.#receiver.worker, stampWorker: this.#stampWorker },
+        broadcast,
+        generation,
+        cloudWorker: this.#receiver.worker,
+        stampWorker: this.#stampWorker,
         iceServers: this.#options.iceServers ?? [],
         transform: this.#options.transform,
       },

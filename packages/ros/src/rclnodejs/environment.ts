@@ -64,12 +64,42 @@ export interface RclOptions {
 
 /** What ROS, its middleware and Node need of our environment. Everything else stays here: it may hold tokens. */
 const NAMES: ReadonlySet<string> = new Set([
-  ...['PATH', 'HOME', 'USER', 'LOGNAME', 'SHELL', 'LANG', 'LANGUAGE', 'TZ', 'TMPDIR', 'HOSTNAME'],
-  ...['LD_LIBRARY_PATH', 'LD_PRELOAD', 'PYTHONPATH', 'NODE_PATH', 'CYCLONEDDS_URI', 'CMAKE_PREFIX_PATH'],
+  'PATH',
+  'HOME',
+  'USER',
+  'LOGNAME',
+  'SHELL',
+  'LANG',
+  'LANGUAGE',
+  'TZ',
+  'TMPDIR',
+  'HOSTNAME',
+  'LD_LIBRARY_PATH',
+  'LD_PRELOAD',
+  'PYTHONPATH',
+  'NODE_PATH',
+  'CYCLONEDDS_URI',
+  'CMAKE_PREFIX_PATH',
 ]);
 const BEGINNINGS: readonly string[] = [
-  ...['LC_', 'XDG_', 'ROS_', 'RMW_', 'RCL_', 'RCUTILS_', 'AMENT_', 'COLCON_', 'RCLNODEJS_'],
-  ...['CYCLONEDDS_', 'FASTRTPS_', 'FASTDDS_', 'ZENOH_', 'NDDS', 'CONNEXTDDS_', 'IGN_', 'GZ_', 'ICEORYX_'],
+  'LC_',
+  'XDG_',
+  'ROS_',
+  'RMW_',
+  'RCL_',
+  'RCUTILS_',
+  'AMENT_',
+  'COLCON_',
+  'RCLNODEJS_',
+  'CYCLONEDDS_',
+  'FASTRTPS_',
+  'FASTDDS_',
+  'ZENOH_',
+  'NDDS',
+  'CONNEXTDDS_',
+  'IGN_',
+  'GZ_',
+  'ICEORYX_',
 ];
 /** Names that say that the value is a secret, whatever they begin with. */
 const SECRET = /token|secret|passw|credential|api_?key/i;

@@ -58,7 +58,11 @@ export function qosValues({ reliability, durability, depth }: Qos): QosValues {
 
 const callable = z.custom<(...values: never[]) => unknown>((value) => typeof value === 'function');
 export const rclnodejsSchema = z.looseObject({
-  ...{ init: callable, shutdown: callable, Node: callable, NodeOptions: callable, QoS: callable },
+  init: callable,
+  shutdown: callable,
+  Node: callable,
+  NodeOptions: callable,
+  QoS: callable,
   Context: callable.refine((context) => 'defaultContext' in context),
 });
 

@@ -153,7 +153,9 @@ export class RclnodejsGraph implements RosGraph {
   #start(): Promise<void> {
     const { name, entry, env = process.env } = this.#options;
     const child = fork(PROGRAM, [JSON.stringify({ name, entry })], {
-      ...{ serialization: 'advanced', execArgv: [], env: rclEnvironment(this.#options, env) },
+      serialization: 'advanced',
+      execArgv: [],
+      env: rclEnvironment(this.#options, env),
       // Its standard output joins standard error, which our own output does not use.
       stdio: ['ignore', 2, 2, 'ipc'],
     });

@@ -94,7 +94,11 @@ class Ros1Graph implements RosGraph {
     httpServer.listen = (port, _host, backlog) => listen(port, bind, backlog);
     try {
       const node = new OwnNode({
-        ...{ name, hostname: host, pid: process.pid, rosMasterUri: masterUrl, httpServer },
+        name,
+        hostname: host,
+        pid: process.pid,
+        rosMasterUri: masterUrl,
+        httpServer,
         tcpSocketCreate: async ({ host: peer, port }) => RosTcpSocket.to(peer, port, onDropped),
         tcpServer: await RosTcpServer.listen(bind, onDropped),
       });
@@ -147,7 +151,11 @@ class Ros1Graph implements RosGraph {
     });
     this.#node.subscriptions.set(topic, library);
     const own: OwnSubscription = {
-      ...{ topic, type: dataType, library, served: false, receivedThen: 0 },
+      topic,
+      type: dataType,
+      library,
+      served: false,
+      receivedThen: 0,
       get received() {
         return received;
       },
@@ -177,8 +185,13 @@ class Ros1Graph implements RosGraph {
     if (this.#publications.has(topic)) throw new RosFault('refused', 'it is already published', { topic });
     const latched = qos?.durability === 'transient-local';
     const publication = new Publication(
-      ...([topic, md5(definitions), ros1TypeOf(type), latched, definitions] as const),
-      ...([stringify(definitions), new MessageWriter(definitions)] as const),
+      topic,
+      md5(definitions),
+      ros1TypeOf(type),
+      latched,
+      definitions,
+      stringify(definitions),
+      new MessageWriter(definitions),
     );
     this.#publications.set(topic, publication);
     this.#node.publications.set(topic, publication);

@@ -65,7 +65,8 @@ export function newsOf(urdf: string, base: string | null = null): ModelNews {
 export function modelReading(topic: string, label: string | undefined, news: ModelNews): TopicReading {
   const words = notDrawn(news);
   return {
-    ...{ topic, label: shortened(label ?? LABEL, MOST_LABEL) },
+    topic,
+    label: shortened(label ?? LABEL, MOST_LABEL),
     level: words === '' ? 'ok' : 'warn',
     values: words === '' ? [] : [['', shortened(words, MOST_TEXT)]],
     model: news,

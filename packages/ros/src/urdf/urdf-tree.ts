@@ -110,7 +110,8 @@ function jointOf(element: XmlElement): UrdfJoint {
     of.attributes.has(key) ? (numbers(of, key, 1)[0] as number) : otherwise;
   return {
     name: attribute(element, 'name'),
-    ...{ parent: linkOf('parent'), child: linkOf('child') },
+    parent: linkOf('parent'),
+    child: linkOf('child'),
     origin: originOf(element),
     moves: how === null || axis === null ? null : { how, axis },
     mimic:

@@ -41,7 +41,12 @@ const MAX_LATE = 100;
  */
 export class VideoDepacketiser {
   readonly drops: Record<VideoFrameDrop, number> = {
-    ...{ malformed: 0, 'too-large': 0, 'lost-packet': 0, 'no-marker': 0, 'awaiting-key-frame': 0, late: 0 },
+    malformed: 0,
+    'too-large': 0,
+    'lost-packet': 0,
+    'no-marker': 0,
+    'awaiting-key-frame': 0,
+    late: 0,
   };
   readonly #reader: PayloadReader;
   readonly #frame: FrameBuffer;

@@ -47,9 +47,11 @@ export class ObstacleGuard implements MotionGuard {
     this.#map = new FloorMap({ ...this.#options, freeMemoryM: FREE_MEMORY_M });
     const narrow = marginM * CREEPING_SHARE;
     this.#search = new FreeWaySearch(this.#map, footprint, [
-      ...[marginM, narrow],
+      marginM,
+      narrow,
       // Where something is already nearer.
-      ...[(2 * narrow) / 3, narrow / 3],
+      (2 * narrow) / 3,
+      narrow / 3,
     ]);
     this.#nearField = new NearFieldSearch(this.#map, footprint);
     this.#reach = footprint.reach;

@@ -173,9 +173,17 @@ export function writeFrameHeader(bytes: Uint8Array, frame: number, header: Frame
   view.setUint32(24, flags | (latencyTest ? IS_LATENCY_TEST : 0), true);
   view.setUint32(28, 0, true);
   [
-    ...[position.x, position.y, position.z],
-    ...[orientation.x, orientation.y, orientation.z, orientation.w],
-    ...[camera.fx, camera.fy, camera.cx, camera.cy],
+    position.x,
+    position.y,
+    position.z,
+    orientation.x,
+    orientation.y,
+    orientation.z,
+    orientation.w,
+    camera.fx,
+    camera.fy,
+    camera.cx,
+    camera.cy,
   ].forEach((value, i) => {
     view.setFloat64(32 + i * 8, value, true);
   });

@@ -56,7 +56,9 @@ const MOVERS: Mover[] = [
 /** A concourse: a wide hall with pillars and low things on the floor, and six people who cross it. */
 export function concourseWorld(): WorldDescription {
   return {
-    ...{ name: 'concourse', start: { x: 9, y: 1.2, yaw: Math.PI / 2 }, lampSpacing: 3 },
+    name: 'concourse',
+    start: { x: 9, y: 1.2, yaw: Math.PI / 2 },
+    lampSpacing: 3,
     materials: OFFICE_MATERIALS,
     boxes: [...WALLS.flatMap(wallBoxes), ...THINGS.flatMap(({ boxes }) => boxes)],
     panels: [

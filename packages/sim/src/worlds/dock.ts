@@ -97,7 +97,10 @@ const THINGS: Piece[] = [
 const person = { kind: 'person', second: 0x2c3e58 } as const;
 const MOVERS: Mover[] = [
   {
-    ...{ name: 'loader', ...person, speed: 1.1, colour: 0xe8751a },
+    name: 'loader',
+    ...person,
+    speed: 1.1,
+    colour: 0xe8751a,
     path: [
       { x: 2, y: 4.4 },
       { x: 11.6, y: 4.4 },
@@ -106,7 +109,11 @@ const MOVERS: Mover[] = [
     ],
   },
   {
-    ...{ name: 'checker', ...person, speed: 0.8, offset: 4, colour: 0x2f6fb7 },
+    name: 'checker',
+    ...person,
+    speed: 0.8,
+    offset: 4,
+    colour: 0x2f6fb7,
     path: [
       { x: 2.4, y: 7.6 },
       { x: 7.6, y: 7.6 },
@@ -120,7 +127,9 @@ const MOVERS: Mover[] = [
 export function dockWorld(): WorldDescription {
   const shafts = HOLES.filter((hole) => hole !== STAIR).flatMap(shaft);
   return {
-    ...{ name: 'dock', start: { x: 2, y: 9, yaw: 0 }, lampSpacing: 3 },
+    name: 'dock',
+    start: { x: 2, y: 9, yaw: 0 },
+    lampSpacing: 3,
     materials: OFFICE_MATERIALS,
     boxes: [...WALLS.flatMap(wallBoxes), ...shafts, ...steps(), ...THINGS.flatMap(({ boxes }) => boxes)],
     panels: [...floors(), ceiling(0, 0, 18, 12, 'ceilingTile'), ...THINGS.flatMap(({ panels }) => panels)],

@@ -41,7 +41,10 @@ const THINGS: Piece[] = [
 const person = { kind: 'person', second: 0x2c3e58 } as const;
 const MOVERS: Mover[] = [
   {
-    ...{ name: 'picker', ...person, speed: 1.1, colour: 0xe8751a },
+    name: 'picker',
+    ...person,
+    speed: 1.1,
+    colour: 0xe8751a,
     path: [
       { x: 2.2, y: 1.2 },
       { x: 17, y: 1.2 },
@@ -52,7 +55,11 @@ const MOVERS: Mover[] = [
     ],
   },
   {
-    ...{ name: 'packer', ...person, speed: 0.8, offset: 5, colour: 0x2f6fb7 },
+    name: 'packer',
+    ...person,
+    speed: 0.8,
+    offset: 5,
+    colour: 0x2f6fb7,
     path: [
       { x: 6.3, y: 1.5 },
       { x: 6.3, y: 10.6 },
@@ -61,7 +68,11 @@ const MOVERS: Mover[] = [
     ],
   },
   {
-    ...{ name: 'trolley', kind: 'cart', speed: 0.6, colour: 0xe9b82c, second: 0x6f7a85 },
+    name: 'trolley',
+    kind: 'cart',
+    speed: 0.6,
+    colour: 0xe9b82c,
+    second: 0x6f7a85,
     path: [
       { x: 2.2, y: 2.2 },
       { x: 2.2, y: 9.4 },
@@ -74,7 +85,9 @@ const MOVERS: Mover[] = [
 /** A warehouse: aisles between high shelves, two people who come out of them, and a cart. */
 export function warehouseWorld(): WorldDescription {
   return {
-    ...{ name: 'warehouse', start: { x: 10.3, y: 1.3, yaw: 0 }, lampSpacing: 3 },
+    name: 'warehouse',
+    start: { x: 10.3, y: 1.3, yaw: 0 },
+    lampSpacing: 3,
     materials: OFFICE_MATERIALS,
     boxes: [...WALLS.flatMap(wallBoxes), ...THINGS.flatMap(({ boxes }) => boxes)],
     panels: [

@@ -61,8 +61,14 @@ const OUTGOING_RESET = 13;
 export function boundSctp(association: object, events: SctpBoundEvents): (tsn: number) => boolean {
   const sctp = association as AssociationShape;
   expectMethods(sctp, 'the SCTP association', [
-    ...['markReceived', 'sendSack', 'sendChunk', 'receiveForwardTsnChunk', 'receiveSackChunk'],
-    ...['receiveReconfigParam', 'getInboundStream', 'receive'],
+    'markReceived',
+    'sendSack',
+    'sendChunk',
+    'receiveForwardTsnChunk',
+    'receiveSackChunk',
+    'receiveReconfigParam',
+    'getInboundStream',
+    'receive',
   ]);
   if (typeof sctp.outboundStreamSeq !== 'object' || typeof sctp.lastSackedTsn !== 'number')
     throw new WeriftShapeError('no numbers in the SCTP association');

@@ -54,8 +54,13 @@ export function mendSctp(transport: RTCSctpTransport): void {
   const shape = transport as unknown as TransportShape;
   const { sctp } = shape;
   expectMethods(sctp, 'the SCTP association', [
-    ...['maybeAbandon', 'flightSizeDecrease', 'getInboundStream', 'send', 'transmitOnce'],
-    ...['updateAdvancedPeerAckPoint', 'timer3Start'],
+    'maybeAbandon',
+    'flightSizeDecrease',
+    'getInboundStream',
+    'send',
+    'transmitOnce',
+    'updateAdvancedPeerAckPoint',
+    'timer3Start',
   ]);
   if (!Array.isArray(sctp.sentQueue) || !Array.isArray(sctp.outboundQueue))
     throw new WeriftShapeError('no queues in the SCTP association');

@@ -162,7 +162,8 @@ export class RobotRevocations {
     );
     try {
       const revoked = [...this.#known.values()].map((known) => ({
-        ...{ keyId: known.keyId, sequence: known.sequence },
+        keyId: known.keyId,
+        sequence: known.sequence,
         ...known.entries(nowS()),
       }));
       journal.write({ revoked, blocked });

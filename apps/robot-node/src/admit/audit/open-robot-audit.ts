@@ -36,7 +36,11 @@ export async function openRobotAudit(
   }
   const { path, maxBytes, version, configuration } = options;
   const audit = await AuditLog.open({
-    ...{ path, maxBytes, robot, nowMs: Date.now, clockMs: monotonicMs },
+    path,
+    maxBytes,
+    robot,
+    nowMs: Date.now,
+    clockMs: monotonicMs,
     onFault: (error) => {
       if (error === null) log.info({ path }, 'the audit log is written again');
       else

@@ -6,6 +6,7 @@ export const LATE_MS = 1000;
 /** That a topic's messages are older than that. */
 export function lateFault(topic: string): RosFault {
   return new RosFault('bad-message', 'its messages are more than a second old when they come', {
-    ...{ topic, remedy: 'they are late, or the publisher’s clock is behind: keep both clocks in step' },
+    topic,
+    remedy: 'they are late, or the publisher’s clock is behind: keep both clocks in step',
   });
 }

@@ -51,6 +51,8 @@ export async function openGraph(
 export function ros2GraphOf({ graph = 'dds', interface: network }: Ros2Options): Ros2Graph {
   const sourced = isSourced(process.env);
   return chooseRos2Graph(graph, {
-    ...{ sourced, installed: sourced && findRclnodejs() !== null, needsDds: network !== undefined },
+    sourced,
+    installed: sourced && findRclnodejs() !== null,
+    needsDds: network !== undefined,
   });
 }

@@ -64,6 +64,7 @@ function poseOf(
     yaw: bodyYaw(pose.orientation),
     linear: twist?.linear.x ?? 0,
     angular: twist?.angular.z ?? 0,
-    ...{ errorM, atMs },
+    errorM,
+    atMs,
   };
 }

@@ -69,7 +69,11 @@ export class GuardTopics {
           };
     const closeMessage: GuardTopicsRequest = { type: 'close' };
     this.#thread = new KeptThread<GuardTopicsReport>({
-      ...{ program, name: 'guard topics', mostRetryMs: MOST_RETRY_MS, wellAfterMs: WELL_MS, closeMessage },
+      program,
+      name: 'guard topics',
+      mostRetryMs: MOST_RETRY_MS,
+      wellAfterMs: WELL_MS,
+      closeMessage,
       data: () => this.#setup(),
       onReport: (report) => this.#onReport(report),
       onError: (detail) => this.#tell(detail),

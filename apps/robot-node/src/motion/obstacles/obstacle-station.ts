@@ -61,7 +61,11 @@ export class ObstacleStation implements MotionGuard, Lookout {
       sensors === 0
         ? null
         : new ObstacleGuard(new Footprint(footprint), sensors, {
-            ...{ marginM, unseenMps, emergency: brakes, planes, planesShowFloor: scansShowFloor },
+            marginM,
+            unseenMps,
+            emergency: brakes,
+            planes,
+            planesShowFloor: scansShowFloor,
             odometry,
             // Before it must brake hard, it slows down more gently.
             braking: { linear: brakes.linear / 2, angular: (brakes.angular * 2) / 3 },

@@ -18,7 +18,10 @@ export class ReturnAnnouncer {
     this.#log = log;
     const closeMessage: AnnounceRequest = { type: 'close' };
     this.#thread = new KeptThread<AnnounceReport>({
-      ...{ program: PROGRAM, name: 'return topic', mostRetryMs: MOST_RETRY_MS, closeMessage },
+      program: PROGRAM,
+      name: 'return topic',
+      mostRetryMs: MOST_RETRY_MS,
+      closeMessage,
       data: (): AnnounceSetup => ({ ...this.#topic, isActive: this.#isActive }),
       onReport: ({ fault }) => this.#warn(fault),
       onError: (detail) => this.#warn(detail),

@@ -92,7 +92,9 @@ export class RobotStops {
     const leftOut = this.#lines.take(now);
     if (leftOut === null) return;
     const entry = {
-      ...{ stop, source: name, state },
+      stop,
+      source: name,
+      state,
       ...(fault === null ? {} : { fault }),
       ...(leftOut === 0 ? {} : { unreported: leftOut }),
     };
@@ -112,6 +114,8 @@ export function startStops(
   return new RobotStops(openStops(options, remembered, log), {
     guard: host.drive.guard,
     changed: (stop, state) => host.robotStopChanged(stop, state),
-    ...{ tell, log, now: monotonicMs },
+    tell,
+    log,
+    now: monotonicMs,
   });
 }

@@ -35,7 +35,10 @@ export class TopicStop implements StopSource {
     this.name = `topic ${options.topic}`;
     this.#signal = new RobotStopSignal({ silentMs: options.silentMs, steadyMs: STEADY_MS });
     this.#thread = new KeptThread<TopicStopReport>({
-      ...{ program: PROGRAM, name: 'stop topic', mostRetryMs: MOST_RETRY_MS, closeMessage: 'close' },
+      program: PROGRAM,
+      name: 'stop topic',
+      mostRetryMs: MOST_RETRY_MS,
+      closeMessage: 'close',
       data: () => this.#setup(),
       onReport: (report) => this.#onReport(report),
       onError: (detail) => this.#lose(detail),

@@ -90,7 +90,9 @@ async function askMaster(url: string, withinMs: number): Promise<string | null> 
     '<?xml version="1.0"?><methodCall><methodName>getPid</methodName><params><param><value><string>/farpoint_doctor</string></value></param></params></methodCall>';
   try {
     const answer = await fetch(url, {
-      ...{ method: 'POST', body: call, headers: { 'content-type': 'text/xml' } },
+      method: 'POST',
+      body: call,
+      headers: { 'content-type': 'text/xml' },
       signal: AbortSignal.timeout(withinMs),
     });
     return (await answer.text()).includes('<methodResponse>')

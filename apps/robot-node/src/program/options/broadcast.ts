@@ -88,7 +88,10 @@ export function toBroadcast(
     );
   }
   return {
-    ...{ url, ca, host: values.broadcastHost, clouds: values.broadcastClouds },
+    url,
+    ca,
+    host: values.broadcastHost,
+    clouds: values.broadcastClouds,
     adminKey: values.broadcastAdminKey,
     mountpoint: values.broadcastMountpoint,
     pin: values.broadcastPin,

@@ -86,19 +86,22 @@ export function toMotion(
     refuse('emergencyMps2', `must be at least the ordinary deceleration, ${decelerationMps2} m/s²`);
   return {
     ramps: {
-      ...{ accelerationMps2: values.accelerationMps2, decelerationMps2, emergencyMps2 },
-      ...{ turnRadps2, emergencyTurnRadps2: 2 * turnRadps2 },
+      accelerationMps2: values.accelerationMps2,
+      decelerationMps2,
+      emergencyMps2,
+      turnRadps2,
+      emergencyTurnRadps2: 2 * turnRadps2,
     },
     view:
       values.view === 'optional'
         ? null
         : {
-            ...{ slowMs: viewSlowMs, brakeMs: viewBrakeMs, stallMs: values.viewStallMs },
-            ...{
-              mostM: values.blindTravelM,
-              decelerationMps2,
-              radiusM: new Footprint(footprintOf(values.footprint)).reach,
-            },
+            slowMs: viewSlowMs,
+            brakeMs: viewBrakeMs,
+            stallMs: values.viewStallMs,
+            mostM: values.blindTravelM,
+            decelerationMps2,
+            radiusM: new Footprint(footprintOf(values.footprint)).reach,
           },
   };
 }

@@ -74,8 +74,10 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     base:
       values.source === 'sim'
         ? {
-            ...{ watchdogMs: values.watchdogMs, charge: values.simCharge / 100 },
-            ...{ origin: values.simOrigin, things: values.simThings ?? [] },
+            watchdogMs: values.watchdogMs,
+            charge: values.simCharge / 100,
+            origin: values.simOrigin,
+            things: values.simThings ?? [],
             navigation: { map: values.simMap, planTo: values.simPlanTo },
           }
         : null,
@@ -86,14 +88,17 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
       watchdogMs: values.watchdogMs,
       maxCommandsPerSecond: values.maxCommandsPerSecond,
     },
-    ...{ motion, obstacleGuard },
+    motion,
+    obstacleGuard,
     quantities,
     alarms,
     takePolicy: values.takePolicy,
     estopRelease: values.estopRelease,
     afterGap: values.afterGap,
     resumeWithinMs: values.afterGap === 'resume' ? MOST_RESUME_MS : values.resumeWithinMs,
-    ...{ fence, returns, model },
+    fence,
+    returns,
+    model,
     stops: toStops(values, (kind) => toGraph(values, kind)),
     stateFolder: folder,
     referenceSignaling: values.referenceSignaling ?? undefined,

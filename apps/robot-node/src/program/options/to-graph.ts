@@ -11,7 +11,9 @@ export function toGraph(values: RobotOptionValues, kind: GraphOptions['kind']): 
   if (kind === 'ros2') {
     const { rosDomain, rosInterface, rosPeers, rosReach } = values;
     return {
-      ...{ kind, name, graph: values.rosGraph },
+      kind,
+      name,
+      graph: values.rosGraph,
       ...(rosDomain === null ? {} : { domain: rosDomain }),
       ...(rosInterface === null ? {} : { interface: rosInterface }),
       ...(rosPeers.length === 0 ? {} : { peers: rosPeers }),
@@ -19,7 +21,9 @@ export function toGraph(values: RobotOptionValues, kind: GraphOptions['kind']): 
     };
   }
   return {
-    ...{ kind, name, masterUrl: rosMasterUrl(values.rosMaster, env) },
+    kind,
+    name,
+    masterUrl: rosMasterUrl(values.rosMaster, env),
     hostname: values.rosHostname ?? ros1Hostname(env),
   };
 }

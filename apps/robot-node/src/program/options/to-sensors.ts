@@ -57,15 +57,27 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
       };
     case 'recording':
       return {
-        ...{ kind: 'recording', path, topic: values.topic, rate: values.playRate, fromS: values.playFromS },
-        ...{ atEnd: values.playEnd, axes: values.playAxes, topics, videos: values.playVideos === 'all' },
-        ...{ telemetry: values.playTelemetry === 'all', baseFrame: values.rosBaseFrame },
+        kind: 'recording',
+        path,
+        topic: values.topic,
+        rate: values.playRate,
+        fromS: values.playFromS,
+        atEnd: values.playEnd,
+        axes: values.playAxes,
+        topics,
+        videos: values.playVideos === 'all',
+        telemetry: values.playTelemetry === 'all',
+        baseFrame: values.rosBaseFrame,
       };
     case 'ros1':
     case 'ros2':
       return {
-        ...{ kind: 'ros', graph: toGraph(values, values.source), topics },
-        ...{ axes: values.rosAxes, baseFrame: values.rosBaseFrame, waitMs: values.rosWaitS * 1000 },
+        kind: 'ros',
+        graph: toGraph(values, values.source),
+        topics,
+        axes: values.rosAxes,
+        baseFrame: values.rosBaseFrame,
+        waitMs: values.rosWaitS * 1000,
       };
     case 'pcd':
       return { kind: 'pcd', path, frame: values.pcdFrame };

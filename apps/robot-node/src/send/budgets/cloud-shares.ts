@@ -52,7 +52,9 @@ export function cloudShare(
   const rates = allocate(
     totalBitsPerSecond,
     rivals.map(({ number, priority, weight, usefulBitsPerSecond }) => ({
-      ...{ name: String(number), priority, weight },
+      name: String(number),
+      priority,
+      weight,
       leastBitsPerSecond: Math.min(LEAST_BITS_PER_SECOND, usefulBitsPerSecond),
       mostBitsPerSecond: usefulBitsPerSecond,
     })),

@@ -35,7 +35,9 @@ export class CloudSensor {
     this.#claim = { priority, weight, usefulBitsPerSecond: Number.POSITIVE_INFINITY };
     this.#fanOut = new FrameFanOut({
       ...fanOut,
-      ...{ capture, sensor, lane: priority },
+      capture,
+      sensor,
+      lane: priority,
       onFrame: (frame) => {
         this.#claim.usefulBitsPerSecond = frame.usefulBitsPerSecond;
         fanOut.onFrame?.(frame);

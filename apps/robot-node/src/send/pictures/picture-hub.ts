@@ -50,7 +50,11 @@ export interface PictureCounters {
 
 export class PictureHub {
   readonly counters: PictureCounters = {
-    ...{ made: 0, untouched: 0, bytes: 0, workSeconds: 0, restarts: 0 },
+    made: 0,
+    untouched: 0,
+    bytes: 0,
+    workSeconds: 0,
+    restarts: 0,
     lost: new ReasonCounts(),
   };
   readonly #options: PictureHubOptions;

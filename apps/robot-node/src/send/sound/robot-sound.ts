@@ -45,7 +45,8 @@ export class RobotSound {
     this.#options = options;
     const { devices, log, now, targets, onFrame } = options;
     this.microphone = new MicrophoneHub({
-      ...{ devices, log },
+      devices,
+      log,
       onFrame: (frame) => {
         for (const { streaming, sound } of targets()) if (streaming) sound.offer(frame);
         onFrame();

@@ -50,7 +50,9 @@ export function readVideoAnswers(sdp: string, offered: readonly (readonly VideoC
     const mid = lines.find((line) => line.startsWith('a=mid:'));
     if (mid !== undefined) refusedMids.add(mid.slice('a=mid:'.length));
     return [
-      ...['m=video 0 UDP/TLS/RTP/SAVPF 0', 'c=IN IP4 0.0.0.0', 'a=inactive'],
+      'm=video 0 UDP/TLS/RTP/SAVPF 0',
+      'c=IN IP4 0.0.0.0',
+      'a=inactive',
       ...(mid === undefined ? [] : [mid]),
     ];
   });

@@ -61,7 +61,10 @@ export class StreamSender {
   readonly #now: () => number;
   readonly #beganMs = new WeakMap<OutgoingFrame, number>();
   readonly #cloudDrops: Record<FrameDropReason, number> = {
-    ...{ superseded: 0, overdue: 0, undecodable: 0, cleared: 0 },
+    superseded: 0,
+    overdue: 0,
+    undecodable: 0,
+    cleared: 0,
   };
   /** The probe that is being sent, its rate, and its remaining bytes. */
   #probeCluster = 0;
@@ -87,7 +90,9 @@ export class StreamSender {
     const { counters } = this;
     this.#feedback = new StreamFeedback({
       streams: this.#streams,
-      ...{ controller, reports: this.#reports, counters },
+      controller,
+      reports: this.#reports,
+      counters,
     });
     transport.onRtcp = (compound) => {
       this.heardMs = this.#now();

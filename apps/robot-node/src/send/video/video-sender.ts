@@ -12,7 +12,9 @@ export class VideoSender {
   /** The videos that the operator wants. */
   wanted: ReadonlySet<number> = new Set();
   readonly drops: Record<VideoDropReason, number> = {
-    ...{ 'other-codec': 0, 'no-key-frame': 0, overdue: 0 },
+    'other-codec': 0,
+    'no-key-frame': 0,
+    overdue: 0,
   };
   readonly #codecs: ReadonlyMap<number, ReadonlySet<VideoCodec>>;
   readonly #enqueue: (frame: VideoFrame) => void;

@@ -8,7 +8,10 @@ const FIX_TOPIC = '/fix';
 const entries = topicTableSchema.parse([
   { topic: DIAGNOSTICS_TOPIC, as: 'diagnostics' },
   {
-    ...{ topic: MOTORS_TOPIC, type: 'farpoint_msgs/msg/Motors', as: 'text', label: 'Motors' },
+    topic: MOTORS_TOPIC,
+    type: 'farpoint_msgs/msg/Motors',
+    as: 'text',
+    label: 'Motors',
     quantities: [
       { field: 'left', label: 'Left motor', unit: '°C' },
       { field: 'right', label: 'Right motor', unit: '°C' },

@@ -81,7 +81,8 @@ export class FrameCapture {
       policy: plan,
       mostFramesPerSecond: Math.min(framesPerSecond, description.framesPerSecond ?? framesPerSecond),
       anyRate: this.#anyRate,
-      ...{ floorFraction, mostPoints },
+      floorFraction,
+      mostPoints,
     });
     this.#formats = new FrameFormats(codec, description, { ...sampling, sensor }, planner, clocks.now);
   }
@@ -220,7 +221,10 @@ export class FrameCapture {
     for (const { encoded, packets } of formatted) {
       const { format, points, packets: count } = encoded;
       recording.sent(frame, {
-        ...{ format, points, packets: count, slotBytes: SLOT_BYTES },
+        format,
+        points,
+        packets: count,
+        slotBytes: SLOT_BYTES,
         streamHeader: format === 'points64' ? null : (this.#stream?.header ?? null),
         copyPackets: (buffer, n) => packets.copyPackets(buffer, n),
       });

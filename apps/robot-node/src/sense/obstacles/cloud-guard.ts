@@ -51,7 +51,12 @@ export class CloudGuard implements Disposable {
     const nearPoints = perSquareMetre * shape.cellM ** 2 * ENOUGH;
     this.#grid = new ObstacleGrid(codec, capacity, {
       ...shape,
-      ...{ clearanceM, heightM, dropM, slope: FLOOR_SLOPE, lowRayM: LOW_RAY_M, confirm: false },
+      clearanceM,
+      heightM,
+      dropM,
+      slope: FLOOR_SLOPE,
+      lowRayM: LOW_RAY_M,
+      confirm: false,
       nearPoints: Math.min(MOST_POINTS, Math.max(LEAST_POINTS, nearPoints)),
       leastPoints: LEAST_POINTS,
     });
@@ -104,10 +109,13 @@ export class CloudGuard implements Disposable {
       this.#blankFloor?.mark(frame.depth, { x: within.x, y: within.y, yaw }, grid.classes);
     }
     this.#writer.write({
-      ...{ capturedAtMs: frame.capturedAtMs, placed, disputed: frame.base === 'disputed' },
+      capturedAtMs: frame.capturedAtMs,
+      placed,
+      disputed: frame.base === 'disputed',
       classes: grid.classes,
       heights: grid.heights,
-      ...{ firstX: cells[0] - side / 2, firstY: cells[1] - side / 2 },
+      firstX: cells[0] - side / 2,
+      firstY: cells[1] - side / 2,
       tookMs: monotonicMs() - beganMs,
     });
   }

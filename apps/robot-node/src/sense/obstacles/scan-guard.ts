@@ -81,8 +81,11 @@ export class ScanGuard {
     const turn = Math.atan2(Math.sin(to.yaw - from.yaw), Math.cos(to.yaw - from.yaw));
     const valid = this.#grid.look(
       {
-        ...{ angleMin: scan.angle_min, angleIncrement: scan.angle_increment },
-        ...{ rangeMin: scan.range_min, rangeMax: scan.range_max, ranges: scan.ranges },
+        angleMin: scan.angle_min,
+        angleIncrement: scan.angle_increment,
+        rangeMin: scan.range_min,
+        rangeMax: scan.range_max,
+        ranges: scan.ranges,
       },
       inGrid(from),
       inGrid({ ...to, yaw: from.yaw + turn }),

@@ -71,9 +71,14 @@ export class PictureProcessor {
     const captureTimeUs = stampUsOf(capturedAtMs);
     const header = { format, camera, width, height, pictureId, captureTimeUs };
     return {
-      ...{ type: 'picture', header, capturedAtMs, untouched },
-      ...{ fileBytes: made.bytes.length, chunks: chunksOf(header, made) },
-      ...{ longestSide: plan.longestSide, workMs: threadCpu() - began },
+      type: 'picture',
+      header,
+      capturedAtMs,
+      untouched,
+      fileBytes: made.bytes.length,
+      chunks: chunksOf(header, made),
+      longestSide: plan.longestSide,
+      workMs: threadCpu() - began,
     };
   }
 }

@@ -36,7 +36,12 @@ export function openSoundDevices(options: SoundOptions, log: Logger): SoundDevic
         : (bitsPerS, { onPacket, onFault }) => {
             const { source, dtx } = microphone;
             const device = new Microphone({
-              ...{ source, dtx, bitsPerS, onPacket, onLog, onFailure: failed(onFault) },
+              source,
+              dtx,
+              bitsPerS,
+              onPacket,
+              onLog,
+              onFailure: failed(onFault),
             });
             return { configure: (bits) => device.configure(bits), close: () => device.close() };
           },

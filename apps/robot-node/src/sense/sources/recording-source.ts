@@ -73,7 +73,9 @@ export class RecordingSource implements FrameSource {
     this.#telemetry = telemetry;
     this.description = {
       kind: `recording (${topic.name}, ${axes} frame, ${player.seconds.toFixed(1)} s)`,
-      ...{ width, height, capacity },
+      width,
+      height,
+      capacity,
       camera: null,
       depthMeasure: axes === 'body' ? 'range' : 'z',
       cameras: topics.cameras,

@@ -75,7 +75,10 @@ export class RosSource implements FrameSource {
     const names = feed.listeners.map(({ entry }) => entry.topic).join(', ');
     this.description = {
       kind: `ros${graph.version} (${names}, ${axes} frame)`,
-      ...{ width, height, capacity, camera },
+      width,
+      height,
+      capacity,
+      camera,
       depthMeasure: axes === 'body' ? 'range' : 'z',
       cameras: pictures.map(cameraOf),
     };
@@ -186,7 +189,8 @@ export class RosSource implements FrameSource {
     if (dispute !== null)
       this.#tell(
         new RosFault('bad-cloud', `guard.mount and tf disagree about where ${frameId} sits: by ${dispute}`, {
-          ...{ topic: this.#topic, remedy: 'correct the one that is wrong, or leave tf out' },
+          topic: this.#topic,
+          remedy: 'correct the one that is wrong, or leave tf out',
         }),
         nowMs,
       );

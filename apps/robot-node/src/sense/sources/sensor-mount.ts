@@ -18,7 +18,10 @@ const OPTICAL_IN_BODY: Quaternion = { x: -0.5, y: 0.5, z: -0.5, w: 0.5 };
 /** The pose of its body frame in base_link. */
 export function bodyMount({ x, y, z, roll, pitch, yaw }: SensorMount): Pose {
   const about = (axis: 'x' | 'y' | 'z', angle: number): Quaternion => ({
-    ...{ x: 0, y: 0, z: 0, w: Math.cos(angle / 2) },
+    x: 0,
+    y: 0,
+    z: 0,
+    w: Math.cos(angle / 2),
     [axis]: Math.sin(angle / 2),
   });
   const orientation = multiply(multiply(about('z', yaw), about('y', pitch)), about('x', roll));

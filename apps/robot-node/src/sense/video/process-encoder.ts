@@ -25,7 +25,9 @@ export class ProcessEncoder implements VideoEncoder {
     log: VideoLog,
   ) {
     this.process = new VideoProcess({
-      ...{ source, encoder, settings: settingsOf(format) },
+      source,
+      encoder,
+      settings: settingsOf(format),
       onFrame: ({ bytes, key, captureMs: capturedAtMs, width, height }) => {
         events.onFault(null);
         events.onPicture({ bytes, key, capturedAtMs, width, height });
@@ -72,7 +74,10 @@ export class ProcessEncoder implements VideoEncoder {
 
 function settingsOf({ width, height, framesPerSecond, bitsPerSecond, barcode }: EncodedFormat) {
   return {
-    ...{ bitsPerS: bitsPerSecond, framesPerS: framesPerSecond, width, height },
+    bitsPerS: bitsPerSecond,
+    framesPerS: framesPerSecond,
+    width,
+    height,
     barcode: barcode ? ('monotonic' as const) : undefined,
   };
 }

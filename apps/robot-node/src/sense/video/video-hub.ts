@@ -69,7 +69,8 @@ export class VideoHub {
   /** Of each video what an operator is told, besides its m-line. */
   get descriptions(): Omit<VideoDescription, 'mid'>[] {
     return this.streams.map(({ camera: { name, ofSensor }, codec, fault }) => ({
-      ...{ name, codec },
+      name,
+      codec,
       ...(ofSensor === undefined ? {} : { ofSensor }),
       ...(fault === null ? {} : { fault: fault.slice(0, 256) }),
     }));

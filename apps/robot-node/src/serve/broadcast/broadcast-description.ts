@@ -42,7 +42,9 @@ export function describeBroadcast(
     streams: [...streams],
   };
   return encodeJson(broadcastCodec, {
-    ...{ type: 'farpointBroadcast', version: 1, name },
+    type: 'farpointBroadcast',
+    version: 1,
+    name,
     videos: videos.map((video, number) => ({ ...video, mid: midOfVideo(number) })),
     ...(sensors.length === 0 ? {} : { clouds }),
   });

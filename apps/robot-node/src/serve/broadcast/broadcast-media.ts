@@ -18,11 +18,17 @@ export function midOfVideo(video: number): string {
 /** The m-lines of a robot's mountpoint: clouds first, then the videos by number. */
 export function broadcastMedia(codecs: readonly VideoCodec[], clouds: boolean): MountpointMedia[] {
   const cloud: MountpointMedia = {
-    ...{ mid: CLOUD_MID, type: 'audio', label: 'Clouds', codec: 'opus', pt: CLOUD_PAYLOAD_TYPE },
+    mid: CLOUD_MID,
+    type: 'audio',
+    label: 'Clouds',
+    codec: 'opus',
+    pt: CLOUD_PAYLOAD_TYPE,
   };
   const videos = codecs.map(
     (codec, video): MountpointMedia => ({
-      ...{ mid: midOfVideo(video), type: 'video', label: `Video ${video + 1}` },
+      mid: midOfVideo(video),
+      type: 'video',
+      label: `Video ${video + 1}`,
       pt: FIRST_VIDEO_PAYLOAD_TYPE + video,
       ...(codec === 'H264' ? { codec: 'h264', fmtp: H264_PARAMETERS } : { codec: 'vp8' }),
     }),

@@ -166,16 +166,16 @@ export class MountpointKeeper {
     // Janus listens at 127.0.0.1 rather than at ::1.
     const { address } = await lookup(target, target === 'localhost' ? { family: 4 } : {});
     const { ports } = await client.create({
-      ...{
-        id,
-        adminKey: adminKey?.reveal() ?? null,
-        pin: pin?.reveal() ?? null,
-        media,
-        srtp,
-        secret: this.#secret,
-        metadata: metadata(),
-      },
-      ...{ name: `farpoint-${id}`, description: name, address: here ? address : null },
+      id,
+      adminKey: adminKey?.reveal() ?? null,
+      pin: pin?.reveal() ?? null,
+      media,
+      srtp,
+      secret: this.#secret,
+      metadata: metadata(),
+      name: `farpoint-${id}`,
+      description: name,
+      address: here ? address : null,
     });
     const byMid = new Map(
       ports.map(({ mid, port, rtcp_port: rtcpPort }) => [mid, { port, rtcpPort: rtcpPort ?? null }]),

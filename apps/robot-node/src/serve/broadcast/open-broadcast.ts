@@ -22,7 +22,11 @@ export function openBroadcast(
 ): Broadcast | null {
   if (options === undefined) return null;
   const broadcast: Broadcast = new Broadcast({
-    ...{ options, name, sensors, sendLoop, now: monotonicMs },
+    options,
+    name,
+    sensors,
+    sendLoop,
+    now: monotonicMs,
     log: log.child({ part: 'broadcast' }),
     // A mountpoint's codecs are fixed: it takes those that the cameras prefer.
     codecs: videos.map(({ codecs }) => codecs[0] as VideoCodec),

@@ -110,7 +110,8 @@ export class EstopRequests {
     this.#port.refused(reason);
     const fault = faultOf(reason, mayDrive(this.#operator.access));
     this.#operator.send({
-      ...{ type: 'fault', message: refusalWords[reason] },
+      type: 'fault',
+      message: refusalWords[reason],
       ...(fault === undefined ? {} : { reason: fault }),
     });
     this.#operator.sendEstop();

@@ -99,7 +99,8 @@ export class OperatorMessages {
     this.#link = link;
     this.heardMs = host.now();
     this.#estop = new EstopRequests(this, {
-      ...{ drive: host.drive, now: () => host.now() },
+      drive: host.drive,
+      now: () => host.now(),
       changed: () => host.estopChanged(this),
       renewed: () => host.estopRenewed(this),
       refused: (reason) => host.refused?.(this, 'estop-release', reason),

@@ -90,8 +90,13 @@ export class OperatorSession implements FrameTarget {
       events.onBudgetChanged();
     };
     listenToWishes(this.messages.wishes, {
-      ...{ clouds: this.#clouds, videos: this.videos, pictures: this.pictures, sound: this.sound },
-      ...{ budget: this.#budget, clear: () => this.#clear(), events },
+      clouds: this.#clouds,
+      videos: this.videos,
+      pictures: this.pictures,
+      sound: this.sound,
+      budget: this.#budget,
+      clear: () => this.#clear(),
+      events,
     });
   }
 

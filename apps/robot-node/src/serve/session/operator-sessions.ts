@@ -212,9 +212,14 @@ export class OperatorSessions {
     const log = this.#options.log.child({ session: shown(session), operator: operatorName });
     const operator = new OperatorSession(
       {
-        ...{ session, operatorName, packetLog, pictureShare },
+        session,
+        operatorName,
+        packetLog,
+        pictureShare,
         peer: { ...peer, iceServers: this.#iceServers },
-        ...{ makeController, claims, mostVideoBitsPerSecond: this.#options.mostVideoBitsPerSecond },
+        makeController,
+        claims,
+        mostVideoBitsPerSecond: this.#options.mostVideoBitsPerSecond,
       },
       host,
       sendLoop,

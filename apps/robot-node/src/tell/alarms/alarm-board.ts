@@ -41,7 +41,9 @@ export class AlarmBoard {
       return entry;
     });
     this.#played = Array.from({ length: played }, (_, i) => ({
-      ...{ number: rules.length + i, told: null, state: null },
+      number: rules.length + i,
+      told: null,
+      state: null,
     }));
     this.#entries = [...judged, ...this.#played];
   }

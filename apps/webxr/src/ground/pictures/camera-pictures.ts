@@ -16,7 +16,12 @@ export class CameraPictures {
       cameras.all.value.map((camera) => {
         const toggle = () => cameras.toggle(camera.index);
         return new DrawnCamera({
-          ...{ kind: 'picture', camera, canvas: newCanvas(), fault: NO_FAULT, atMs, toggle },
+          kind: 'picture',
+          camera,
+          canvas: newCanvas(),
+          fault: NO_FAULT,
+          atMs,
+          toggle,
         });
       }),
     );

@@ -59,7 +59,11 @@ export class WatchApp {
     this.views = new VideoViews(this.#nowMs, () => document.createElement('canvas'));
     this.#enlarged = new Enlarged(this.views.views);
     this.videos = new VideoFeed({
-      ...{ client: watcher, views: this.views, words: videoWords, synchronised, presented: null },
+      client: watcher,
+      views: this.views,
+      words: videoWords,
+      synchronised,
+      presented: null,
       // Its frames tell the timestamps with which the relay's were paired.
       receiver: videoReceiver('native'),
       captureMs: (video, { rtpTimestamp }) =>
@@ -112,12 +116,10 @@ export class WatchApp {
       link.dataset.tone = tone;
     });
     showWatchPanels({
-      ...{
-        container: pictures,
-        views: this.views.views,
-        enlarged: this.#enlarged,
-        sampledAtMs: this.#nowMs,
-      },
+      container: pictures,
+      views: this.views.views,
+      enlarged: this.#enlarged,
+      sampledAtMs: this.#nowMs,
       live: computed(() => this.#state.value.phase === 'live'),
     });
     const switchAbove = (above: boolean): void => {

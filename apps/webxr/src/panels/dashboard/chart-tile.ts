@@ -46,20 +46,34 @@ export function chartTile(recorded: () => RecordedSeries | undefined): Tile {
   let drawnStale: boolean | null = null;
   const plot = new uPlot(
     {
-      ...{ width: LEAST_WIDTH, height: HEIGHT, padding: [6, 16, 0, 0] },
-      ...{ legend: { show: false }, cursor: { show: false }, select: { show: false } as uPlot.Select },
+      width: LEAST_WIDTH,
+      height: HEIGHT,
+      padding: [6, 16, 0, 0],
+      legend: { show: false },
+      cursor: { show: false },
+      select: { show: false } as uPlot.Select,
       scales: {
         x: { time: false, range: () => [-windowS, 0] },
         y: { range: (_, low, high) => padded(low, high) },
       },
       axes: [
         {
-          ...{ stroke: TEXT, grid: GRID, ticks: TICKS, font: FONT, size: 26, space: 60 },
+          stroke: TEXT,
+          grid: GRID,
+          ticks: TICKS,
+          font: FONT,
+          size: 26,
+          space: 60,
           values: (_, splits) => splits.map((at) => (at === 0 ? 'now' : `−${spanWords(-at)}`)),
           incrs: [5, 10, 30, 60, 120, 300, 600, 1200],
         },
         {
-          ...{ stroke: TEXT, grid: GRID, ticks: TICKS, font: FONT, size: AXIS_WIDTH, space: 26 },
+          stroke: TEXT,
+          grid: GRID,
+          ticks: TICKS,
+          font: FONT,
+          size: AXIS_WIDTH,
+          space: 26,
           values: (_, splits) => splits.map((at) => String(Number(at.toPrecision(6)))),
         },
       ],

@@ -66,12 +66,10 @@ export class DashboardOpener {
     import('./dashboard.ts').then(
       (module) => {
         this.#dashboard.value = new module.Dashboard({
-          ...{
-            element: elements.dashboard,
-            recorder,
-            mapTiles: settings.mapTiles,
-            alarms: state.robot.alarms,
-          },
+          element: elements.dashboard,
+          recorder,
+          mapTiles: settings.mapTiles,
+          alarms: state.robot.alarms,
           session: () => client.link.session,
           momentAt: (nowMs) => this.#momentAt(nowMs),
           close: () => {

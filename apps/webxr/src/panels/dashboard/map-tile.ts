@@ -126,7 +126,11 @@ export function mapTile(recorder: TelemetryRecorder, tiles: MapTiles | null): Ti
     painted = key;
     if (follow && place !== null) projection.centre = place;
     const map: PaintedMap = {
-      ...{ projection, track, robot: place, yaw, stale },
+      projection,
+      track,
+      robot: place,
+      yaw,
+      stale,
       placeOf: (first, second) =>
         bySatellite ? (plane?.toPlace(second, first) ?? ORIGIN) : { x: first, y: second },
       earth: bySatellite && plane !== null ? { plane, tiles: store } : null,

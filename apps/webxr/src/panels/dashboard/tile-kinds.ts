@@ -30,12 +30,17 @@ const HIDDEN_FIELDS: readonly string[] = ['latitude', 'longitude', 'altitude', '
 export function tileKinds({ recorder, mapTiles, session }: TileSources): TileKind[] {
   const values = ownValues(recorder);
   const value = (id: string, title: string): TileKind => ({
-    ...{ id, title, size: 'small', shown: true },
+    id,
+    title,
+    size: 'small',
+    shown: true,
     make: () => valueTile(values[id]!),
   });
   const curves = [...recorder.series.values()].map(
     ({ key, label, unit, field }): TileKind => ({
-      ...{ id: `curve ${key}`, title: unit === '' ? label : `${label}, ${unit}`, size: 'medium' },
+      id: `curve ${key}`,
+      title: unit === '' ? label : `${label}, ${unit}`,
+      size: 'medium',
       shown: field === null ? SHOWN_CURVES.includes(key) : !HIDDEN_FIELDS.includes(field),
       make: () => chartTile(() => recorder.series.get(key)),
     }),
@@ -47,7 +52,10 @@ export function tileKinds({ recorder, mapTiles, session }: TileSources): TileKin
     value('position', 'Position'),
     { id: 'map', title: 'Map', size: 'large', shown: true, make: () => mapTile(recorder, mapTiles) },
     {
-      ...{ id: 'diagnostics', title: 'Diagnostics', size: 'medium', shown: true },
+      id: 'diagnostics',
+      title: 'Diagnostics',
+      size: 'medium',
+      shown: true,
       make: () => diagnosticsTile(session),
     },
     ...curves,

@@ -29,7 +29,10 @@ export class AccessUi {
     this.#parts = parts;
     const { access, knownRobots: known, client, link } = parts;
     this.#dialog = new AccessDialog({
-      ...{ access, known, onAdded: () => client.link.retry(), signIn: () => void this.#signIn() },
+      access,
+      known,
+      onAdded: () => client.link.retry(),
+      signIn: () => void this.#signIn(),
       // Without https, the browser has no key that a grant could be made for.
       signInUrl: computed(() => (window.isSecureContext ? link.signInUrl.value : null)),
     });

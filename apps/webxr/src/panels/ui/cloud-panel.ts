@@ -90,7 +90,8 @@ export class CloudPanel {
   #sensors(): { name: string; on: boolean; view: CloudView | undefined }[] {
     const { sensors, views } = this.#parts;
     return this.#names().map((name, i) => ({
-      ...{ name, view: views.value[i] },
+      name,
+      view: views.value[i],
       on: sensors.all.value[i]?.on.value ?? true,
     }));
   }

@@ -26,8 +26,16 @@ export class MinimapPanel {
   readonly #area = { x: 0, y: 0, ground: 0, ceiling: CEILING_M };
   /** What is drawn; changed in place. */
   readonly #map = {
-    ...{ image: null as HTMLCanvasElement | null, left: 0, bottom: 0, side: cells * cellM },
-    ...{ x: 0, y: 0, yaw: 0, headingUp: true, stale: false, trail: this.#trail },
+    image: null as HTMLCanvasElement | null,
+    left: 0,
+    bottom: 0,
+    side: cells * cellM,
+    x: 0,
+    y: 0,
+    yaw: 0,
+    headingUp: true,
+    stale: false,
+    trail: this.#trail,
   };
   readonly #image = document.createElement('canvas');
   #pixels: ImageData | null = null;

@@ -27,7 +27,9 @@ function measure(): Box {
   const { height, top: driveTop } = elements.drive.getBoundingClientRect();
   const bottom = (height === 0 ? window.innerHeight : driveTop) - MARGIN;
   return {
-    ...{ left: MARGIN, top, width: Math.max(0, window.innerWidth - 2 * MARGIN) },
+    left: MARGIN,
+    top,
+    width: Math.max(0, window.innerWidth - 2 * MARGIN),
     height: Math.max(0, bottom - top),
   };
 }

@@ -74,7 +74,9 @@ export class PanelMover {
       }
       const { left, top, width } = boxOf(placement, shapeOf(panel), area);
       Object.assign(figure.style, {
-        ...{ left: `${left}px`, top: `${top}px`, width: `${width}px` },
+        left: `${left}px`,
+        top: `${top}px`,
+        width: `${width}px`,
         zIndex: String(order.indexOf(panel.name) + 1),
       });
     }

@@ -46,10 +46,12 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
       tone === 'neutral' && componentTopics.value.includes(topic);
     showFacts(
       sessionFacts({
-        ...{ name: name.value, telemetry: telemetry.value, estop: estop.value },
+        name: name.value,
+        telemetry: telemetry.value,
+        estop: estop.value,
         maxLinear: robot.maxLinear.value,
         readings: readings.value.filter((reading) => !isWell(reading)),
-        ...{ figures: figures.value },
+        figures: figures.value,
       }),
     );
   });

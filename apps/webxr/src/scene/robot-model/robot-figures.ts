@@ -18,8 +18,13 @@ import { RobotFigure } from './robot-figure.ts';
 
 /** In the colour of the ghost's outline, and behind what it coincides with. */
 const GHOST = {
-  ...{ color: 0xc9b8ff, transparent: true, opacity: 0.3, depthWrite: false },
-  ...{ polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 8 },
+  color: 0xc9b8ff,
+  transparent: true,
+  opacity: 0.3,
+  depthWrite: false,
+  polygonOffset: true,
+  polygonOffsetFactor: 2,
+  polygonOffsetUnits: 8,
 };
 /** Eyes that are nearer to the model than this see into it, metres. */
 const NEAR_M = 0.1;
@@ -61,7 +66,9 @@ export class RobotFigures {
   get shown(): { links: number; shapes: number; positions: readonly number[]; drawn: boolean } {
     const { links = [], shapes = [] } = this.known ? (this.#model ?? {}) : {};
     return {
-      ...{ links: links.length, shapes: shapes.length, positions: this.#positions },
+      links: links.length,
+      shapes: shapes.length,
+      positions: this.#positions,
       drawn: this.#solid.object.visible,
     };
   }

@@ -46,8 +46,13 @@ export class BlockedArc {
     this.#mesh = new Mesh(
       new RingGeometry(0.56, 0.72, 24, 1, Math.PI / 2 - HALF, 2 * HALF),
       new MeshBasicMaterial({
-        ...{ color: 0xff3b3b, transparent: true, opacity: 0.6, side: DoubleSide, forceSinglePass: true },
-        ...{ depthTest: false, depthWrite: false },
+        color: 0xff3b3b,
+        transparent: true,
+        opacity: 0.6,
+        side: DoubleSide,
+        forceSinglePass: true,
+        depthTest: false,
+        depthWrite: false,
       }),
     );
     this.#mesh.position.z = -1;

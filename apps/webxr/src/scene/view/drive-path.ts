@@ -66,8 +66,11 @@ class Ribbons {
     const quads = [...steps, ...steps.map((at) => at + 2 * PAIRS)];
     geometry.setIndex(quads.flatMap((at) => [at, at + 1, at + 2, at + 1, at + 3, at + 2]));
     const material = new MeshBasicMaterial({
-      ...{ vertexColors: true, transparent: true, depthWrite: false },
-      ...{ side: DoubleSide, forceSinglePass: true },
+      vertexColors: true,
+      transparent: true,
+      depthWrite: false,
+      side: DoubleSide,
+      forceSinglePass: true,
     });
     this.mesh = new Mesh(geometry, material);
     this.mesh.frustumCulled = false;

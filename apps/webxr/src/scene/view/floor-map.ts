@@ -33,8 +33,10 @@ export class FloorMap {
     // From the first cell's corner, which is the plane's origin.
     const geometry = new PlaneGeometry(1, 1).translate(0.5, 0.5, 0);
     const material = new MeshBasicMaterial({
-      ...{ transparent: true, depthWrite: false },
-      ...{ side: DoubleSide, forceSinglePass: true },
+      transparent: true,
+      depthWrite: false,
+      side: DoubleSide,
+      forceSinglePass: true,
     });
     this.object = new Mesh(geometry, material);
     // Under everything else that is transparent.

@@ -52,8 +52,12 @@ class Quads {
     this.geometry.setAttribute('striped', this.#striped);
     this.geometry.setIndex(
       Array.from({ length: MOST_QUADS }, (_, i) => CORNERS * i).flatMap((at) => [
-        ...[at, at + 1, at + 2],
-        ...[at + 1, at + 3, at + 2],
+        at,
+        at + 1,
+        at + 2,
+        at + 1,
+        at + 3,
+        at + 2,
       ]),
     );
   }
@@ -215,9 +219,12 @@ function bearingOf(sector: number): number {
 /** Colours as they are, with diagonal stripes in the robot's axes where it is striped. */
 function ringMaterial(): ShaderMaterial {
   return new ShaderMaterial({
-    ...{ vertexColors: true, transparent: true, depthWrite: false },
+    vertexColors: true,
+    transparent: true,
+    depthWrite: false,
     // Otherwise three draws the two sides one after the other, and looks their program up anew each time.
-    ...{ side: DoubleSide, forceSinglePass: true },
+    side: DoubleSide,
+    forceSinglePass: true,
     vertexShader: `
       attribute float striped;
       varying vec4 vColour;

@@ -25,8 +25,12 @@ export class PlannedPathLine {
   readonly #attribute = new BufferAttribute(this.#positions, 3);
   readonly #geometry = new BufferGeometry();
   readonly #material = new MeshBasicMaterial({
-    ...{ color: COLOUR, transparent: true, opacity: 0.7, depthWrite: false },
-    ...{ side: DoubleSide, forceSinglePass: true },
+    color: COLOUR,
+    transparent: true,
+    opacity: 0.7,
+    depthWrite: false,
+    side: DoubleSide,
+    forceSinglePass: true,
   });
   readonly #goal: Mesh;
   #points: PathView['points'] | null = null;
@@ -35,8 +39,12 @@ export class PlannedPathLine {
     this.#geometry.setAttribute('position', this.#attribute);
     this.#geometry.setIndex(
       Array.from({ length: MAX_PATH_POINTS - 1 }, (_, i) => 2 * i).flatMap((at) => [
-        ...[at, at + 1, at + 2],
-        ...[at + 1, at + 3, at + 2],
+        at,
+        at + 1,
+        at + 2,
+        at + 1,
+        at + 3,
+        at + 2,
       ]),
     );
     const ribbon = new Mesh(this.#geometry, this.#material);

@@ -102,7 +102,11 @@ export class PredictedView {
     this.#mount.onBody(robotMs, x, y, z, yaw);
     this.#predictor.setClock(clock.offsetMs, clock.minRttMs);
     this.#predictor.onReport({
-      ...{ robotMs, arrivedMs: nowMs, x, y, yaw },
+      robotMs,
+      arrivedMs: nowMs,
+      x,
+      y,
+      yaw,
       held: (drive !== 'driving' && drive !== 'idle') || motion?.factor === 0,
       factor: motion?.factor ?? 1,
       mostLinear: motion?.mostLinear ?? welcome?.limits.maxLinear ?? 0,

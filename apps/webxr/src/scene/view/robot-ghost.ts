@@ -24,7 +24,11 @@ export class RobotGhost {
 
   constructor() {
     const material = new LineDashedMaterial({
-      ...{ color: COLOUR, dashSize: 0.06, gapSize: 0.04, transparent: true, opacity: 0.9 },
+      color: COLOUR,
+      dashSize: 0.06,
+      gapSize: 0.04,
+      transparent: true,
+      opacity: 0.9,
     });
     this.object = new LineSegments(new BufferGeometry(), material);
     this.object.frustumCulled = false;

@@ -62,7 +62,7 @@ function frustum(): BufferGeometry {
   ] as const;
   const ends = corners.flatMap(([x, y], i) => {
     const [nextX, nextY] = corners[(i + 1) % corners.length] as readonly [number, number];
-    return [...[0, 0, 0, x, y, DEPTH_M], ...[x, y, DEPTH_M, nextX, nextY, DEPTH_M]];
+    return [0, 0, 0, x, y, DEPTH_M, x, y, DEPTH_M, nextX, nextY, DEPTH_M];
   });
   return lineGeometry(ends);
 }
@@ -74,7 +74,7 @@ function circle(): BufferGeometry {
   };
   const around = Array.from({ length: CIRCLE_PARTS }, (_, i) => [...at(i), ...at(i + 1)]).flat();
   // Which way is ahead.
-  return lineGeometry([...around, ...[0, 0, 0, 0, 0, CIRCLE_M]]);
+  return lineGeometry([...around, 0, 0, 0, 0, 0, CIRCLE_M]);
 }
 
 function lineGeometry(ends: readonly number[]): BufferGeometry {

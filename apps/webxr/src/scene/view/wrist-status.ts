@@ -41,13 +41,17 @@ export function showOnWrist({
     if (!active.value) return;
     panel.show(
       wristLines({
-        ...{ link: link.line.value, driving: driving.line.value, telemetry: robot.telemetry.value },
-        ...{ estopLatched: robot.estop.value.latched, nextRobot: link.nextRobot.value },
+        link: link.line.value,
+        driving: driving.line.value,
+        telemetry: robot.telemetry.value,
+        estopLatched: robot.estop.value.latched,
+        nextRobot: link.nextRobot.value,
         speed: robot.speed.value,
         near: robot.tellsNear.value ? nearWords(robot.near.value) : null,
         estopAtRobot: robot.estopAtRobot.value,
         stop: stopWords[robot.stop.value],
-        ...{ driveHand, view: viewFact(headset.view.value, headset.model.scale) },
+        driveHand,
+        view: viewFact(headset.view.value, headset.model.scale),
         hazards: hazardHint(appearance.hazards.value, robot.heights.value),
         alarm: alarmLine(robot.alarms.value),
         figures: figures.value,

@@ -66,7 +66,10 @@ export class VideoFigures {
 
   snapshot(compositor: CompositorStats): Omit<VideoStats, 'receiver' | 'undecoded'> {
     const videos = [...this.#videos].map(([video, { frames, rate, age }]) => ({
-      ...{ video, frames, framesPerSecond: rate.perSecond, ageMs: age.distribution() },
+      video,
+      frames,
+      framesPerSecond: rate.perSecond,
+      ageMs: age.distribution(),
     }));
     videos.sort((a, b) => a.video - b.video);
     return { ...compositor, videos, undated: this.undated };

@@ -67,8 +67,13 @@ export class FeedThread {
   open(camera: FedCamera, format: EncodedFormat, events: VideoEncoderEvents): VideoEncoder {
     const id = this.#nextRun++;
     const run: Run = {
-      ...{ camera, format, events, log: this.#log.child({ camera: camera.name }) },
-      ...{ closed: Promise.withResolvers<void>(), dropped: 0, droppedBefore: 0 },
+      camera,
+      format,
+      events,
+      log: this.#log.child({ camera: camera.name }),
+      closed: Promise.withResolvers<void>(),
+      dropped: 0,
+      droppedBefore: 0,
       closing: false,
     };
     this.#runs.set(id, run);

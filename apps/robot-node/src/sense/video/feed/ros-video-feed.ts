@@ -98,7 +98,8 @@ export class RosVideoFeed implements Feed {
     const [other] = others;
     if (same === undefined && other !== undefined)
       return new RosFault('wrong-type', `it has ${other.type}, not ${type}`, {
-        ...{ topic, remedy: 'set the camera’s type, or name another topic' },
+        topic,
+        remedy: 'set the camera’s type, or name another topic',
       });
     const within = `for ${SILENT_MS / 1000} s`;
     return (same?.publishers ?? this.#listener.publishers) > 0

@@ -21,7 +21,10 @@ export function takeImage(video: HTMLVideoElement, take: (image: VideoImage | nu
     createImageBitmap(video).then(
       (image) =>
         take({
-          ...{ image, width: image.width, height: image.height, rtpTimestamp: null },
+          image,
+          width: image.width,
+          height: image.height,
+          rtpTimestamp: null,
           close: () => image.close(),
         }),
       () => take(null),
