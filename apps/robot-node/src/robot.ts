@@ -78,7 +78,11 @@ export class Robot {
 
   private constructor(parts: RobotParts, options: RobotOptions, log: Logger) {
     const { captures, base, sink, recording, videos, grants, robotKey, audit } = parts;
-    [this.recording, this.sink, this.base, this.#options, this.#log] = [recording, sink, base, options, log];
+    this.recording = recording;
+    this.sink = sink;
+    this.base = base;
+    this.#options = options;
+    this.#log = log;
     const capture = captures[0] as Capture;
     this.#board = openBoard(options, capture, recording, log);
     this.#logs = new MeasurementLogs(options);
@@ -98,7 +102,10 @@ export class Robot {
     });
     const { driving, host } = this.#core;
     const { station, estop, status, fix } = driving;
-    [this.driving, this.drive, this.obstacles, this.#host] = [driving, station, parts.obstacles, host];
+    this.driving = driving;
+    this.drive = station;
+    this.obstacles = parts.obstacles;
+    this.#host = host;
     this.sessions = new OperatorSessions(
       {
         id: options.id,

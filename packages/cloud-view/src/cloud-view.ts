@@ -237,7 +237,9 @@ export class CloudView extends Points<BufferGeometry, RawShaderMaterial> {
     this.#colouring.forget();
     this.visible = false;
     for (const reason of Object.keys(this.drops)) delete this.drops[reason as DropReason];
-    [this.frames, this.packets, this.points] = [0, 0, 0];
+    this.frames = 0;
+    this.packets = 0;
+    this.points = 0;
   }
 
   /** Copies the drawn points out, for tests: x, y, z, colour int16 each. A surface has none. */

@@ -107,7 +107,8 @@ class Cursor {
     this.emptyBytes = layout === 'cdr' ? 1 : 0;
     if (layout === 'ros1') {
       this.#view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-      [this.#littleEndian, this.#mostAligned] = [true, 1];
+      this.#littleEndian = true;
+      this.#mostAligned = 1;
       return;
     }
     if (bytes.length < HEADER_BYTES) throw ended(bytes.length, 'its header', HEADER_BYTES, bytes.length);

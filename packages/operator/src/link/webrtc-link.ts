@@ -197,7 +197,8 @@ export class WebRtcLink extends KeptLink {
   #onStranger({ reason, message, changed }: StrangeRobotError): void {
     console.warn('an offer that is not the robot’s:', message);
     if (this.phase === 'live') return;
-    [this.lossDetail, this.changedRobotKey] = [message, changed];
+    this.lossDetail = message;
+    this.changedRobotKey = changed;
     this.keeper.onPeerFailed(performance.now(), reason);
   }
 }

@@ -35,7 +35,8 @@ export class NavigatorMap {
     if (this.place !== null && delta < 0) return false;
     const isOther = this.place === null || delta > 0;
     if (isOther) this.#begin(message);
-    [this.#heardMs, this.topic] = [nowMs, topic];
+    this.#heardMs = nowMs;
+    this.topic = topic;
     // Of the same map, the message that was the fastest says best how old it is.
     if (timeMs > this.#timeMs) [this.#timeMs, this.#receivedAtMs] = [timeMs, nowMs - ageMs];
     else if (timeMs === this.#timeMs) this.#receivedAtMs = Math.min(this.#receivedAtMs, nowMs - ageMs);

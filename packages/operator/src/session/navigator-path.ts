@@ -20,7 +20,8 @@ export class NavigatorPath {
     const isNewer = this.topic === null || timeMs > this.#timeMs;
     // Of the same path, the message that was the fastest says best how old it is.
     const plannedAtMs = isNewer ? nowMs - ageMs : Math.min(this.#plannedAtMs, nowMs - ageMs);
-    [this.#timeMs, this.#plannedAtMs] = [timeMs, plannedAtMs];
+    this.#timeMs = timeMs;
+    this.#plannedAtMs = plannedAtMs;
     if (isNewer) [this.topic, this.points] = [topic, points];
     return isNewer;
   }

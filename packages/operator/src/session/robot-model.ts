@@ -42,7 +42,8 @@ export class RobotModel {
     if (at + parts.length < count) return false;
     this.#coming = null;
     this.#number = number;
-    [this.links, this.shapes] = [links, shapes];
+    this.links = links;
+    this.shapes = shapes;
     this.positions = links.map(() => 0);
     this.#jointsMs = null;
     this.changes++;

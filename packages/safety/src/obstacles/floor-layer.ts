@@ -52,7 +52,8 @@ export class FloorLayer {
   centreOn(x: number, y: number): void {
     const [dx, dy] = [x - this.#centreX, y - this.#centreY];
     if (dx === 0 && dy === 0) return;
-    [this.#centreX, this.#centreY] = [x, y];
+    this.#centreX = x;
+    this.#centreY = y;
     if (Math.abs(dx) >= LAYER_SIDE || Math.abs(dy) >= LAYER_SIDE) {
       this.forget();
       return;

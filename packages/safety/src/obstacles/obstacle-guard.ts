@@ -149,7 +149,8 @@ export class ObstacleGuard implements MotionGuard {
   #bound(wish: Readonly<Twist>, nowMs: number): Readonly<MotionBound> {
     const speed = this.#search.speedOf(wish);
     if (speed === 0) {
-      [this.#stopped, this.#braking] = [null, false];
+      this.#stopped = null;
+      this.#braking = false;
       return FREE;
     }
     if (!Number.isFinite(speed)) return stopFor('obstacle');

@@ -85,7 +85,10 @@ export class Odometry {
     if (this.#samples.length > KEPT) this.#samples.shift();
     if (this.#anchor !== null && !hasMoved(this.#anchor, pose)) return;
     this.#anchor = pose;
-    [this.#toldM, this.#toldS, this.#patience, this.#isStuck] = [0, 0, 1, false];
+    this.#toldM = 0;
+    this.#toldS = 0;
+    this.#patience = 1;
+    this.#isStuck = false;
   }
 
   /** The velocity that the wheels are told from now on. */
@@ -96,7 +99,8 @@ export class Odometry {
       this.#toldM += pace(before) * seconds;
       this.#toldS += seconds;
     }
-    [this.#told, this.#toldMs] = [twist, nowMs];
+    this.#told = twist;
+    this.#toldMs = nowMs;
     if (!stands(twist)) this.#standsMs = null;
     else this.#standsMs ??= nowMs;
     const patienceM =
@@ -158,7 +162,9 @@ export class Odometry {
       return;
     if (this.#patience <= LEAST_PATIENCE) return;
     this.#patience /= 2;
-    [this.#toldM, this.#toldS, this.#isStuck] = [0, 0, false];
+    this.#toldM = 0;
+    this.#toldS = 0;
+    this.#isStuck = false;
   }
 }
 

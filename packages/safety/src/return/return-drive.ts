@@ -193,7 +193,8 @@ export class ReturnDrive implements UnattendedDrive {
     else {
       this.#track.begin();
       this.#beganM = this.#track.drivenM;
-      [this.#mark, this.#held] = [null, null];
+      this.#mark = null;
+      this.#held = null;
       this.#become('returning', nowMs);
     }
   }

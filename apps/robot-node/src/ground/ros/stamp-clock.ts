@@ -85,7 +85,8 @@ export class StampClock {
 
   #foreign(offsetMs: number, receivedMs: number): number | StampRefusal {
     if (receivedMs - this.#windowMs > 2 * WINDOW_MS) {
-      [this.#least, this.#leastBefore] = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
+      this.#least = Number.POSITIVE_INFINITY;
+      this.#leastBefore = Number.POSITIVE_INFINITY;
       this.#windowMs = receivedMs;
       this.#settledMs = receivedMs + SETTLES_MS;
     } else if (receivedMs - this.#windowMs > WINDOW_MS) {

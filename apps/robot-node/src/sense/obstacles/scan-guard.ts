@@ -43,7 +43,8 @@ export class ScanGuard {
     const { shape, clearanceM, heightM, memory } = options;
     const mount = bodyMount(options.mount);
     this.#options = options;
-    [this.#mount, this.#placing] = [mount, placing];
+    this.#mount = mount;
+    this.#placing = placing;
     this.#poses = poses;
     this.#clock = clock;
     this.#stamps = new StampClock(clock);

@@ -69,7 +69,9 @@ export class RosSource implements FrameSource {
     this.#feed = feed;
     this.#axes = shape.axes;
     this.#state = state;
-    [this.#stamps, this.#mount, this.#topic] = [stamps, mount, feed.listeners.at(-1)?.entry.topic ?? ''];
+    this.#stamps = stamps;
+    this.#mount = mount;
+    this.#topic = feed.listeners.at(-1)?.entry.topic ?? '';
     const { width, height, capacity, camera, axes } = shape;
     const pictures = topics.filter(({ as }) => as === 'picture');
     const names = feed.listeners.map(({ entry }) => entry.topic).join(', ');

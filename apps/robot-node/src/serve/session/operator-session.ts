@@ -64,7 +64,9 @@ export class OperatorSession implements FrameTarget {
     sendLoop: SendLoop,
     events: OperatorSessionEvents,
   ) {
-    [this.#host, this.#sendLoop, this.#events] = [host, sendLoop, events];
+    this.#host = host;
+    this.#sendLoop = sendLoop;
+    this.#events = events;
     this.#makeController = options.makeController;
     this.#packetLog = options.packetLog;
     this.#claims = options.claims;

@@ -46,7 +46,8 @@ export class MinimapPanel {
 
   constructor(client: RobotClient) {
     this.#client = client;
-    [this.#image.width, this.#image.height] = [cells, cells];
+    this.#image.width = cells;
+    this.#image.height = cells;
     client.on('session', () => this.#forget());
     client.on('telemetry', ({ pose }) => this.#drive(pose.position.x, pose.position.y));
   }

@@ -57,7 +57,9 @@ export class NearPicture {
     const [sectors, stale] = [view?.sectors ?? null, view?.stale ?? false];
     const isSame = sectors === this.#shown && stale === this.#stale && body === this.#body;
     if (size === 0 || body === null || (isSame && size === this.#size)) return;
-    [this.#shown, this.#stale, this.#body] = [sectors, stale, body];
+    this.#shown = sectors;
+    this.#stale = stale;
+    this.#body = body;
     if (size !== this.#size) [canvas.width, canvas.height, this.#size] = [size, size, size];
     drawNear(canvas, body, view);
   }
