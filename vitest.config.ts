@@ -41,7 +41,7 @@ export default defineConfig({
           name: 'scenario',
           include: [SCENARIO],
           exclude: NOT_OURS,
-          setupFiles: ['scripts/lib/test-setup.ts', 'packages/scenario/src/keep-logs.ts'],
+          setupFiles: ['scripts/lib/test-setup.ts', 'tools/scenario/src/keep-logs.ts'],
           pool: 'threads',
           maxWorkers: '100%',
         },

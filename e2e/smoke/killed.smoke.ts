@@ -1,4 +1,4 @@
-/** Signals that end a process at once. How far a robot goes on is asked in virtual time: packages/scenario. */
+/** Signals that end a process at once. How far a robot goes on is asked in virtual time: tools/scenario. */
 import { chromiumLaunchOptions } from '@farpoint/local-stack';
 import { chromium } from '@playwright/test';
 import { expectStanding, OperatorPage, poseOf } from '../src/operator-page.ts';

@@ -1,4 +1,4 @@
-/** Real networks between a real browser and a robot. What outages do is asked in virtual time: packages/scenario. */
+/** Real networks between a real browser and a robot. What outages do is asked in virtual time: tools/scenario. */
 import {
   chromiumLaunchOptions,
   freePorts,

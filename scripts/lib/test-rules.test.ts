@@ -7,7 +7,7 @@ const test = (...lines: string[]) => `test('drives', async ({ stage }) => {\n  $
 
 it.each([
   ['e2e/pages/estop.page.ts', 'deterministic'],
-  ['packages/scenario/src/faults.scenario.test.ts', 'deterministic'],
+  ['tools/scenario/src/faults.scenario.test.ts', 'deterministic'],
   ['apps/robot-node/src/robot.stack.test.ts', 'stack'],
   ['e2e/smoke/sound.smoke.ts', 'smoke'],
   ['packages/rtp/src/pacer.test.ts', null],

@@ -15,7 +15,8 @@ export interface Layer {
 export const LAYERS: readonly Layer[] = [
   {
     step: 'pure',
-    tests: /^(?:packages|apps|wasm-codec|bench|scripts)\/(?!.*\.(?:stack|scenario)\.test\.ts$).*\.test\.ts$/,
+    tests:
+      /^(?:packages|apps|tools|wasm-codec|bench|scripts)\/(?!.*\.(?:stack|scenario)\.test\.ts$).*\.test\.ts$/,
   },
   { step: 'scenario', tests: /\.scenario\.test\.ts$/ },
   { step: 'page', tests: /^e2e\/pages\/.*\.page\.ts$/, runs: ['apps/webxr'], after: ['build'] },

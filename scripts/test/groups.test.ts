@@ -93,7 +93,7 @@ describe('tests/groups.yaml', () => {
     for (const test of each.tests) expect(inputs).toContain(test);
     // The package of each test, which the test may start as a program.
     for (const test of each.tests) {
-      const folder = /^(?:(?:packages|apps)\/[^/]+|wasm-codec|scripts)/.exec(test)?.[0] ?? '';
+      const folder = /^(?:(?:packages|apps|tools)\/[^/]+|wasm-codec|scripts)/.exec(test)?.[0] ?? '';
       expect(inputs.some((file) => file.startsWith(`${folder}/`) && !file.endsWith('.test.ts'))).toBe(true);
     }
     for (const need of each.needs) expect(NEEDS.map(({ name }) => name)).toContain(need);

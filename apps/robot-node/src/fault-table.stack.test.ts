@@ -1,6 +1,6 @@
 /**
  * What goes wrong while a robot is driven with the grip held, at the real programs. The table with the limits that ship
- * runs in virtual time (packages/scenario); here runs what virtual time cannot have, signals and threads that hang, and a
+ * runs in virtual time (tools/scenario); here runs what virtual time cannot have, signals and threads that hang, and a
  * few rows that show that the real programs are linked as the virtual ones are. `pnpm bench faults` runs all rows here and
  * judges each time.
  */

@@ -1,6 +1,6 @@
 /**
  * A robot that has lost its operators, at the real robot program: it comes back along its track, under guard. When it does
- * not, and what ends it, is asked in virtual time (packages/scenario).
+ * not, and what ends it, is asked in virtual time (tools/scenario).
  */
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';

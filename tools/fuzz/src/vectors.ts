@@ -1,7 +1,7 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
-const packages = new URL('../../', import.meta.url);
+const packages = new URL('../../../packages/', import.meta.url);
 
 /** Every input of a package's conformance vectors: `hex` and `text`, valid and invalid. */
 export function vectors(packageName: string, name: string): Uint8Array[] {

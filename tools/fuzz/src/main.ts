@@ -12,7 +12,7 @@ const USAGE = `pnpm fuzz [--inputs 200000] [--only PARSER,…] [--seed 1] [--jso
 
 Changes valid inputs at random and lets each parser read them. An error of a type that the parser does not document is a
 crash; an input that takes longer than ${HANG_MS / 1000} s is a hang. --inputs counts for all parsers together; readers of whole
-files get fewer. The same seed gives the same inputs. --save adds inputs with new outcomes to packages/fuzz/corpus.
+files get fewer. The same seed gives the same inputs. --save adds inputs with new outcomes to tools/fuzz/corpus.
 Exit status: 1 after a crash, a hang, or if memory that is in use has grown by more than 96 MB, 2 for invalid arguments.`;
 /** What all parsers together may leave in memory, bytes: their own code and tables, and the inputs that were kept. */
 const MAX_GROWTH_BYTES = 96 << 20;

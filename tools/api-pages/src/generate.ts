@@ -20,7 +20,7 @@ export interface ApiSources {
 const PUBLISHED: ApiSources = {
   entryPoints: ['operator', 'cloud-view'].map((name) => join(root, 'packages', name, 'src/index.ts')),
   // Without project references, through which TypeDoc would see declarations instead of sources.
-  tsconfig: join(root, 'packages/api-pages/pages.tsconfig.json'),
+  tsconfig: join(root, 'tools/api-pages/pages.tsconfig.json'),
 };
 /** Whose symbols need docstrings: the published packages, and the one whose types are among their exports. */
 const DOCUMENTED = ['@farpoint/operator', '@farpoint/cloud-view', '@farpoint/protocol'];
