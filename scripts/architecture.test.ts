@@ -48,6 +48,17 @@ describe('the map', () => {
     expect(faults.map(([target, file]) => `${file} uses ${target}`)).toEqual([]);
   });
 
+  test('lists libraries floor by floor', () => {
+    const floors = new Map<string, number>();
+    for (const room of rooms.filter(({ folder }) => /^(?:packages\/|wasm-codec$)/.test(folder))) {
+      const below = [...allowedFolders(room, rooms)].map((folder) => floors.get(folder));
+      expect(below, `what ${room.folder} may use is listed above it`).not.toContain(undefined);
+      floors.set(room.folder, Math.max(-1, ...below.map((floor) => floor ?? 0)) + 1);
+    }
+    const listed = [...floors.values()];
+    expect(listed).toEqual(listed.toSorted((a, b) => a - b));
+  });
+
   test('has no cycle', () => {
     expect(cycles(new Map(folders.map((folder) => [folder, usedBy(folder).keys()])))).toEqual([]);
   });
