@@ -19,7 +19,7 @@ export interface DriveCoreOptions extends DriveOptions, Pick<RobotOptions, 'sile
 /** Its ends: the wheels, the operators, and those who are told. */
 export interface DriveCoreParts
   extends Omit<DriveParts, 'heard' | 'count' | 'audit'>,
-    Pick<RobotSessionHostParts, 'audit' | 'sensors' | 'videos' | 'commandLog' | 'now'>,
+    Pick<RobotSessionHostParts, 'audit' | 'budgets' | 'sensors' | 'videos' | 'commandLog' | 'now'>,
     Pick<PathKeeperOptions, 'signaling'> {
   operators: () => ReadonlyMap<string, HostedOperator & KeptOperator>;
   /** Operators besides those. */
@@ -34,7 +34,7 @@ export class DriveCore {
   readonly paths: PathKeeper;
 
   constructor(options: DriveCoreOptions, parts: DriveCoreParts) {
-    const { operators, alsoHeard, counters, signaling, sensors, videos, commandLog, now } = parts;
+    const { operators, alsoHeard, counters, signaling, budgets, sensors, videos, commandLog, now } = parts;
     const { recording, audit, log } = parts;
     const count = (reason: Intervention) => counters.interventions.add(reason);
     const heard = () => [...operators().values(), alsoHeard()];
@@ -49,6 +49,7 @@ export class DriveCore {
       commandLog,
       log,
       operators,
+      budgets,
       sensors,
       videos,
       now,

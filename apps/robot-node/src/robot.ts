@@ -13,6 +13,7 @@ import type { Drive } from './motion/open-drive.ts';
 import { type RobotStops, startStops } from './motion/stops/robot-stops.ts';
 import { hasSound, type RobotOptions } from './program/robot-configuration.ts';
 import { openParts, type RobotParts } from './robot-parts.ts';
+import { Budgets } from './send/budgets/budgets.ts';
 import { type CloudSensor, failureReading } from './send/clouds/cloud-sensor.ts';
 import { CloudSensors } from './send/clouds/cloud-sensors.ts';
 import { RobotSound } from './send/sound/robot-sound.ts';
@@ -69,6 +70,7 @@ export class Robot {
   readonly #host: RobotSessionHost;
   readonly #sendLoop = new SendLoop(monotonicMs, threadCpuMs);
   readonly #core: DriveCore;
+  readonly #budgets: Budgets;
   readonly #board: TelemetryBoard;
   readonly #reports: RobotReports;
   readonly #ticking: NodeJS.Timeout;
@@ -88,8 +90,16 @@ export class Robot {
     this.#logs = new MeasurementLogs(options);
     const state = () => this.#state;
     this.signaling = new SignalingClient({ id: options.id, name: options.name, ...options.signaling }, log);
+    const watching = () => [...this.operators.values(), ...(this.broadcast === null ? [] : [this.broadcast])];
+    const targets = () => [...watching(), ...(this.reference?.targets ?? [])];
+    this.#budgets = new Budgets({
+      targets,
+      driver: () => this.drive.guard.leaseHolder,
+      mayCode: options.mode === 'auto',
+    });
     this.#core = new DriveCore(options, {
       ...parts,
+      budgets: this.#budgets,
       counters: this.counters,
       signaling: this.signaling,
       commandLog: this.#logs.commands,
@@ -122,6 +132,7 @@ export class Robot {
         pictureShare: options.pictures.share,
         makeController: (transportFeedback) => makeRateController(options, transportFeedback),
         claims: () => this.sensors.claims,
+        budgets: this.#budgets,
         mostVideoBitsPerSecond: (video, codecs) => this.cameras.videos.mostBitsPerSecond(video, codecs),
         sendLoop: this.#sendLoop,
         packetLog: this.#logs.packets,
@@ -138,9 +149,8 @@ export class Robot {
           const told = { ...options, quantities, alarms: alarms.raised, nowS: Date.now() / 1000 };
           welcome(operator, told, this.sensors, this.cameras.videos);
           this.sound.welcome(operator);
-          this.sensors.updateBudgets();
+          this.#budgets.update();
         },
-        budgetChanged: () => this.sensors.updateBudgets(),
         cloudFormats: (operator) => this.sensors.announceTo(operator),
         needsKeyFrame: (video) => this.cameras.videos.requestKeyFrame(video),
         latencyFrameLost: () => capture.requestLatencyTest(),
@@ -157,22 +167,20 @@ export class Robot {
     for (const each of captures) each.onReading = addReading;
     sink.tellReadings?.(addReading);
     this.stops = startStops(options.stops, this.#host, estop.start.heldBy, addReading, log);
-    const watching = () => [...this.operators.values(), ...(this.broadcast === null ? [] : [this.broadcast])];
     this.sensors = new CloudSensors(
       options.sensors,
       captures,
       {
-        targets: () => [...watching(), ...(this.reference?.targets ?? [])],
+        targets,
         sendLoop: this.#sendLoop,
         counters: this.counters,
         frameLog: this.#logs.frames,
-        driver: () => station.guard.leaseHolder,
         onFrame: (frame) => recording?.frame(frame),
         wantedAnyway: () => recording?.wantsClouds === true,
         stages,
         now: monotonicMs,
-        mayCode: options.mode === 'auto',
       },
+      this.#budgets,
       {
         onState: (state) => {
           this.#captureSeenMs = state.timeMs;
@@ -205,7 +213,12 @@ export class Robot {
     });
     const devices = openSoundDevices(options.sound, log);
     this.sound = new RobotSound({ ...shared, devices, now: monotonicMs });
-    this.broadcast = openBroadcast(options, this, { videos, sendLoop: this.#sendLoop, log });
+    this.broadcast = openBroadcast(options, this, {
+      videos,
+      sendLoop: this.#sendLoop,
+      budgets: this.#budgets,
+      log,
+    });
     this.signaling.onMessage = (message) => this.sessions.onSignaling(message);
     this.#sendLoop.onWork = (ms) => this.counters.stageSeconds.add('send', ms / 1000);
     if (base !== null) {
@@ -249,7 +262,7 @@ export class Robot {
         peer: this.#peerOptions,
         packetLog: this.#logs.packets,
         sendLoop: this.#sendLoop,
-        onBudgetChanged: () => this.sensors.updateBudgets(),
+        budgets: this.#budgets,
       },
       this.#host,
       this.#log,
@@ -306,7 +319,7 @@ export class Robot {
     }
     this.#log.error({ err: error, sensor: sensor.name }, 'a sensor has failed: the robot goes on without it');
     this.#board.take(failureReading(sensor), monotonicMs());
-    this.sensors.updateBudgets();
+    this.#budgets.update();
   }
 
   #tick(): void {
@@ -316,7 +329,7 @@ export class Robot {
     this.broadcast?.tick();
     this.cameras.tick(monotonicMs());
     this.sound.tick();
-    this.sensors.updateBudgets();
+    this.#budgets.update();
     this.#sendLoop.run();
   }
 }

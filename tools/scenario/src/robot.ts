@@ -87,7 +87,8 @@ export class ScenarioRobot {
       ...{ obstacles, log: quiet, counters: this.counters, commandLog: undefined, now: monotonicMs },
       operators: () => this.sessions,
       alsoHeard: () => null,
-      sensors: () => ({ updateBudgets: () => undefined, first: undefined as never }),
+      budgets: { update: () => undefined },
+      sensors: () => ({ first: undefined as never }),
       videos: () => ({ descriptions: [] }),
       signaling: {
         send: (message) => {

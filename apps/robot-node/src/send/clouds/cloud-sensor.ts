@@ -1,6 +1,8 @@
 import type { TopicReading } from '@farpoint/ros';
 import type { Capture } from '../../sense/capture/capture.ts';
 import type { CaptureOptions } from '../../sense/capture/capture-messages.ts';
+import type { CaptureBudget } from '../../sense/encode/capture-budget.ts';
+import type { BudgetedSensor, Budgets } from '../budgets/budgets.ts';
 import type { CloudClaim } from '../budgets/cloud-shares.ts';
 import { type FanOutOptions, FrameFanOut, type FrameTarget } from './frame-fan-out.ts';
 
@@ -14,27 +16,37 @@ export interface CloudSensorOptions {
   weight: number;
 }
 
+export interface SensorFanOut extends Omit<FanOutOptions, 'capture' | 'sensor' | 'lane' | 'overheadBytes'> {
+  /** Whether live viewers want the clouds even if no operator does; default: they do not. */
+  wantedAnyway?: () => boolean;
+}
+
 /** One source of clouds: its capture and encoding thread, and the distribution of its frames to operators. */
-export class CloudSensor {
+export class CloudSensor implements BudgetedSensor {
   /** The sensor's number, in its packets' placement and in the list that operators get. */
   readonly number: number;
   readonly name: string;
   readonly capture: Capture;
   readonly #claim: CloudClaim;
   readonly #fanOut: FrameFanOut;
-  #failed = false;
+  readonly #budgets: Budgets;
+  readonly #wantedAnyway: () => boolean;
 
   constructor(
     { name, capture: { sensor }, priority, weight }: CloudSensorOptions,
     capture: Capture,
-    fanOut: Omit<FanOutOptions, 'capture' | 'sensor' | 'lane'>,
+    fanOut: SensorFanOut,
+    budgets: Budgets,
   ) {
     this.number = sensor;
     this.name = name;
     this.capture = capture;
     this.#claim = { priority, weight, usefulBitsPerSecond: Number.POSITIVE_INFINITY };
+    this.#budgets = budgets;
+    this.#wantedAnyway = fanOut.wantedAnyway ?? (() => false);
     this.#fanOut = new FrameFanOut({
       ...fanOut,
+      overheadBytes: () => budgets.overheadBytes(this),
       capture,
       sensor,
       lane: priority,
@@ -43,20 +55,25 @@ export class CloudSensor {
         fanOut.onFrame?.(frame);
       },
     });
+    budgets.add(this);
   }
 
   get claim(): Readonly<CloudClaim> {
     return this.#claim;
   }
 
-  /** The sensor's thread has ended: its share of the link goes to the others. */
-  fail(): void {
-    this.#failed = true;
-    this.#claim.usefulBitsPerSecond = 0;
+  get wantedAnyway(): boolean {
+    return this.#wantedAnyway();
   }
 
-  updateBudget(): void {
-    if (!this.#failed) this.#fanOut.updateBudget();
+  setBudget(budget: CaptureBudget): void {
+    this.capture.setBudget(budget);
+  }
+
+  /** The sensor's thread has ended: its share of the link goes to the others. */
+  fail(): void {
+    this.#budgets.remove(this);
+    this.#claim.usefulBitsPerSecond = 0;
   }
 
   announceTo(target: FrameTarget): void {

@@ -1,8 +1,9 @@
 import type { TimedBaseState } from '../../ground/base.ts';
 import { Capture, type CaptureError, type CaptureRecording } from '../../sense/capture/capture.ts';
+import type { Budgets } from '../budgets/budgets.ts';
 import type { CloudClaim } from '../budgets/cloud-shares.ts';
-import { CloudSensor, type CloudSensorOptions } from './cloud-sensor.ts';
-import type { FanOutOptions, FrameTarget } from './frame-fan-out.ts';
+import { CloudSensor, type CloudSensorOptions, type SensorFanOut } from './cloud-sensor.ts';
+import type { FrameTarget } from './frame-fan-out.ts';
 
 export interface CloudSensorsEvents {
   /** The state of the base, as the first sensor reports it. */
@@ -41,14 +42,15 @@ export class CloudSensors {
   constructor(
     options: readonly CloudSensorOptions[],
     captures: readonly Capture[],
-    fanOut: Omit<FanOutOptions, 'capture' | 'sensor' | 'lane'>,
+    fanOut: SensorFanOut,
+    budgets: Budgets,
     events: CloudSensorsEvents,
   ) {
     this.all = options.map((each, i) => {
       const first = i === 0;
       // Frames are logged and recorded for the first sensor only: frame numbers of several sensors would get mixed up.
       const { frameLog: _, onFrame: __, wantedAnyway: ___, ...others } = fanOut;
-      const sensor = new CloudSensor(each, captures[i] as Capture, first ? fanOut : others);
+      const sensor = new CloudSensor(each, captures[i] as Capture, first ? fanOut : others, budgets);
       const { capture } = sensor;
       capture.onFault = (detail) => events.onFault(sensor, detail);
       capture.onRings = () => events.onRings(sensor);
@@ -77,10 +79,6 @@ export class CloudSensors {
 
   get framesWithoutBuffer(): number {
     return this.all.reduce((sum, { capture }) => sum + capture.framesWithoutBuffer, 0);
-  }
-
-  updateBudgets(): void {
-    for (const sensor of this.all) sensor.updateBudget();
   }
 
   /** Sends a target the coded streams' headers of the sensors that it wants. */

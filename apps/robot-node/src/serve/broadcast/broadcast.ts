@@ -3,6 +3,7 @@ import type { MountpointMedia } from '@farpoint/janus';
 import type { VideoCodec, VideoDescription } from '@farpoint/protocol';
 import { FMT_FULL_INTRA, FMT_PICTURE_LOSS, RTCP_PAYLOAD_FEEDBACK, walkRtcp } from '@farpoint/rtp';
 import type { Logger } from '@farpoint/service';
+import type { Budgets } from '../../send/budgets/budgets.ts';
 import { type CloudClaim, cloudShare } from '../../send/budgets/cloud-shares.ts';
 import { PathBudget } from '../../send/budgets/path-budget.ts';
 import type { FrameTarget } from '../../send/clouds/frame-fan-out.ts';
@@ -35,8 +36,7 @@ export interface BroadcastParts {
   mostVideoBitsPerSecond: (video: number, codecs: ReadonlySet<VideoCodec>) => number;
   sendLoop: SendLoop;
   requestKeyFrame: (video: number) => void;
-  /** What may be captured has changed. */
-  onBudgetChanged: () => void;
+  budgets: Pick<Budgets, 'update'>;
   /** The coded streams' headers are needed. */
   onStart: () => void;
   now: () => number;
@@ -210,14 +210,14 @@ export class Broadcast implements FrameTarget, VideoTarget {
 
   #onSwitched(streaming: boolean): void {
     this.#wasStreaming = streaming;
-    const { log, onBudgetChanged, onStart } = this.#parts;
+    const { log, budgets, onStart } = this.#parts;
     log.info({ viewers: this.viewers, up: this.up }, streaming ? 'broadcast begins' : 'broadcast pauses');
     if (streaming) onStart();
     else {
       this.#feed?.sender.clear();
       this.#feed?.videos.clear();
     }
-    onBudgetChanged();
+    budgets.update();
   }
 
   #onMountpoint({ address, ports, srtp }: Mountpoint): void {

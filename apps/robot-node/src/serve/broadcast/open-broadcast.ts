@@ -1,6 +1,7 @@
 import type { VideoCodec } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
 import { monotonicMs } from '../../ground/clock.ts';
+import type { Budgets } from '../../send/budgets/budgets.ts';
 import type { CloudSensorOptions } from '../../send/clouds/cloud-sensor.ts';
 import type { CloudSensors } from '../../send/clouds/cloud-sensors.ts';
 import type { SendLoop } from '../../send/transport/send-loop.ts';
@@ -18,7 +19,12 @@ export function openBroadcast(
   }: { broadcast?: BroadcastOptions | undefined; name: string; sensors: readonly CloudSensorOptions[] },
   /** Read when they are needed: they may be made later. */
   robot: { readonly sensors: CloudSensors; readonly cameras: RobotCameras },
-  { videos, sendLoop, log }: { videos: readonly VideoCamera[]; sendLoop: SendLoop; log: Logger },
+  {
+    videos,
+    sendLoop,
+    budgets,
+    log,
+  }: { videos: readonly VideoCamera[]; sendLoop: SendLoop; budgets: Budgets; log: Logger },
 ): Broadcast | null {
   if (options === undefined) return null;
   const broadcast: Broadcast = new Broadcast({
@@ -34,7 +40,7 @@ export function openBroadcast(
     videos: () => robot.cameras.videos.descriptions,
     mostVideoBitsPerSecond: (video, codecs) => robot.cameras.videos.mostBitsPerSecond(video, codecs),
     requestKeyFrame: (video) => robot.cameras.videos.requestKeyFrame(video),
-    onBudgetChanged: () => robot.sensors.updateBudgets(),
+    budgets,
     onStart: () => robot.sensors.announceTo(broadcast),
   });
   return broadcast;

@@ -13,7 +13,7 @@ interface ReferenceOptions extends RateControlOptions {
   iceServers: IceServer[];
 }
 
-type ReferenceProfileParts = Pick<ReferenceProfileOptions, 'packetLog' | 'sendLoop' | 'onBudgetChanged'> & {
+type ReferenceProfileParts = Pick<ReferenceProfileOptions, 'packetLog' | 'sendLoop' | 'budgets'> & {
   peer: Omit<ReferenceProfileOptions['peer'], 'iceServers'>;
 };
 

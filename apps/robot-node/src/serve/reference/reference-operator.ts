@@ -8,6 +8,7 @@ import {
   referenceControlCodec,
 } from '@farpoint/protocol';
 import type { OutgoingFrame } from '../../ground/outgoing-frame.ts';
+import type { Budgets } from '../../send/budgets/budgets.ts';
 import type { FrameTarget } from '../../send/clouds/frame-fan-out.ts';
 import type { PacketLog } from '../../send/transport/packet-log.ts';
 import type { PeerEnd } from '../../send/transport/peer-events.ts';
@@ -37,13 +38,13 @@ export interface ReferenceOperatorOptions {
   /** Whether an operator's hand may have held on since a session before. */
   mayHold?: (() => boolean) | undefined;
   packetLog?: PacketLog | undefined;
+  /** Told when streaming begins or pauses, or when the rate changes. */
+  budgets: Pick<Budgets, 'update'>;
 }
 
 export interface ReferenceOperatorEvents {
   onCandidate(candidate: string): void;
   onConnected(): void;
-  /** Streaming began or paused, or the rate changed. */
-  onBudgetChanged(): void;
   onEnded(end: PeerEnd, detail: string): void;
 }
 
@@ -192,7 +193,7 @@ export class ReferenceOperator implements FrameTarget {
     if (limit === this.#appliedLimit) return;
     this.#appliedLimit = limit;
     this.sender?.onReceiverLimit(limit);
-    this.#events.onBudgetChanged();
+    this.#options.budgets.update();
   }
 
   /** Text or the same bytes: the reference system's robot treats both alike. */
@@ -202,7 +203,7 @@ export class ReferenceOperator implements FrameTarget {
     if (started === this.#started) return;
     this.#started = started;
     if (!started) this.sender?.clear();
-    this.#events.onBudgetChanged();
+    this.#options.budgets.update();
   }
 
   #onConnected(inner: SrtpTransport): void {
@@ -224,7 +225,7 @@ export class ReferenceOperator implements FrameTarget {
       if (isGreen(frame) && this.#greenWanted) this.#host.requestLatencyFrame();
     };
     sender.onRateChanged = () => {
-      this.#events.onBudgetChanged();
+      this.#options.budgets.update();
       this.#sendLoop.run();
     };
     this.#limit = new ReportedLimit(FULL_POINT_PACKET_BYTES + inner.overheadBytes);

@@ -17,6 +17,7 @@ import {
 } from '@farpoint/protocol';
 import { answerMisfit, MessageLine } from '@farpoint/reference-profile';
 import type { Logger } from '@farpoint/service';
+import type { Budgets } from '../../send/budgets/budgets.ts';
 import type { FrameTarget } from '../../send/clouds/frame-fan-out.ts';
 import type { PacketLog } from '../../send/transport/packet-log.ts';
 import type { SendLoop } from '../../send/transport/send-loop.ts';
@@ -32,7 +33,7 @@ export interface ReferenceProfileOptions {
   makeController: () => RateController;
   packetLog?: PacketLog | undefined;
   sendLoop: SendLoop;
-  onBudgetChanged: () => void;
+  budgets: Pick<Budgets, 'update'>;
 }
 
 /** Delay of the first attempt after a failed connection, and longest delay between two attempts, ms. */
@@ -199,12 +200,12 @@ export class ReferenceProfile {
   }
 
   #makeOperator(): ReferenceOperator {
-    const { peer, makeController, packetLog, sendLoop, onBudgetChanged } = this.#options;
+    const { peer, makeController, packetLog, sendLoop, budgets } = this.#options;
     // No Farpoint session has a colon in its id.
     const id = `reference:${++this.#made}`;
     const mayHold = () => this.#host.now() - this.#heldMs < HELD_MS;
     const operator: ReferenceOperator = new ReferenceOperator(
-      { id, peer, controller: makeController(), packetLog, mayHold },
+      { id, peer, controller: makeController(), packetLog, mayHold, budgets },
       this.#host,
       sendLoop,
       {
@@ -212,7 +213,6 @@ export class ReferenceProfile {
           if (operator === this.#offered) this.#tell(candidate);
         },
         onConnected: () => this.#onConnected(operator),
-        onBudgetChanged,
         onEnded: (end, detail) => this.#onEnded(operator, end, detail),
       },
     );
@@ -228,7 +228,7 @@ export class ReferenceProfile {
     this.#rival = false;
     if (this.#offered === operator) this.#offered = null;
     before?.peer.close('closed', 'another operator has connected');
-    this.#options.onBudgetChanged();
+    this.#options.budgets.update();
   }
 
   #onEnded(operator: ReferenceOperator, end: string, detail: string): void {
@@ -238,7 +238,7 @@ export class ReferenceProfile {
     const wasOurs = operator === this.#current || operator === this.#offered;
     if (operator === this.#current) this.#current = null;
     if (operator === this.#offered) this.#offered = null;
-    this.#options.onBudgetChanged();
+    this.#options.budgets.update();
     if (this.#closed || !wasOurs || this.#offered !== null || this.#current !== null) return;
     const waitMs = Math.min(FIRST_RETRY_MS * 2 ** this.#failures++, MOST_RETRY_MS);
     this.#retry ??= setTimeout(() => this.#offerAnew(), waitMs);

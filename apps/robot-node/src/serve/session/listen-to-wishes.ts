@@ -4,7 +4,7 @@ import type { PathBudget } from '../../send/budgets/path-budget.ts';
 import type { PictureSender } from '../../send/pictures/picture-sender.ts';
 import type { OperatorSound } from '../../send/sound/operator-sound.ts';
 import type { OperatorVideos } from '../../send/video/operator-videos.ts';
-import type { OperatorSessionEvents } from './operator-session-options.ts';
+import type { OperatorSessionEvents, OperatorSessionOptions } from './operator-session-options.ts';
 import type { OperatorWishes } from './operator-wishes.ts';
 import type { WantedClouds } from './wanted-clouds.ts';
 
@@ -16,17 +16,18 @@ export interface WishedParts {
   budget: PathBudget;
   /** Discards what is waiting to be sent. */
   clear(): void;
-  events: Pick<OperatorSessionEvents, 'onBudgetChanged' | 'onCloudFormats'>;
+  budgets: OperatorSessionOptions['budgets'];
+  events: Pick<OperatorSessionEvents, 'onCloudFormats'>;
 }
 
 export function listenToWishes(wishes: OperatorWishes, parts: WishedParts): void {
-  const { clouds, videos, pictures, sound, budget, events } = parts;
+  const { clouds, videos, pictures, sound, budget, budgets, events } = parts;
   /** Its part of the path changes, or what it makes of it. */
   const budgeted =
     <Wish extends unknown[]>(take: (...wish: Wish) => void) =>
     (...wish: Wish): void => {
       take(...wish);
-      events.onBudgetChanged();
+      budgets.update();
     };
   wishes.onStreamSwitch = budgeted((running) => {
     if (!running) parts.clear();

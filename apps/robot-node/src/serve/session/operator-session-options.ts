@@ -2,6 +2,7 @@
 import type { RateController } from '@farpoint/congestion';
 import type { IceCandidate, VideoCodec } from '@farpoint/protocol';
 import type { CandidateRefusal } from '@farpoint/webrtc';
+import type { Budgets } from '../../send/budgets/budgets.ts';
 import type { CloudClaim } from '../../send/budgets/cloud-shares.ts';
 import type { PacketLog } from '../../send/transport/packet-log.ts';
 import type { OperatorPeerOptions, PeerEnd } from '../../send/transport/peer-events.ts';
@@ -18,6 +19,8 @@ export interface OperatorSessionOptions {
   pictureShare: number;
   /** What the robot's cloud sensors claim of a path, indexed by sensor number. */
   claims: () => readonly CloudClaim[];
+  /** Told when streaming starts or pauses, or when its bit rate or formats may have changed. */
+  budgets: Pick<Budgets, 'update'>;
   /** What a video may use at most, bit/s without headers; 0 while it has no pictures. */
   mostVideoBitsPerSecond: (video: number, codecs: ReadonlySet<VideoCodec>) => number;
 }
@@ -26,8 +29,6 @@ export interface OperatorSessionEvents {
   onCandidate(candidate: IceCandidate): void;
   onCandidateRefused(reason: CandidateRefusal, detail: string): void;
   onConnected(): void;
-  /** Streaming started or paused, or its bit rate or formats may have changed. */
-  onBudgetChanged(): void;
   /** The operator has named the formats or sensors that it reads, and may need the streams' headers. */
   onCloudFormats(): void;
   /** The operator can continue with a video only from a key frame. */

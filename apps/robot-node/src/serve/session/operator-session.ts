@@ -50,6 +50,7 @@ export class OperatorSession implements FrameTarget {
   readonly #events: OperatorSessionEvents;
   readonly #meter = new StreamMeter();
   readonly #budget: PathBudget;
+  readonly #budgets: OperatorSessionOptions['budgets'];
   readonly pictures: PictureSender;
   readonly videos: OperatorVideos;
   readonly sound: OperatorSound;
@@ -70,6 +71,7 @@ export class OperatorSession implements FrameTarget {
     this.#makeController = options.makeController;
     this.#packetLog = options.packetLog;
     this.#claims = options.claims;
+    this.#budgets = options.budgets;
     this.#budget = new PathBudget(options.pictureShare);
     this.peer = new OperatorPeer(options.peer, {
       onCandidate: (candidate) => events.onCandidate(candidate),
@@ -89,7 +91,7 @@ export class OperatorSession implements FrameTarget {
     this.messages.onReceiverReport = (report) => this.sender?.onReceiverReport(report);
     this.messages.onReceiverLimit = (bitsPerSecond) => {
       this.sender?.onReceiverLimit(bitsPerSecond);
-      events.onBudgetChanged();
+      options.budgets.update();
     };
     listenToWishes(this.messages.wishes, {
       clouds: this.#clouds,
@@ -98,6 +100,7 @@ export class OperatorSession implements FrameTarget {
       sound: this.sound,
       budget: this.#budget,
       clear: () => this.#clear(),
+      budgets: options.budgets,
       events,
     });
   }
@@ -278,7 +281,7 @@ export class OperatorSession implements FrameTarget {
     this.videos.connect(sender, lines);
     this.sound.connect(sender, sound);
     sender.onRateChanged = () => {
-      this.#events.onBudgetChanged();
+      this.#budgets.update();
       this.#sendLoop.run();
     };
     this.messages.heardMs = this.#host.now();

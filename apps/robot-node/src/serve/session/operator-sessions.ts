@@ -11,6 +11,7 @@ import { SIGNALING } from '../../admit/access/robot-revocations.ts';
 import type { AuditedOperator, RobotAudit } from '../../admit/audit/robot-audit.ts';
 import { monotonicMs } from '../../ground/clock.ts';
 import type { RobotCounters } from '../../ground/robot-counters.ts';
+import type { Budgets } from '../../send/budgets/budgets.ts';
 import type { CloudClaim } from '../../send/budgets/cloud-shares.ts';
 import type { PacketLog } from '../../send/transport/packet-log.ts';
 import type { OperatorPeerOptions, PeerEnd } from '../../send/transport/peer-events.ts';
@@ -38,6 +39,7 @@ export interface OperatorSessionsOptions {
   makeController: (transportFeedback: boolean) => RateController;
   /** What the robot's cloud sensors claim of a path, indexed by sensor number. */
   claims: () => readonly CloudClaim[];
+  budgets: Pick<Budgets, 'update'>;
   mostVideoBitsPerSecond: (video: number, codecs: ReadonlySet<VideoCodec>) => number;
   sendLoop: SendLoop;
   packetLog: PacketLog | undefined;
@@ -52,7 +54,6 @@ export interface OperatorSessionsEvents {
   /** Somebody asks for a new path for a session that has lost its old one. */
   resume: (request: ResumeRequest, iceServers: readonly IceServer[]) => void;
   connected: (operator: OperatorSession) => void;
-  budgetChanged: () => void;
   cloudFormats: (operator: OperatorSession) => void;
   needsKeyFrame: (video: number) => void;
   latencyFrameLost: () => void;
@@ -186,7 +187,8 @@ export class OperatorSessions {
   }
 
   async #open(session: string, operatorName: string): Promise<void> {
-    const { places, peer, pictureShare, makeController, claims, sendLoop, packetLog } = this.#options;
+    const { places, peer, pictureShare, makeController, claims, budgets, sendLoop, packetLog } =
+      this.#options;
     const { host, signaling, counters } = this.#options;
     if (this.operators.has(session)) {
       // To reconnect to an open session, an operator must use session.resume.
@@ -219,6 +221,7 @@ export class OperatorSessions {
         peer: { ...peer, iceServers: this.#iceServers },
         makeController,
         claims,
+        budgets,
         mostVideoBitsPerSecond: this.#options.mostVideoBitsPerSecond,
       },
       host,
@@ -235,7 +238,6 @@ export class OperatorSessions {
           log.info({ operators: this.operators.size }, 'operator connected');
           this.#events.connected(operator);
         },
-        onBudgetChanged: () => this.#events.budgetChanged(),
         onCloudFormats: () => this.#events.cloudFormats(operator),
         onNeedsKeyFrame: (video) => this.#events.needsKeyFrame(video),
         onLatencyFrameLost: () => this.#events.latencyFrameLost(),

@@ -20,7 +20,7 @@ function driven() {
     drive,
     estop: { request: { take: () => false } },
     operators: () => new Map(),
-    sensors: () => ({ updateBudgets: () => undefined }),
+    budgets: { update: () => undefined },
     audit: { driver: () => undefined },
     now: () => 0,
     driverLeft: () => left++,

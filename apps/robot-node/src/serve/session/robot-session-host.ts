@@ -8,6 +8,7 @@ import type { DriveStation } from '../../motion/drive/drive-station.ts';
 import type { EstopJournal } from '../../motion/drive/estop-journal.ts';
 import { LocalRelease } from '../../motion/drive/local-release.ts';
 import type { DriveRecording } from '../../motion/open-drive.ts';
+import type { Budgets } from '../../send/budgets/budgets.ts';
 import type { CloudSensor } from '../../send/clouds/cloud-sensor.ts';
 import type { CloudSensors } from '../../send/clouds/cloud-sensors.ts';
 import { isUnintended, type PeerEnd } from '../../send/transport/peer-events.ts';
@@ -25,7 +26,8 @@ export interface RobotSessionHostParts {
   drive: DriveStation;
   estop: EstopJournal;
   operators: () => ReadonlyMap<string, HostedOperator>;
-  sensors: () => Pick<CloudSensors, 'updateBudgets' | 'first'>;
+  sensors: () => Pick<CloudSensors, 'first'>;
+  budgets: Pick<Budgets, 'update'>;
   videos: () => Pick<VideoHub, 'descriptions'>;
   counters: RobotCounters;
   recording: DriveRecording | null;
@@ -77,7 +79,7 @@ export class RobotSessionHost implements SessionHost {
       cause,
     );
     for (const { messages } of operators().values()) messages.sendLease();
-    this.#parts.sensors().updateBudgets();
+    this.#parts.budgets.update();
   }
 
   /** @param end why its session has ended */
@@ -87,7 +89,7 @@ export class RobotSessionHost implements SessionHost {
     const leaseFreed = this.drive.guard.operatorGone(id);
     this.drive.apply();
     if (leaseFreed) this.leaseChanged('session-ended');
-    this.#parts.sensors().updateBudgets();
+    this.#parts.budgets.update();
   }
 
   /** Also after the end of its session, when the robot hears that this was meant. */
