@@ -1,6 +1,7 @@
 import { clockAnswerCodec, decodeJson, encodeBandwidth, NO_LEASE, zeroTwist } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
+import type { WishesListener } from './operator-wishes.ts';
 import { sessionRobot } from './testing/session-robot.ts';
 
 function robot() {
@@ -111,7 +112,9 @@ describe('OperatorMessages', () => {
   it('switches the stream by message and by the reference system’s words', () => {
     const { alice } = robot();
     const switches: boolean[] = [];
-    alice.session.wishes.onStreamSwitch = (running) => switches.push(running);
+    alice.session.wishes.listener = {
+      switchStream: (running) => void switches.push(running),
+    } as WishesListener;
     for (const word of ['stop', 'start']) alice.session.onMessage('session', word);
     alice.send({ type: 'stream', running: false });
     alice.send({ type: 'stream', running: true });
@@ -207,7 +210,7 @@ describe('roles', () => {
   it('who watches draws no barcode into what others see', () => {
     const { alice: a } = robot();
     const wanted: boolean[] = [];
-    a.session.wishes.onVideos = (_, barcode) => wanted.push(barcode);
+    a.session.wishes.listener = { wantVideos: (_, barcode) => void wanted.push(barcode) } as WishesListener;
     const videos = JSON.stringify({ type: 'videos', videos: [0], barcode: true });
     a.session.onMessage('session', videos);
     a.session.access = granted('watch');

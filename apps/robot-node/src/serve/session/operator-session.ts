@@ -23,12 +23,12 @@ import type { ReadyPicture } from '../../sense/pictures/picture-messages.ts';
 import { SOUND_STREAM } from '../../sense/sound/sound-frame.ts';
 import type { VideoFrame } from '../../sense/video/video-frame.ts';
 import { type LatencyTest, LatencyTests } from './latency-tests.ts';
-import { listenToWishes } from './listen-to-wishes.ts';
 import { OperatorMessages, type SessionHost } from './operator-messages.ts';
 import type { OperatorSessionEvents, OperatorSessionOptions } from './operator-session-options.ts';
 import { RestartPolicy } from './restart-policy.ts';
 import { ResumeKey } from './resume-key.ts';
 import { WantedClouds } from './wanted-clouds.ts';
+import { wishesListener } from './wishes-listener.ts';
 
 /** A page tells the capture time of a video's picture from its clock and the network's, ms. */
 const VIDEO_EXACT_MS = 50;
@@ -93,7 +93,7 @@ export class OperatorSession implements FrameTarget {
       this.sender?.onReceiverLimit(bitsPerSecond);
       options.budgets.update();
     };
-    listenToWishes(this.messages.wishes, {
+    this.messages.wishes.listener = wishesListener({
       clouds: this.#clouds,
       videos: this.videos,
       pictures: this.pictures,

@@ -1,18 +1,23 @@
 import type { CloudFormat, DisplayCapacity, LinkShares, OperatorSessionMessage } from '@farpoint/protocol';
 
-/** What an operator wants of the robot's streams. Nothing of it moves the robot. The session's parts listen here. */
+/** The session's streams, which do what the operator wants of them. */
+export interface WishesListener {
+  switchStream(running: boolean): void;
+  readFormats(formats: readonly CloudFormat[]): void;
+  watchCameras(cameras: readonly number[]): void;
+  wantSensors(sensors: readonly number[]): void;
+  wantVideos(videos: readonly number[], barcode: boolean): void;
+  weigh(shares: LinkShares): void;
+  fitDisplay(display: DisplayCapacity): void;
+  listen(on: boolean): void;
+  speak(held: boolean): void;
+}
+
+/** What an operator wants of the robot's streams. Nothing of it moves the robot. */
 export class OperatorWishes {
   /** Whether the operator has the stream switched on. */
   streaming = true;
-  onStreamSwitch: ((running: boolean) => void) | null = null;
-  onCloudFormats: ((formats: readonly CloudFormat[]) => void) | null = null;
-  onPictures: ((cameras: readonly number[]) => void) | null = null;
-  onSensors: ((sensors: readonly number[]) => void) | null = null;
-  onVideos: ((videos: readonly number[], barcode: boolean) => void) | null = null;
-  onShares: ((shares: LinkShares) => void) | null = null;
-  onDisplay: ((display: DisplayCapacity) => void) | null = null;
-  onListen: ((on: boolean) => void) | null = null;
-  onSpeak: ((held: boolean) => void) | null = null;
+  listener: WishesListener | null = null;
 
   /** @param mayDraw whether the operator may have something drawn into what everybody sees, the driver too */
   take(message: OperatorSessionMessage, mayDraw: boolean): void {
@@ -21,28 +26,28 @@ export class OperatorWishes {
         this.switchStream(message.running);
         break;
       case 'cloudFormats':
-        this.onCloudFormats?.(message.formats);
+        this.listener?.readFormats(message.formats);
         break;
       case 'pictures':
-        this.onPictures?.(message.cameras);
+        this.listener?.watchCameras(message.cameras);
         break;
       case 'sensors':
-        this.onSensors?.(message.sensors);
+        this.listener?.wantSensors(message.sensors);
         break;
       case 'videos':
-        this.onVideos?.(message.videos, message.barcode === true && mayDraw);
+        this.listener?.wantVideos(message.videos, message.barcode === true && mayDraw);
         break;
       case 'shares':
-        this.onShares?.(message);
+        this.listener?.weigh(message);
         break;
       case 'display':
-        this.onDisplay?.(message);
+        this.listener?.fitDisplay(message);
         break;
       case 'listen':
-        this.onListen?.(message.on);
+        this.listener?.listen(message.on);
         break;
       case 'speak':
-        this.onSpeak?.(message.held);
+        this.listener?.speak(message.held);
         break;
     }
   }
@@ -50,6 +55,6 @@ export class OperatorWishes {
   switchStream(running: boolean): void {
     if (this.streaming === running) return;
     this.streaming = running;
-    this.onStreamSwitch?.(running);
+    this.listener?.switchStream(running);
   }
 }

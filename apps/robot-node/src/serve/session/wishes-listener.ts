@@ -5,7 +5,7 @@ import type { PictureSender } from '../../send/pictures/picture-sender.ts';
 import type { OperatorSound } from '../../send/sound/operator-sound.ts';
 import type { OperatorVideos } from '../../send/video/operator-videos.ts';
 import type { OperatorSessionEvents, OperatorSessionOptions } from './operator-session-options.ts';
-import type { OperatorWishes } from './operator-wishes.ts';
+import type { WishesListener } from './operator-wishes.ts';
 import type { WantedClouds } from './wanted-clouds.ts';
 
 export interface WishedParts {
@@ -20,32 +20,34 @@ export interface WishedParts {
   events: Pick<OperatorSessionEvents, 'onCloudFormats'>;
 }
 
-export function listenToWishes(wishes: OperatorWishes, parts: WishedParts): void {
+export function wishesListener(parts: WishedParts): WishesListener {
   const { clouds, videos, pictures, sound, budget, budgets, events } = parts;
-  /** Its part of the path changes, or what it makes of it. */
+  /** The operator's part of the path changes, or what it makes of it. */
   const budgeted =
     <Wish extends unknown[]>(take: (...wish: Wish) => void) =>
     (...wish: Wish): void => {
       take(...wish);
       budgets.update();
     };
-  wishes.onStreamSwitch = budgeted((running) => {
-    if (!running) parts.clear();
-  });
-  wishes.onSensors = budgeted((sensors) => {
-    clouds.sensors = new Set(sensors);
-    events.onCloudFormats();
-  });
-  wishes.onCloudFormats = budgeted((formats) => {
-    clouds.formats = new Set(formats);
-    events.onCloudFormats();
-  });
-  wishes.onDisplay = budgeted(({ framesPerSecond, points }) => {
-    clouds.pace.display = { framesPerSecond, points };
-  });
-  wishes.onVideos = budgeted((wanted, barcode) => videos.want(wanted, barcode));
-  wishes.onShares = budgeted((shares) => budget.weigh(shares));
-  wishes.onPictures = (cameras) => pictures.watch(cameras);
-  wishes.onListen = (on) => sound.listen(on);
-  wishes.onSpeak = (held) => sound.speak(held);
+  return {
+    switchStream: budgeted((running) => {
+      if (!running) parts.clear();
+    }),
+    wantSensors: budgeted((sensors) => {
+      clouds.sensors = new Set(sensors);
+      events.onCloudFormats();
+    }),
+    readFormats: budgeted((formats) => {
+      clouds.formats = new Set(formats);
+      events.onCloudFormats();
+    }),
+    fitDisplay: budgeted(({ framesPerSecond, points }) => {
+      clouds.pace.display = { framesPerSecond, points };
+    }),
+    wantVideos: budgeted((wanted, barcode) => videos.want(wanted, barcode)),
+    weigh: budgeted((shares) => budget.weigh(shares)),
+    watchCameras: (cameras) => pictures.watch(cameras),
+    listen: (on) => sound.listen(on),
+    speak: (held) => sound.speak(held),
+  };
 }
