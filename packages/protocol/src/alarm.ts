@@ -12,7 +12,6 @@ export const ALARM_TEXT_LENGTH = 120;
 
 /** An alarm was raised, changed its level or was cleared. Those that are raised are also sent after the welcome. */
 export interface Alarm {
-  /** Tells the message from others. */
   type: 'alarm';
   /** By which later messages name it. */
   number: number;

@@ -31,7 +31,6 @@ export interface DiagnosticReport {
 
 /** What the robot's components report about themselves. */
 export interface Diagnostics {
-  /** Tells the message from others. */
   type: 'diagnostics';
   /** Where the reports come from. */
   topic: string;

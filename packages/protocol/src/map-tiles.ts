@@ -35,7 +35,6 @@ export interface MapSize {
 
 /** Some tiles of the robot's map. */
 export interface MapTiles {
-  /** Tells the message from others. */
   type: 'map';
   /** The topic that it comes from. */
   topic: string;

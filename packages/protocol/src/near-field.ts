@@ -50,7 +50,6 @@ export interface NearSector {
 
 /** What stands around the robot, by its obstacle guard. */
 export interface NearField {
-  /** Tells the message from others. */
   type: 'nearField';
   /** When it was made, robot's monotonic clock, ms. */
   timeMs: number;

@@ -8,7 +8,6 @@ export const MAX_PLACE_M = 1_000_000;
 
 /** The path that the robot's own navigator has planned. Whether the robot follows it, nobody says. */
 export interface PlannedPath {
-  /** Tells the message from others. */
   type: 'path';
   /** The topic that it comes from. */
   topic: string;

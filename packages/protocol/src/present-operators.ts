@@ -25,7 +25,6 @@ export interface PresentOperator {
  * that ask for grants.
  */
 export interface Operators {
-  /** Tells the message from others. */
   type: 'operators';
   /** The one who gets the message, then the driver, supervisors and others, each in the order in which they came. */
   operators: PresentOperator[];

@@ -14,7 +14,6 @@ export const QUANTITY_LIMITS = { field: 128, unit: 12 } as const;
 
 /** Describes a number that the robot measures over time. */
 export interface Quantity {
-  /** Tells the message from others. */
   type: 'quantity';
   /** By which samples name it in this session. */
   number: number;
@@ -38,7 +37,6 @@ export type Sample = [quantity: number, offsetMs: number, value: number];
 
 /** Samples of quantities. */
 export interface Samples {
-  /** Tells the message from others. */
   type: 'samples';
   /** When the newest of them was taken, robot's monotonic clock, ms. */
   timeMs: number;

@@ -17,7 +17,6 @@ export const READING_LIMITS = { topic: 255, label: 40, values: 10, name: 36, tex
 
 /** What a sensor or a topic of the robot says, as short text for people. */
 export interface Reading {
-  /** Tells the message from others. */
   type: 'reading';
   /** Identifies the reading. */
   topic: string;

@@ -54,7 +54,6 @@ export type ModelPart = ModelLink | ModelShape;
 
 /** Some parts of the robot's model. */
 export interface RobotModelParts {
-  /** Tells the message from others. */
   type: 'robotModel';
   /** Names the model: parts of another number belong to another model. Wraps at 2³². */
   number: number;
@@ -68,7 +67,6 @@ export interface RobotModelParts {
 
 /** Where the joints of the robot's model are. */
 export interface JointPositions {
-  /** Tells the message from others. */
   type: 'joints';
   /** The model to which they belong. */
   model: number;

@@ -10,7 +10,6 @@ export const MAX_RINGS = 256;
 
 /** Elevations of a sensor's rings. Sent after the welcome for each sensor whose rings are known, and at each change. */
 export interface SensorRings {
-  /** Tells the message from others. */
   type: 'rings';
   /** Number of the sensor. */
   sensor: number;

@@ -42,7 +42,6 @@ export type AfterGap = (typeof afterGapChoices)[number];
 
 /** The robot's first message in every session. */
 export interface Welcome {
-  /** Tells the message from others. */
   type: 'welcome';
   /** Version of the protocol that the robot speaks. */
   protocol: number;
@@ -90,7 +89,6 @@ export interface Welcome {
 
 /** The operator's grant ends soon, and the session with it. */
 export interface GrantExpires {
-  /** Tells the message from others. */
   type: 'expires';
   /** Seconds from now. */
   inS: number;
@@ -98,7 +96,6 @@ export interface GrantExpires {
 
 /** Who may drive. */
 export interface LeaseState {
-  /** Tells the message from others. */
   type: 'lease';
   /** Who holds the lease. */
   holder: 'you' | 'other' | 'nobody';
@@ -110,7 +107,6 @@ export interface LeaseState {
 
 /** The robot refused a command. */
 export interface CommandRejected {
-  /** Tells the message from others. */
   type: 'rejected';
   /** The command's sequence number, if it was readable. */
   sequence?: number | undefined;
@@ -124,7 +120,6 @@ export interface CommandRejected {
 
 /** The emergency stop. */
 export interface EstopState {
-  /** Tells the message from others. */
   type: 'estop';
   /** Whether it is latched: the robot does not move. */
   latched: boolean;
@@ -143,7 +138,6 @@ export interface EstopState {
 
 /** Announces the frame that answers a latency test. */
 export interface LatencyFrame {
-  /** Tells the message from others. */
   type: 'latencyFrame';
   /** Number of the test, as the command had it. */
   id: number;
@@ -174,7 +168,6 @@ export interface CloudStream {
  * The robot's cameras whose pictures it can send; a camera's position in the list is its number. Follows the welcome.
  */
 export interface Cameras {
-  /** Tells the message from others. */
   type: 'cameras';
   /** In the order of their numbers. */
   cameras: {
@@ -188,7 +181,6 @@ export interface Cameras {
  * after the welcome by robots with more than one sensor.
  */
 export interface Sensors {
-  /** Tells the message from others. */
   type: 'sensors';
   /** In the order of their numbers. */
   sensors: {
@@ -202,7 +194,6 @@ export interface Sensors {
  * have either, and again whenever something changes.
  */
 export interface Sound {
-  /** Tells the message from others. */
   type: 'sound';
   /** `a=mid` of its m-line in the robot's offer. */
   mid: string;

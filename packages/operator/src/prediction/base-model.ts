@@ -47,7 +47,7 @@ export interface BaseRamps {
   turnRadps2?: number | undefined;
 }
 
-/** Of a robot of which nothing is known, and of one that says how it ramps: what its motors add, s. */
+/** Lag of the motors of a robot that does not say how it ramps, and of one that does, s. */
 const USUAL_LAG_S = 0.15;
 const RAMPED_LAG_S = 0.05;
 

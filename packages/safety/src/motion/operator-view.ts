@@ -36,8 +36,8 @@ export class OperatorView {
   /**
    * A command says what the driver sees. An older picture than one that was named before changes nothing.
    *
-   * @param ageMs since the capture of the newest picture that is drawn, when the command came. A picture from the future
-   * is none
+   * @param ageMs since the capture of the newest picture that is drawn, when the command came. A negative age is
+   * refused: no picture comes from the future
    */
   note(ageMs: number | null, nowMs: number): void {
     if (this.#isPaused(nowMs)) this.#capturedMs = null;

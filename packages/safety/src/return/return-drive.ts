@@ -30,10 +30,10 @@ export type ReturnPhase =
 const LOST_MS = 1000;
 /** A shorter track leads nowhere, m. */
 const LEAST_TRACK_M = 0.2;
-/** Less is no progress, m and rad. */
+/** A robot that moves less than this makes no progress, m and rad. */
 const PROGRESS_M = 0.05;
 const PROGRESS_RAD = 0.1;
-/** While it waits, more than this is the doing of something else, m and rad. */
+/** If the waiting robot moves farther than this, something else moves it, m and rad. */
 const STRANGE_M = 0.1;
 const STRANGE_RAD = 0.2;
 

@@ -65,7 +65,7 @@ export const guardOptions = optionGroup('guard', {
     default: 0.04,
     argument: 'METRES',
     file: 'clearanceM',
-    help: 'what is lower than this above the floor is no obstacle',
+    help: 'obstacles lower than this above the floor are ignored, m',
   }),
   guardHeightM: defineOption({
     schema: schema.number({ min: 0.1, max: 5 }),
@@ -79,7 +79,7 @@ export const guardOptions = optionGroup('guard', {
     default: 0.15,
     argument: 'METRES',
     file: 'dropM',
-    help: 'what lies lower than this below the floor is a drop-off',
+    help: 'floor that lies deeper than this below the robot’s is a drop-off, m',
   }),
   guardBlankFloor: defineOption({
     schema: schema.choice(['missing', 'unseen']),

@@ -1,4 +1,4 @@
-/** A frame that uses less of its budget than this has all that its format can use. */
+/** Once a frame uses this share of its budget, its format could use more. */
 const SATURATED_SHARE = 0.9;
 /** The claim exceeds the measured use by this factor, so that a richer scene shows at once as a used-up budget. */
 const MARGIN = 1.3;

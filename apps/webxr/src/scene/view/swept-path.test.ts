@@ -1,6 +1,7 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { type FloorPoint, poseOnArc, stoppingDistance, sweptWidth, writeRibbon } from './swept-path.ts';
+import type { FloorPoint } from '../../ground/near-field/around-footprint.ts';
+import { poseOnArc, stoppingDistance, sweptWidth, writeRibbon } from './swept-path.ts';
 
 const box: FloorPoint[] = [
   { x: 0.35, y: -0.28 },
