@@ -1,38 +1,15 @@
 /** The page: shows on the screen what the robot sends, and sends the robot what the operator's hands do. */
-import { CloudView } from '@farpoint/cloud-view';
-import { RobotClient, type RobotClientOptions, type TransformSupport } from '@farpoint/operator';
+import type { RobotClient, RobotClientOptions, TransformSupport } from '@farpoint/operator';
 import { computed, effect, untracked } from '@preact/signals-core';
-import { StoredRobots } from '../ground/access/known-robots.ts';
-import { OperatorAccess } from '../ground/access/operator-access.ts';
-import { SignIn, tabStorage } from '../ground/access/sign-in.ts';
-import { browserAccess } from '../ground/access/stored-access.ts';
 import { PanelPlacements } from '../ground/panels/panel-placements.ts';
 import { loadPlacements, storePlacements } from '../ground/panels/stored-panels.ts';
 import type { Settings } from '../ground/settings.ts';
-import { tokenOrigin } from '../ground/signaling-tokens.ts';
-import { PresentedInstant } from '../ground/telemetry/presented-instant.ts';
 import { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
 import { giveCues } from '../panels/cues/cues.ts';
-import { DashboardOpener } from '../panels/dashboard/dashboard-opener.ts';
-import { AccessUi } from '../panels/ui/access-ui.ts';
-import { listenToCanvas } from '../panels/ui/canvas-events.ts';
-import { CloudPanel } from '../panels/ui/cloud-panel.ts';
-import { ControlsUi } from '../panels/ui/controls-ui.ts';
 import { elements } from '../panels/ui/elements.ts';
-import { EstopUi } from '../panels/ui/estop-ui.ts';
-import { showNearWords } from '../panels/ui/near-panel.ts';
-import { type InputPort, OperatorInputs } from '../panels/ui/operator-inputs.ts';
-import { showPeople } from '../panels/ui/people-panel.ts';
-import { showPicturePanels } from '../panels/ui/picture-panels.ts';
-import { RememberedWorld } from '../panels/ui/remembered-world.ts';
-import { showRobotList } from '../panels/ui/robot-list.ts';
-import { showRobotSwitcher } from '../panels/ui/robot-switcher.ts';
-import { showSensorSwitches } from '../panels/ui/sensor-switches.ts';
+import { OperatorInputs } from '../panels/ui/operator-inputs.ts';
 import { NearFieldDisplay } from '../panels/ui/show-near-field.ts';
-import { SoundUi } from '../panels/ui/sound-ui.ts';
-import { showStatus } from '../panels/ui/status-ui.ts';
 import { PredictedView } from '../scene/view/predicted-view.ts';
-import { SensorClouds } from '../scene/view/sensor-clouds.ts';
 import { showDrivePath } from '../scene/view/show-drive-path.ts';
 import { showNavigation } from '../scene/view/show-navigation.ts';
 import { showRobotModel } from '../scene/view/show-robot-model.ts';
@@ -47,101 +24,65 @@ import { tellNotices } from '../state/tell-notices.ts';
 import { AwayRelease } from '../take/drive/away-release.ts';
 import { ReleaseHold } from '../take/drive/release-hold.ts';
 import { SoundPlayer } from '../take/sound/sound-player.ts';
-import { CloudHold, driverHold, noHold } from '../take/video/cloud-hold.ts';
-import { HeldClouds } from '../take/video/held-clouds.ts';
-import { VideoColour } from '../take/video/video-colour.ts';
-import { VideoFeed } from '../take/video/video-feed.ts';
-import { videoReceiver } from '../take/video/video-receiver.ts';
 import { PageStatistics, type PageStats } from '../words/page-stats.ts';
 import { viewAgeMs } from '../words/view-age.ts';
-import { leavingWords, videoWords } from '../words/words.ts';
+import { leavingWords } from '../words/words.ts';
 import { applyAppearance } from './apply-appearance.ts';
 import { FrameLoop } from './frame-loop.ts';
 import type { HeadsetControls } from './headset-controls.ts';
+import { openClient } from './open-client.ts';
 import { openHeadset } from './open-headset.ts';
+import { PagePanels } from './page-panels.ts';
+import { PageViews } from './page-views.ts';
 
-type OpenLink = RobotClientOptions['openLink'];
 const [DRIVE_TICK_MS, STATUS_TICK_MS] = [25, 250];
 
 export class App {
   readonly settings: Settings;
   readonly state: PageState;
   readonly stage: Stage;
-  readonly cloud: CloudView;
-  /** The clouds of a robot with several sensors. */
-  readonly clouds: SensorClouds;
-  /** What was seen before. */
-  readonly remembered: RememberedWorld;
   readonly client: RobotClient;
-  /** Reads and presents the robot's videos. */
-  readonly videos: VideoFeed;
+  /** Clouds, videos, and what was seen before. */
+  readonly views: PageViews;
   readonly appearance: CloudAppearance;
   readonly stats = new PageStatistics();
-  /** The capture instant of what is shown. */
-  readonly presented = new PresentedInstant();
-  /** Clouds wait here for the videos that were captured with them. */
-  readonly hold: CloudHold;
-  /** Paints clouds with the video of their camera. */
-  readonly videoColour: VideoColour;
-  /** The robot's telemetry over time. */
-  readonly recorder: TelemetryRecorder;
   readonly vr: VrSession;
-  /** Leads the view by the operator's commands. */
-  readonly predicted: PredictedView;
   readonly frames: FrameLoop;
   readonly near: NearFieldDisplay;
   /** Plays the robot's microphone. */
   readonly player = new SoundPlayer();
-  readonly #sound: SoundUi;
   readonly #inputs: OperatorInputs;
-  readonly #controls: ControlsUi;
-  readonly #cloudPanel: CloudPanel;
+  readonly #panels: PagePanels;
   /** The panel on the wrist in VR. */
   wrist: WristPanel | null = null;
   #headset: HeadsetControls | null = null;
   readonly #release = new ReleaseHold();
   readonly #left = new AwayRelease();
-  readonly #estop: EstopUi;
-  readonly #access: AccessUi;
 
   /** @param openLink of tests @throws {Error} without WebGL 2 */
-  constructor(settings: Settings, transform: TransformSupport, notices: Notices, openLink?: OpenLink) {
+  constructor(
+    settings: Settings,
+    transform: TransformSupport,
+    notices: Notices,
+    openLink?: RobotClientOptions['openLink'],
+  ) {
     this.settings = settings;
-    this.stage = new Stage(elements.stage, settings.canvas, settings.headset);
-    const { renderer, world } = this.stage;
-    this.appearance = openAppearance(settings, renderer.getContext());
-    const inputPort = {
-      onChange: () => this.client.driver.tick(performance.now()),
-      onAction: (action, timeMs) => this.#controls.act(action, timeMs),
-      onRelease: (control, held) => this.#estop.hold(control, held),
-      onTalk: (control, held) => this.#sound.hold(control, held),
-      mayDrive: () => this.state.link.live.value,
-    } satisfies InputPort;
-    this.#inputs = new OperatorInputs(inputPort, settings.headset.driveHand, notices);
-    const { signalingUrl, name, token, icePolicy, bridge, mode } = settings;
-    const receiver = videoReceiver(settings.videoReceiver);
-    const origin = tokenOrigin(signalingUrl);
-    const access = new OperatorAccess(browserAccess(origin), () => Date.now() / 1000);
-    const knownRobots = new StoredRobots(origin);
-    this.client = new RobotClient({
-      signalingUrl,
-      name,
-      token,
-      icePolicy,
+    const stage = new Stage(elements.stage, settings.canvas, settings.headset);
+    this.stage = stage;
+    const appearance = openAppearance(settings, stage.renderer.getContext());
+    this.appearance = appearance;
+    this.#inputs = this.#openInputs(notices);
+    const { client, receiver, ...opened } = openClient({
+      settings,
       transform,
-      bridge,
-      knownRobots,
+      inputs: this.#inputs,
       openLink,
-      credentials: () => access.credentials(),
-      cloudFormats: mode === 'points64' ? ['points64'] : undefined,
-      inputs: this.#inputs.all,
-      ...(receiver?.adopt === undefined ? {} : { onVideoReceiver: receiver.adopt }),
     });
-    // Before the clouds' views, which may release what it reads.
-    this.predicted = new PredictedView(this.client, settings.predict);
-    this.stage.predicted = this.predicted;
+    this.client = client;
+    const predicted = new PredictedView(client, settings.predict);
+    stage.predicted = predicted;
     this.state = new PageState({
-      client: this.client,
+      client,
       settings,
       notices,
       figures: () => this.figures(),
@@ -149,69 +90,29 @@ export class App {
       now: () => performance.now(),
       newCanvas: () => document.createElement('canvas'),
     });
-    const { sensors, pointScale } = this.state;
-    this.videos = new VideoFeed({
-      client: this.client,
-      views: this.state.videos,
-      synchronised: settings.synchronised,
-      receiver,
-      words: videoWords,
-      presented: this.presented,
-      now: () => performance.now(),
-      onShown: (captureMs) => this.client.seen.onShown(captureMs),
-    });
-    this.recorder = new TelemetryRecorder(this.client, () => performance.now());
-    this.hold = new CloudHold(settings.synchronised ? driverHold : noHold);
-    const held = new HeldClouds(this.client, this.hold, () => performance.now());
-    this.cloud = new CloudView(renderer, held);
-    world.add(this.cloud);
-    this.remembered = new RememberedWorld({ renderer, world, client: this.client, held });
-    this.clouds = new SensorClouds({ renderer, world, client: held, first: this.cloud, sensors, pointScale });
-    this.videoColour = new VideoColour({
-      client: this.client,
-      feed: this.videos,
-      hold: this.hold,
-      views: this.state.videos,
-      clouds: this.clouds.all,
-      wanted: this.appearance.paint,
-      synchronised: settings.synchronised,
-    });
-    this.vr = new VrSession(renderer, settings.headset);
-    this.#access = new AccessUi({
-      access,
-      knownRobots,
-      client: this.client,
-      link: this.state.link,
-      signIn: new SignIn(tabStorage(), origin),
-      tell: ({ text, tone }) => notices.tell(text, tone),
-    });
-    this.#estop = new EstopUi(this.client, this.state.robot, this.#release);
-    const { client, state, stage, cloud, clouds, videos, stats, vr, appearance, recorder, presented } = this;
+    const { state, stats, player } = this;
+    const views = new PageViews({ client, settings, stage, state, appearance, predicted, receiver });
+    this.views = views;
+    const vr = new VrSession(stage.renderer, settings.headset);
+    this.vr = vr;
     this.near = new NearFieldDisplay(client, stage, vr.active);
-    const choose = (robotId: string) => this.choose(robotId);
-    const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });
-    const toggleDashboard = () => dashboard.toggle();
-    this.#controls = new ControlsUi({
+    this.#panels = new PagePanels({
+      ...opened,
       client,
+      settings,
       state,
       stage,
-      vr,
       appearance,
-      estop: this.#estop,
-      choose,
-      toggleDashboard,
+      views,
+      recorder: new TelemetryRecorder(client, () => performance.now()),
+      vr,
+      player,
+      release: this.#release,
+      choose: (robotId) => this.choose(robotId),
       nextHeadsetView: () => this.#headset?.nextView(),
-      predicted: this.predicted,
-    });
-    const memory = { remembered: this.remembered, tell: notices.tell.bind(notices) };
-    this.#cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all, memory, robot: state.robot });
-    this.#sound = new SoundUi({
-      client,
-      player: this.player,
-      state: state.sound,
-      tell: ({ text, tone }) => notices.tell(text, tone),
     });
     const readHeadset = () => this.#headset?.read();
+    const { held, cloud, clouds, videos, remembered } = views;
     this.frames = new FrameLoop({
       settings,
       client,
@@ -223,16 +124,27 @@ export class App {
       stats,
       vr,
       readHeadset,
-      remembered: this.remembered,
+      remembered,
     });
+  }
+
+  #openInputs(notices: Notices): OperatorInputs {
+    return new OperatorInputs(
+      {
+        onChange: () => this.client.driver.tick(performance.now()),
+        onAction: (action, timeMs) => this.#panels.controls.act(action, timeMs),
+        onRelease: (control, held) => this.#panels.estop.hold(control, held),
+        onTalk: (control, held) => this.#panels.sound.hold(control, held),
+        mayDrive: () => this.state.link.live.value,
+      },
+      this.settings.headset.driveHand,
+      notices,
+    );
   }
 
   start(): void {
     this.#listen();
-    listenToCanvas(elements.stage, this.stage, this.state.notices);
-    this.#controls.start();
-    this.#sound.start();
-    this.#access.start();
+    this.#panels.start();
     this.client.start();
     if (this.settings.robot !== null) this.client.choose(this.settings.robot);
     this.#show();
@@ -241,7 +153,7 @@ export class App {
       this.frames.tick(nowMs);
       this.#inputs.poll(nowMs);
       const away = this.#handsAway();
-      this.#estop.tick(nowMs, away);
+      this.#panels.estop.tick(nowMs, away);
       const { driver } = this.client;
       driver.suspended = away || this.state.driving.role.value === 'watch';
       if (this.#left.tick(this.vr.active.value ? this.vr.hidden : document.hidden, nowMs))
@@ -254,13 +166,13 @@ export class App {
     }, DRIVE_TICK_MS);
     setInterval(() => {
       const nowMs = performance.now();
-      this.stats.tick(this.cloud, nowMs);
-      this.stats.remembered = this.remembered.tick(nowMs);
-      this.videoColour.tick(nowMs);
-      this.videos.measure(nowMs);
+      this.stats.tick(this.views.cloud, nowMs);
+      this.stats.remembered = this.views.remembered.tick(nowMs);
+      this.views.videoColour.tick(nowMs);
+      this.views.videos.measure(nowMs);
       this.state.looking.value = this.vr.active.value || !document.hidden;
       this.state.sample();
-      this.#cloudPanel.update();
+      this.#panels.cloudPanel.update();
       this.frames.govern(nowMs);
     }, STATUS_TICK_MS);
     this.frames.start();
@@ -276,36 +188,28 @@ export class App {
   /** Current figures of the stream and of the drawing. */
   figures(): PageStats {
     const nowMs = performance.now();
-    const shown = { canvas: this.stage.renderer.domElement, videos: this.videos.stats(nowMs) };
+    const { cloud, videos, predicted, videoColour } = this.views;
+    const shown = { canvas: this.stage.renderer.domElement, videos: videos.stats(nowMs) };
     const ageMs = viewAgeMs(this.client, nowMs);
-    const stats = this.stats.snapshot(this.client.stats(), this.cloud, { ...shown, viewAgeMs: ageMs });
-    return { ...stats, view: this.predicted.figures, videoColour: this.videoColour.figures };
+    const stats = this.stats.snapshot(this.client.stats(), cloud, { ...shown, viewAgeMs: ageMs });
+    return { ...stats, view: predicted.figures, videoColour: videoColour.figures };
   }
 
   #show(): void {
-    const { state, stage, vr } = this;
-    const { pointScale } = state;
-    const choose = (robotId: string) => this.choose(robotId);
+    const { state, stage, vr, client, appearance } = this;
+    const { clouds, remembered, cloud } = this.views;
     state.sample();
-    showStatus(state);
-    showNearWords(state);
-    showRobotList(state.link, choose);
-    showRobotSwitcher(state.link, choose);
-    showPeople(state, this.client);
-    showSensorSwitches(state.sensors);
-    showPicturePanels(state, { inVr: vr.active, isGripped: () => this.client.driver.stream.held });
-    const { appearance, clouds } = this;
-    const [inVr, { headset }] = [vr.active, stage];
+    this.#panels.show();
     applyAppearance({
       appearance,
       sensors: state.sensors,
       rings: state.rings,
       clouds,
       stage,
-      inVr,
-      inTabletop: computed(() => headset.view.value === 'tabletop'),
-      client: this.client,
-      remembered: this.remembered,
+      inVr: vr.active,
+      inTabletop: computed(() => stage.headset.view.value === 'tabletop'),
+      client,
+      remembered,
     });
     const { panel, controls } = openHeadset({
       settings: this.settings.headset,
@@ -319,7 +223,7 @@ export class App {
     this.wrist = panel;
     this.#headset = controls;
     effect(() => {
-      this.cloud.sizeScale = pointScale.value;
+      cloud.sizeScale = state.pointScale.value;
     });
     effect(() => {
       const active = vr.active.value;
@@ -345,7 +249,7 @@ export class App {
     });
     client.on('telemetry', ({ pose }) => {
       stage.setBody(pose);
-      this.clouds.ground = pose.position.z;
+      this.views.clouds.ground = pose.position.z;
     });
     tellNotices(client, this.state.notices);
     if (this.settings.cues) giveCues(client, this.vr, () => performance.now());

@@ -16,7 +16,8 @@ import type { DrawnProbe, FarpointTestApi, HeadsetProbe, NearProbe } from './tes
 const LONGEST_HOLD_MS = 60_000;
 
 export function installTestApi(app: App): void {
-  const { client, cloud, stage } = app;
+  const { client, stage } = app;
+  const { cloud } = app.views;
   const { link, driver } = client;
   const script = new ScriptInput();
   driver.add(script);
@@ -70,7 +71,7 @@ export function installTestApi(app: App): void {
         scene: { gridM: stage.grid.object.position.y, reachM: stage.look.reach },
         view: {
           ...{ x: -stage.rig.position.z, y: -stage.rig.position.x, z: stage.rig.position.y },
-          ...{ yaw: stage.rig.rotation.y, ...app.predicted.figures },
+          ...{ yaw: stage.rig.rotation.y, ...app.views.predicted.figures },
         },
       };
     },
@@ -78,7 +79,7 @@ export function installTestApi(app: App): void {
     resetStats: () => {
       client.statistics.resetDistributions();
       app.stats.resetDistributions();
-      app.videos.resetDistributions();
+      app.views.videos.resetDistributions();
     },
     robots: () => link.robots,
     connect(robotId, timeoutMs = 30_000) {
@@ -129,10 +130,10 @@ export function installTestApi(app: App): void {
     },
     videos: () =>
       app.state.videos.views.value.map(({ camera, canvas, newest, ageMs, fault }, video) => ({
-        codec: app.videos.codecOf(video),
+        codec: app.views.videos.codecOf(video),
         ...{ name: camera.name, shown: camera.on.value, width: canvas.width, height: canvas.height },
         ...{ ageMs: ageMs.value, frames: newest.value?.number ?? 0, fault: fault.value },
-        captureMs: app.videos.captureMs.get(video) ?? null,
+        captureMs: app.views.videos.captureMs.get(video) ?? null,
         enlarged: app.state.enlarged.view.value?.canvas === canvas,
         fills: app.state.staged.view.value?.canvas === canvas,
       })),
@@ -140,20 +141,20 @@ export function installTestApi(app: App): void {
     recordPresentations(capacity) {
       const record = capacity === null ? null : new PresentationRecord(capacity, robotNowMs);
       presentations = record;
-      app.videos.onPresented =
+      app.views.videos.onPresented =
         record === null
           ? null
           : () =>
               record.add(
                 app.state.videos.views.value.map(({ canvas }) => canvas),
-                () => app.hold.passedMs,
+                () => app.views.hold.passedMs,
               );
     },
     recordedPresentations: () => [...(presentations?.rows ?? [])],
     videoCanvas: (video) => app.state.videos.views.value[video]?.canvas ?? null,
     sensors: () =>
       app.state.sensors.all.value.map(({ index, name, on }) => ({
-        ...{ name, wanted: on.value, points: app.clouds.drawnOf(index) },
+        ...{ name, wanted: on.value, points: app.views.clouds.drawnOf(index) },
       })),
     recordPackets(capacity) {
       packets = capacity === null ? null : new PacketRecord(capacity);
@@ -186,7 +187,7 @@ function nearProbe({ state, stage, near }: App): NearProbe {
   };
 }
 
-function probe({ cloud }: App): DrawnProbe {
+function probe({ views: { cloud } }: App): DrawnProbe {
   const { points, slots } = cloud.readBack();
   const poses = [0, 1].map((slot) => {
     const { unit, position, orientation } = cloud.pose(slot);

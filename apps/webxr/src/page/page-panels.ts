@@ -1,0 +1,116 @@
+/** The panels, dialogs and controls of the page, and what they do. */
+import type { RobotClient } from '@farpoint/operator';
+import type { StoredRobots } from '../ground/access/known-robots.ts';
+import type { OperatorAccess } from '../ground/access/operator-access.ts';
+import { SignIn, tabStorage } from '../ground/access/sign-in.ts';
+import type { Settings } from '../ground/settings.ts';
+import type { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
+import { DashboardOpener } from '../panels/dashboard/dashboard-opener.ts';
+import { AccessUi } from '../panels/ui/access-ui.ts';
+import { listenToCanvas } from '../panels/ui/canvas-events.ts';
+import { CloudPanel } from '../panels/ui/cloud-panel.ts';
+import { ControlsUi } from '../panels/ui/controls-ui.ts';
+import { elements } from '../panels/ui/elements.ts';
+import { EstopUi } from '../panels/ui/estop-ui.ts';
+import { showNearWords } from '../panels/ui/near-panel.ts';
+import { showPeople } from '../panels/ui/people-panel.ts';
+import { showPicturePanels } from '../panels/ui/picture-panels.ts';
+import { showRobotList } from '../panels/ui/robot-list.ts';
+import { showRobotSwitcher } from '../panels/ui/robot-switcher.ts';
+import { showSensorSwitches } from '../panels/ui/sensor-switches.ts';
+import { SoundUi } from '../panels/ui/sound-ui.ts';
+import { showStatus } from '../panels/ui/status-ui.ts';
+import type { Stage } from '../scene/view/stage.ts';
+import type { VrSession } from '../scene/view/vr-session.ts';
+import type { CloudAppearance } from '../state/cloud-appearance.ts';
+import type { PageState } from '../state/page-state.ts';
+import type { ReleaseHold } from '../take/drive/release-hold.ts';
+import type { SoundPlayer } from '../take/sound/sound-player.ts';
+import type { Words } from '../words/tone.ts';
+import type { PageViews } from './page-views.ts';
+
+export interface PagePanelsParts {
+  readonly client: RobotClient;
+  readonly access: OperatorAccess;
+  readonly knownRobots: StoredRobots;
+  /** Of the signaling service. */
+  readonly origin: string;
+  readonly settings: Settings;
+  readonly state: PageState;
+  readonly stage: Stage;
+  readonly appearance: CloudAppearance;
+  readonly views: PageViews;
+  readonly recorder: TelemetryRecorder;
+  readonly vr: VrSession;
+  readonly player: SoundPlayer;
+  readonly release: ReleaseHold;
+  /** Connects to this robot. */
+  choose(robotId: string): void;
+  /** Shows the next view in the headset. */
+  nextHeadsetView(): void;
+}
+
+export class PagePanels {
+  readonly estop: EstopUi;
+  readonly controls: ControlsUi;
+  readonly sound: SoundUi;
+  readonly cloudPanel: CloudPanel;
+  readonly #access: AccessUi;
+  readonly #parts: PagePanelsParts;
+
+  constructor(parts: PagePanelsParts) {
+    this.#parts = parts;
+    const { client, access, knownRobots, origin, settings, state, stage, appearance, views, vr } = parts;
+    const tell = ({ text, tone }: Words) => state.notices.tell(text, tone);
+    const { link } = state;
+    this.#access = new AccessUi({
+      access,
+      knownRobots,
+      client,
+      link,
+      signIn: new SignIn(tabStorage(), origin),
+      tell,
+    });
+    this.estop = new EstopUi(client, state.robot, parts.release);
+    const { recorder } = parts;
+    const { presented, predicted, clouds, remembered } = views;
+    const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });
+    this.controls = new ControlsUi({
+      client,
+      state,
+      stage,
+      vr,
+      appearance,
+      estop: this.estop,
+      choose: parts.choose,
+      toggleDashboard: () => dashboard.toggle(),
+      nextHeadsetView: parts.nextHeadsetView,
+      predicted,
+    });
+    const memory = { remembered, tell: state.notices.tell.bind(state.notices) };
+    const { sensors, robot } = state;
+    this.cloudPanel = new CloudPanel({ appearance, sensors, views: clouds.all, memory, robot });
+    this.sound = new SoundUi({ client, player: parts.player, state: state.sound, tell });
+  }
+
+  /** Lets hands reach the controls. Call it before the client starts. */
+  start(): void {
+    const { stage, state } = this.#parts;
+    listenToCanvas(elements.stage, stage, state.notices);
+    this.controls.start();
+    this.sound.start();
+    this.#access.start();
+  }
+
+  /** Draws the state in the document from now on. */
+  show(): void {
+    const { client, state, vr, choose } = this.#parts;
+    showStatus(state);
+    showNearWords(state);
+    showRobotList(state.link, choose);
+    showRobotSwitcher(state.link, choose);
+    showPeople(state, client);
+    showSensorSwitches(state.sensors);
+    showPicturePanels(state, { inVr: vr.active, isGripped: () => client.driver.stream.held });
+  }
+}
