@@ -4,7 +4,7 @@ import type { MeasuredRobot } from './measured-robot.ts';
 /** Metrics of the broadcast. None if the robot does not have one. */
 export function addBroadcastMetrics(
   metrics: PulledMetrics,
-  { broadcast }: Pick<MeasuredRobot, 'broadcast'>,
+  { streams: { broadcast } }: Pick<MeasuredRobot, 'streams'>,
 ): void {
   if (broadcast === null) return;
   metrics.gauge('broadcast_up', '1 while the relay has the robot’s mountpoint', () => Number(broadcast.up));

@@ -4,12 +4,9 @@ import type { VelocitySink } from '../../ground/velocity-sink.ts';
 import type { ObstacleStation } from '../../motion/obstacles/obstacle-station.ts';
 import type { Drive } from '../../motion/open-drive.ts';
 import type { RobotStops } from '../../motion/stops/robot-stops.ts';
-import type { CloudSensors } from '../../send/clouds/cloud-sensors.ts';
-import type { RobotSound } from '../../send/sound/robot-sound.ts';
 import type { BaseThread } from '../../sense/base/base-thread.ts';
-import type { Broadcast } from '../../serve/broadcast/broadcast.ts';
 import type { ReferenceProfile } from '../../serve/reference/reference-profile.ts';
-import type { RobotCameras } from '../../serve/robot-cameras.ts';
+import type { RobotStreams } from '../../serve/robot-streams.ts';
 import type { OperatorSession } from '../../serve/session/operator-session.ts';
 import type { SessionRecording } from '../../tell/session-recording.ts';
 
@@ -23,10 +20,7 @@ export interface MeasuredRobot {
   readonly stops: RobotStops;
   readonly driving: Drive;
   readonly obstacles: ObstacleStation;
-  readonly sensors: CloudSensors;
-  readonly cameras: RobotCameras;
-  readonly sound: RobotSound;
-  readonly broadcast: Broadcast | null;
+  readonly streams: RobotStreams;
   readonly recording: SessionRecording | null;
   readonly reference: ReferenceProfile | null;
 }

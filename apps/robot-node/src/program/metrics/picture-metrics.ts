@@ -5,8 +5,9 @@ import type { MeasuredRobot } from './measured-robot.ts';
 /** Metrics of camera pictures: made, lost, sent. None if the robot has no camera. */
 export function addPictureMetrics(
   metrics: PulledMetrics,
-  { cameras: { pictures }, operators }: MeasuredRobot,
+  { streams: { cameras }, operators }: MeasuredRobot,
 ): void {
+  const { pictures } = cameras;
   if (pictures === null) return;
   const made = pictures.counters;
   const total = (read: (operator: OperatorSession) => number) => () =>

@@ -2,7 +2,10 @@ import type { PulledMetrics } from '@farpoint/service';
 import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of what the sensors captured, and what became of their points. */
-export function addSensorMetrics(metrics: PulledMetrics, { counters, sensors }: MeasuredRobot): void {
+export function addSensorMetrics(
+  metrics: PulledMetrics,
+  { counters, streams: { sensors } }: MeasuredRobot,
+): void {
   metrics.sum('frames_captured', 'Clouds captured', () => counters.framesCaptured);
   metrics.sum(
     'frames_without_buffer',

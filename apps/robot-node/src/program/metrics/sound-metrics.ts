@@ -2,7 +2,10 @@ import type { PulledMetrics } from '@farpoint/service';
 import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of the robot's microphone and loudspeaker. None if it has neither. */
-export function addSoundMetrics(metrics: PulledMetrics, { sound, operators }: MeasuredRobot): void {
+export function addSoundMetrics(
+  metrics: PulledMetrics,
+  { streams: { sound }, operators }: MeasuredRobot,
+): void {
   const { microphone, loudspeaker, hasMicrophone } = sound;
   if (hasMicrophone) {
     metrics.gauge('sound_listeners', 'Operators who are sent the microphone’s sound', () => sound.listeners);

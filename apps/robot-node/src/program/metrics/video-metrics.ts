@@ -5,9 +5,9 @@ import type { MeasuredRobot } from './measured-robot.ts';
 /** Metrics of the cameras that are streamed as video. None if the robot has no such camera. */
 export function addVideoMetrics(
   metrics: PulledMetrics,
-  { cameras: { videos }, operators }: MeasuredRobot,
+  { streams: { cameras }, operators }: MeasuredRobot,
 ): void {
-  const { streams } = videos;
+  const { streams } = cameras.videos;
   if (streams.length === 0) return;
   const each = (read: (stream: VideoStream) => number) => () =>
     streams.map((stream): [string, number] => [stream.camera.name, read(stream)]);
