@@ -13,7 +13,7 @@ import { openPlayedVideos } from './send/video/played-videos.ts';
 import { BaseThread } from './sense/base/base-thread.ts';
 import type { Capture } from './sense/capture/capture.ts';
 import type { VideoCamera } from './sense/video/video-encoder.ts';
-import { openVideoCameras } from './serve/open-video-cameras.ts';
+import { openVideoCameras } from './serve/cameras/open-video-cameras.ts';
 import { SessionRecording } from './tell/session-recording.ts';
 
 /** What a robot is made of, opened and ready. */

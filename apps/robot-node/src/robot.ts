@@ -17,10 +17,10 @@ import { type CloudSensor, failureReading } from './send/clouds/cloud-sensor.ts'
 import type { BaseThread } from './sense/base/base-thread.ts';
 import { MOTORS_TOPIC } from './sense/base/sim-topics.ts';
 import type { Capture } from './sense/capture/capture.ts';
+import { openSessions } from './serve/open-sessions.ts';
 import { openReferenceProfile } from './serve/reference/open-reference-profile.ts';
 import type { ReferenceProfile } from './serve/reference/reference-profile.ts';
 import { RobotStreams } from './serve/robot-streams.ts';
-import { openSessions } from './serve/session/open-sessions.ts';
 import type { OperatorSession } from './serve/session/operator-session.ts';
 import type { OperatorSessions } from './serve/session/operator-sessions.ts';
 import { welcome } from './serve/session/welcome.ts';

@@ -1,6 +1,6 @@
 import type { CloudSensorOptions } from '../send/clouds/cloud-sensor.ts';
 import type { BaseThread } from '../sense/base/base-thread.ts';
-import type { VideoCameraOptions } from '../serve/open-video-cameras.ts';
+import type { VideoCameraOptions } from '../serve/cameras/open-video-cameras.ts';
 
 /** Gives simulated sensors the world of the simulated base, so that they see the robot move. */
 export function inWorld(

@@ -16,7 +16,7 @@ import type { StreamMode } from '../sense/encode/stream-mode.ts';
 import type { PicturePolicy } from '../sense/pictures/picture-plan.ts';
 import type { SoundOptions } from '../sense/sound/open-sound-devices.ts';
 import type { BroadcastOptions } from '../serve/broadcast/broadcast-options.ts';
-import type { VideoCameraOptions } from '../serve/open-video-cameras.ts';
+import type { VideoCameraOptions } from '../serve/cameras/open-video-cameras.ts';
 import type { OperatorPlacesOptions } from '../serve/session/operator-places.ts';
 import type { AlarmRule } from '../tell/alarms/alarm-board.ts';
 import type { LiveOptions, RecordingOptions } from '../tell/recording-options.ts';

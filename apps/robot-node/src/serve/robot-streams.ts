@@ -18,8 +18,8 @@ import type { SessionRecording } from '../tell/session-recording.ts';
 import type { Broadcast } from './broadcast/broadcast.ts';
 import type { BroadcastOptions } from './broadcast/broadcast-options.ts';
 import { openBroadcast } from './broadcast/open-broadcast.ts';
+import { RobotCameras } from './cameras/robot-cameras.ts';
 import type { ReferenceProfile } from './reference/reference-profile.ts';
-import { RobotCameras } from './robot-cameras.ts';
 import type { OperatorSession } from './session/operator-session.ts';
 
 export interface StreamsOptions {

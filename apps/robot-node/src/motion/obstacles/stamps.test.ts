@@ -8,7 +8,7 @@ import { defaultObstacleGuardOptions } from '@farpoint/safety';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { FOREIGN_AGE_MS } from '../ros/capture-time.ts';
+import { FOREIGN_AGE_MS } from '../../ground/ros/capture-time.ts';
 import {
   CLOUD,
   cloudAt,

@@ -1,6 +1,6 @@
 /** Checks which video encoders there are, what they cost, and whether the configured cameras can be encoded. */
 import { type AvailableEncoder, chooseEncoder, VIDEO_ENCODERS, type VideoFailure } from '@farpoint/video';
-import type { VideoCameraOptions } from '../../serve/open-video-cameras.ts';
+import type { VideoCameraOptions } from '../../serve/cameras/open-video-cameras.ts';
 import { fail, ok, type Result, warn } from './finding.ts';
 
 export interface TimedEncoder extends AvailableEncoder {

@@ -8,7 +8,7 @@ import { BitRate } from '@farpoint/timing';
 import { describeTopics, readFrom, sourcedFolders } from '../../ground/ros/message-folders.ts';
 import type { SinkOptions } from '../../motion/drive/open-sink.ts';
 import { SIM_FIX, SIM_MOTORS } from '../../sense/base/sim-topics.ts';
-import type { VideoCameraOptions } from '../../serve/open-video-cameras.ts';
+import type { VideoCameraOptions } from '../../serve/cameras/open-video-cameras.ts';
 import { describeQuantities } from '../../tell/sample-board.ts';
 import type { RobotOptions } from '../robot-configuration.ts';
 import { toAlarmRules } from './alarms.ts';

@@ -6,7 +6,7 @@ import type { CloudSensorOptions } from '../../send/clouds/cloud-sensor.ts';
 import type { CloudSensors } from '../../send/clouds/cloud-sensors.ts';
 import type { SendLoop } from '../../send/transport/send-loop.ts';
 import type { VideoCamera } from '../../sense/video/video-encoder.ts';
-import type { RobotCameras } from '../robot-cameras.ts';
+import type { RobotCameras } from '../cameras/robot-cameras.ts';
 import { Broadcast } from './broadcast.ts';
 import type { BroadcastOptions } from './broadcast-options.ts';
 

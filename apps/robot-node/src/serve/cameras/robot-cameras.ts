@@ -1,6 +1,6 @@
-import { PictureHub, type PictureHubOptions, type PictureTarget } from '../send/pictures/picture-hub.ts';
-import type { VideoCamera } from '../sense/video/video-encoder.ts';
-import { VideoHub, type VideoHubOptions, type VideoTarget } from '../sense/video/video-hub.ts';
+import { PictureHub, type PictureHubOptions, type PictureTarget } from '../../send/pictures/picture-hub.ts';
+import type { VideoCamera } from '../../sense/video/video-encoder.ts';
+import { VideoHub, type VideoHubOptions, type VideoTarget } from '../../sense/video/video-hub.ts';
 
 export interface RobotCamerasOptions
   extends Omit<PictureHubOptions, 'targets'>,

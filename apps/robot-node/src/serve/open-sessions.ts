@@ -1,10 +1,10 @@
 /** Operators' sessions, and what the robot's streams and its drive have to do with them. */
-import { makeRateController, type RateControlOptions } from '../../send/transport/make-rate-controller.ts';
-import type { RobotStreams } from '../robot-streams.ts';
-import type { OperatorSession } from './operator-session.ts';
-import { OperatorSessions, type OperatorSessionsOptions } from './operator-sessions.ts';
-import type { PathKeeper } from './path-keeper.ts';
-import type { RobotSessionHost } from './robot-session-host.ts';
+import { makeRateController, type RateControlOptions } from '../send/transport/make-rate-controller.ts';
+import type { RobotStreams } from './robot-streams.ts';
+import type { OperatorSession } from './session/operator-session.ts';
+import { OperatorSessions, type OperatorSessionsOptions } from './session/operator-sessions.ts';
+import type { PathKeeper } from './session/path-keeper.ts';
+import type { RobotSessionHost } from './session/robot-session-host.ts';
 
 type Given = Pick<
   OperatorSessionsOptions,

@@ -1,10 +1,10 @@
 import type { Logger } from '@farpoint/service';
 import { availableEncoders, chooseEncoders, VideoError, type VideoSource } from '@farpoint/video';
-import { CodecEncoders } from '../sense/video/codec-encoders.ts';
-import { type FeedSource, isFeedSource } from '../sense/video/feed/feed-source.ts';
-import { FeedThread } from '../sense/video/feed/feed-thread.ts';
-import { ProcessEncoder } from '../sense/video/process-encoder.ts';
-import type { VideoCamera } from '../sense/video/video-encoder.ts';
+import { CodecEncoders } from '../../sense/video/codec-encoders.ts';
+import { type FeedSource, isFeedSource } from '../../sense/video/feed/feed-source.ts';
+import { FeedThread } from '../../sense/video/feed/feed-thread.ts';
+import { ProcessEncoder } from '../../sense/video/process-encoder.ts';
+import type { VideoCamera } from '../../sense/video/video-encoder.ts';
 
 /** A camera that is streamed as video. */
 export interface VideoCameraOptions {
