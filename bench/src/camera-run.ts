@@ -6,11 +6,11 @@ import type { BenchCamera } from './camera-list.ts';
 import { type AskedShares, type SharePair, sharesSeen } from './camera-shares.ts';
 import { commandDelays } from './command-delay.ts';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
-import { driveInCircles } from './drive-in-circles.ts';
 import { type LatencySeries, latencySeries } from './latency-series.ts';
 import { queueQuantiles } from './link-analysis.ts';
 import { clockOffsetOf, monotonicMs, readRobotSamples, readUplink, scrape } from './link-run.ts';
 import { startLiveStack } from './live-stack.ts';
+import { driveInCircles } from './page.ts';
 import { type PresentationFigures, presentationFigures } from './presentation-figures.ts';
 import { type Distribution, distribution } from './stats.ts';
 

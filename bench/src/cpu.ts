@@ -10,8 +10,8 @@ import {
   calibrationMs,
   compareWithBudget,
 } from './cpu-budgets.ts';
-import { driveInCircles } from './drive-in-circles.ts';
 import { type LiveStackOptions, startLiveStack } from './live-stack.ts';
+import { driveInCircles } from './page.ts';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
 import { type ProcessTree, perFrame, threadSeconds } from './thread-times.ts';
 

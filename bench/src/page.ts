@@ -1,8 +1,8 @@
 /** `pnpm bench page`: what the operator's page costs its own main thread and memory, for as long as one likes. */
 import { parseArgs } from 'node:util';
+import type {} from '@farpoint/webxr/test-api';
 import type { Page } from '@playwright/test';
 import { type CpuBudget, calibrationMs, compareWithBudget } from './cpu-budgets.ts';
-import { driveInCircles } from './drive-in-circles.ts';
 import { startLiveStack } from './live-stack.ts';
 import { type CpuProfile, mainThreadTime } from './page-profile.ts';
 import { memoryMbOf } from './process-memory.ts';
@@ -218,4 +218,17 @@ function slopeOf(points: readonly (readonly [x: number, y: number])[]): number {
   const [x, y] = [mean(0), mean(1)];
   const across = points.reduce((sum, point) => sum + (point[0] - x) * (point[1] - y), 0);
   return across / points.reduce((sum, point) => sum + (point[0] - x) ** 2, 0);
+}
+
+/** Drives the robot in circles for so long, at so many m/s. Runs in the page. */
+export async function driveInCircles({ ms, forward }: { ms: number; forward: number }): Promise<void> {
+  const { farpoint } = window;
+  const end = performance.now() + ms;
+  while (performance.now() < end) {
+    const { session, holder } = farpoint.state();
+    if (session === 'live' && holder === 'nobody') farpoint.requestLease();
+    // Let go from time to time: after an interruption, the robot wants the grip to be released once.
+    await farpoint.drive({ forward, left: 0.5 }, 900);
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
 }

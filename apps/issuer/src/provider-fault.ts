@@ -1,11 +1,24 @@
 /** What went wrong with the provider, as a reason for the page and a text for the log. */
+
+import type { SignInError } from '@farpoint/protocol';
 import {
   AuthorizationResponseError,
   ClientError,
   ResponseBodyError,
   WWWAuthenticateChallengeError,
 } from 'openid-client';
-import { SignInRefusedError } from './refused.ts';
+
+/** Nobody is signed in. */
+export class SignInRefusedError extends Error {
+  override readonly name = 'SignInRefusedError';
+  readonly reason: SignInError;
+
+  /** @param detail for the log; it names no token or code */
+  constructor(reason: SignInError, detail: string) {
+    super(detail);
+    this.reason = reason;
+  }
+}
 
 /** Errors of openid-client which say that a response was not what it must be. */
 const UNPROVEN = new Set([

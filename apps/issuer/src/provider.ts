@@ -14,8 +14,7 @@ import {
   None,
 } from 'openid-client';
 import type { PendingSignIn } from './pending-sign-ins.ts';
-import { faultText, finishFault } from './provider-fault.ts';
-import { SignInRefusedError } from './refused.ts';
+import { faultText, finishFault, SignInRefusedError } from './provider-fault.ts';
 import type { Claims } from './rules.ts';
 
 export interface ProviderOptions {

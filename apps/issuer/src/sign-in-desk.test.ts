@@ -4,13 +4,12 @@ import { parseSignInAnswer, signInAddress } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { beforeEach, describe, expect, it } from 'vitest';
 import { AddressLimiter } from './address-limiter.ts';
-import { isAllowedPage } from './allowed-pages.ts';
 import { BrowserCookie } from './browser-cookie.ts';
 import { consentPage, consentPolicy } from './consent-page.ts';
 import { SIGN_IN_TIME_MS } from './pending-sign-ins.ts';
 import type { SignedIn } from './provider.ts';
-import { SignInRefusedError } from './refused.ts';
-import { type DeskOptions, type Reply, SignInDesk } from './sign-in-desk.ts';
+import { SignInRefusedError } from './provider-fault.ts';
+import { type DeskOptions, isAllowedPage, type Reply, SignInDesk } from './sign-in-desk.ts';
 
 const issuer = await makeIssuer();
 const keys = await parseGrantKeys(JSON.stringify({ keys: [issuer.publicJwk] }));

@@ -8,14 +8,22 @@ import {
   signInAnswerHash,
 } from '@farpoint/protocol';
 import { AddressLimiter } from './address-limiter.ts';
-import { isAllowedPage } from './allowed-pages.ts';
 import type { Consent } from './consent-page.ts';
 import { type GrantTerms, grantFor } from './grant-for.ts';
 import { PendingSignIns } from './pending-sign-ins.ts';
 import { type Person, personOf } from './person.ts';
 import type { Provider } from './provider.ts';
-import { SignInRefusedError } from './refused.ts';
+import { SignInRefusedError } from './provider-fault.ts';
 import { type Rule, ruleFor } from './rules.ts';
+
+/** By its exact address, but for the query, in which the page keeps what it shows. */
+export function isAllowedPage(pages: readonly string[], address: string): boolean {
+  const { origin, pathname } = new URL(address);
+  return pages.some((each) => {
+    const page = new URL(each);
+    return page.origin === origin && page.pathname === pathname;
+  });
+}
 
 /** All sign-ins that have begun, of all addresses. */
 const MOST_PENDING = 4096;

@@ -2,7 +2,7 @@
 import type { DriveLimits, Intervention } from '@farpoint/protocol';
 import type { RobotCounters } from './ground/robot-counters.ts';
 import { type Drive, type DriveOptions, type DriveParts, openDrive } from './motion/open-drive.ts';
-import type { HeardOperator } from './motion/return/newest-heard.ts';
+import type { HeardOperator } from './motion/return/return-station.ts';
 import type { RobotOptions } from './program/robot-configuration.ts';
 import { type KeptOperator, PathKeeper, type PathKeeperOptions } from './serve/session/path-keeper.ts';
 import {

@@ -1,8 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { CHAIN_START, MAX_LINE_BYTES, makeEntry, readEntry } from './audit-entry.ts';
+import { CHAIN_START, MAX_LINE_BYTES, makeEntry, readEntry, shortHash } from './audit-entry.ts';
 import { canonicalJson, type JsonValue } from './canonical-json.ts';
-import { shortHash } from './short-hash.ts';
 import { chainOf, EVENTS } from './testing/chain.ts';
 
 /** Any code points. `fc.string` with the unit `binary` takes seconds to begin. */

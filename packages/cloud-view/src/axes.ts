@@ -2,7 +2,7 @@
  * The one place where axes are converted. REP-103 world: x forward, y left, z up. three.js: x right, y up, z back, so
  * that x₃ = −y, y₃ = z, z₃ = −x.
  */
-import { Matrix4, type Quaternion, Vector3 } from 'three';
+import { Group, Matrix4, type Quaternion, Vector3 } from 'three';
 
 /** Converts world coordinates to three's; the matrix of the root group of everything in the robot's world. */
 export function worldToThree(): Matrix4 {
@@ -21,4 +21,14 @@ export function opticalYaw(q: Pick<Quaternion, 'x' | 'y' | 'z' | 'w'>, fallback:
   const x = 2 * (q.x * q.z + q.w * q.y);
   const y = 2 * (q.y * q.z - q.w * q.x);
   return Math.hypot(x, y) < 1e-3 ? fallback : Math.atan2(y, x);
+}
+
+/** The robot's world in a three.js scene. Children are placed in metres, by REP-103 (x forward, y left, z up). */
+export class RobotWorld extends Group {
+  /** Creates an empty group. Its matrix converts the robot's axes to three's, and three does not update it. */
+  constructor() {
+    super();
+    this.matrixAutoUpdate = false;
+    this.matrix.copy(worldToThree());
+  }
 }

@@ -18,3 +18,10 @@ export function writePose(
   position.set(component(0), component(1), component(2), w);
   orientation.set(component(3), component(4), component(5), component(6));
 }
+
+/** Turns a vector by a unit quaternion, in GLSL. */
+export const ROTATE = /* glsl */ `
+vec3 rotate(vec4 q, vec3 v) {
+  return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
+}
+`;

@@ -13,20 +13,20 @@ import type {
 import { BufferGeometry, Points, type RawShaderMaterial, Sphere, Vector3, type WebGLRenderer } from 'three';
 import { writePose } from './batch-pose.ts';
 import type { CloudColouring } from './cloud-colouring.ts';
+import { freshnessAt } from './cloud-colouring.ts';
 import type { CloudPaint } from './cloud-paint.ts';
 import type { CloudSource, CloudViewOptions } from './cloud-source.ts';
 import { CloudSurface } from './cloud-surface.ts';
 import { type DrawnPoints, type FramePose, readDrawnPoints } from './drawn-points.ts';
 import { FrameWindow } from './frame-window.ts';
-import { freshnessAt } from './freshness.ts';
 import { GpuCompletion } from './gpu-completion.ts';
 import { PointColouring } from './point-colouring.ts';
 import { createPointMaterial, spacingPerMetre } from './point-material.ts';
 import { PointRing } from './point-ring.ts';
+import { viewportHeightOf } from './renderer-facts.ts';
 import { featuresOf, setFeatures } from './shader-features.ts';
 import { TileSampler } from './tile-sampler.ts';
 import { type UploadEvents, uploadPoints } from './upload-points.ts';
-import { viewportHeightOf } from './viewport-height.ts';
 import { WaitingBatches } from './waiting-batches.ts';
 
 const FIRST_CAPACITY = 1 << 19;

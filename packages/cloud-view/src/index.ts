@@ -4,7 +4,7 @@
  * @module cloud-view
  */
 export { bodyYaw } from '@farpoint/protocol';
-export { opticalYaw, worldToThree } from './axes.ts';
+export { opticalYaw, RobotWorld, worldToThree } from './axes.ts';
 export {
   type CloudColouring,
   COLOUR_MODES,
@@ -24,10 +24,9 @@ export type { DrawnPoints, FramePose } from './drawn-points.ts';
 export { GpuCompletion } from './gpu-completion.ts';
 export { DROP_TINT, type Hazards, HIT_TINT } from './hazards.ts';
 export { type MemorySource, MemoryView } from './memory-view.ts';
+export { isSoftwareRenderer } from './renderer-facts.ts';
 export { RING_COLOURS, ringColours } from './ring-colours.ts';
-export { RobotWorld } from './robot-world.ts';
 export type { SceneFigures } from './scene-estimate.ts';
-export { isSoftwareRenderer } from './software-renderer.ts';
 export { LIT_AMBIENT } from './surface-normal.ts';
 export { type Stride, strideFor } from './tile-geometry.ts';
 export { WorstGap } from './worst-gap.ts';

@@ -19,8 +19,8 @@ import type { HeightCut } from './cloud-colouring.ts';
 import { type Hazards, setHazards } from './hazards.ts';
 import { createMemoryMaterial } from './memory-material.ts';
 import { MemoryTexture } from './memory-texture.ts';
+import { viewportHeightOf } from './renderer-facts.ts';
 import { featuresOf, setFeatures, UNLIMITED_M } from './shader-features.ts';
-import { viewportHeightOf } from './viewport-height.ts';
 
 const { pages: PAGES, pageSurfels, chunkM, ageUnitS, clockStartS } = MEMORY_LAYOUT;
 const PLACE = 4;

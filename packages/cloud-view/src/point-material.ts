@@ -7,14 +7,14 @@
  * metres: the distance between neighbouring samples at depth z. k is the angle between neighbours, so that points just
  * close their gaps at any resolution, eye and density of the frame. m keeps the nearest points from vanishing.
  */
-import { type DataTexture, GLSL3, RawShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
+import { DataTexture, GLSL3, RawShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
+import { ROTATE } from './batch-pose.ts';
 import { colourStops } from './colour-map.ts';
 import { COLOUR_FUNCTIONS, COLOUR_UNIFORMS } from './colour-shader.ts';
 import { MAX_RUNS, RUN_FIELDS } from './frame-window.ts';
 import { HAZARD_FUNCTION, HAZARD_UNIFORMS } from './hazard-shader.ts';
 import { type HazardUniforms, hazardUniforms } from './hazards.ts';
-import { ROTATE } from './pose-shader.ts';
-import { ringTexture } from './ring-texture.ts';
+import { RING_TEXELS } from './ring-table.ts';
 import { HEIGHT_CUT_FUNCTION, UNLIMITED_M } from './shader-features.ts';
 
 /** m: metres added to every point's size. */
@@ -165,4 +165,9 @@ export function createPointMaterial(): { material: RawShaderMaterial; uniforms: 
  */
 export function spacingPerMetre(points: number, imageExtent: number, cover: number): number {
   return points > 0 ? (cover * imageExtent) / Math.sqrt(points) : 0;
+}
+
+/** The ring table (ring-table.ts) for the shader: one row of bytes R, G, B, A, never interpolated. */
+export function ringTexture(): DataTexture {
+  return new DataTexture(new Uint8Array(RING_TEXELS * 4), RING_TEXELS, 1);
 }

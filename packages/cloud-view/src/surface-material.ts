@@ -12,10 +12,10 @@
  * Where the camera's own picture is there (surface-paint.ts), it takes the place of the samples' colours.
  */
 import { type ExternalTexture, GLSL3, RawShaderMaterial, Vector2, Vector4 } from 'three';
+import { ROTATE } from './batch-pose.ts';
 import { COLOUR_FUNCTIONS, COLOUR_UNIFORMS, FADED } from './colour-shader.ts';
 import { HAZARD_FUNCTION, HAZARD_UNIFORMS } from './hazard-shader.ts';
 import type { PointUniforms } from './point-material.ts';
-import { ROTATE } from './pose-shader.ts';
 import { HEIGHT_CUT_FUNCTION } from './shader-features.ts';
 import { NORMAL_FUNCTIONS } from './surface-normal.ts';
 import { TILE_VERTICES } from './tile-geometry.ts';

@@ -10,3 +10,8 @@ export const gstPipelineSchema = z.strictObject({
     .max(8000, 'must have at most 8000 characters')
     .refine((text) => !text.includes('\0'), 'must not contain a zero byte'),
 });
+
+/** GStreamer's messages name addresses, and those may contain a password. */
+export function withoutPasswords(text: string): string {
+  return text.replaceAll(/(\w+:\/\/)[^/?#\s"]*@/g, '$1…@');
+}

@@ -1,4 +1,4 @@
-export { gstPipelineSchema } from './gst-pipeline.ts';
+export { gstPipelineSchema, withoutPasswords } from './gst-pipeline.ts';
 export { type Child, KeptChild, type Retry } from './kept-child.ts';
 export { type ChildEnd, MediaChild, type MediaChildEvents } from './media-child.ts';
 export { mediaEnvironment } from './media-environment.ts';
@@ -13,4 +13,3 @@ export {
   writeMessage,
   writeOpen,
 } from './wire-messages.ts';
-export { withoutPasswords } from './without-passwords.ts';

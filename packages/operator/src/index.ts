@@ -124,7 +124,7 @@ export { RobotModel } from './session/robot-model.ts';
 export type { RobotSession } from './session/robot-session.ts';
 export type { SessionPhase } from './session/session-keeper.ts';
 export { finalLosses, lossOf, type SessionLoss } from './session/session-loss.ts';
-export type { SignalingState } from './signaling/signaling-state.ts';
+export type { SignalingState } from './signaling/operator-signaling.ts';
 export { isPrivateAddress, parseSignalingUrl, type SignalingAddress } from './signaling/signaling-url.ts';
 export type { PlayedSound, RobotSound, VoiceStatus } from './sound/robot-sound.ts';
 export type { VoiceFailure, VoiceFailureReason } from './sound/voice-failure.ts';
@@ -133,5 +133,4 @@ export type { StreamStatistics, StreamStats } from './statistics/stream-statisti
 export type { StopDelivery, StopStatus } from './stop/stop-delivery.ts';
 export type { VideoTrack } from './video/video-track.ts';
 export { RobotWatcher, type RobotWatcherOptions } from './watch/robot-watcher.ts';
-export type { WatchEvents } from './watch/watch-events.ts';
-export type { WatchObstacle, WatchPhase, WatchState } from './watch/watch-state.ts';
+export type { WatchEvents, WatchObstacle, WatchPhase, WatchState } from './watch/watch-state.ts';

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { decodeBandwidth, encodeBandwidth } from './bandwidth.ts';
+import { decodeBandwidth, decodeStreamSwitch, encodeBandwidth } from './bandwidth.ts';
 import { ProtocolError } from './errors.ts';
 import { readVectors } from './testing/vectors.ts';
 
@@ -51,4 +51,13 @@ test('any bytes give a rate or a ProtocolError', () => {
     }),
     { seed: 2, numRuns: 500 },
   );
+});
+
+test('start and stop', () => {
+  expect(decodeStreamSwitch('start')).toBe('start');
+  expect(decodeStreamSwitch('stop')).toBe('stop');
+});
+
+test.each(['', 'Start', 'stop ', 'pause', '{"type":"stop"}'])('refuses %j', (text) => {
+  expect(() => decodeStreamSwitch(text)).toThrow(ProtocolError);
 });

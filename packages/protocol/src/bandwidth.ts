@@ -29,3 +29,12 @@ export function decodeBandwidth(data: ArrayBuffer | Uint8Array): number {
   if (value < 0) throw new ProtocolError('invalid', what, '', `negative bit rate ${value}`);
   return value;
 }
+
+/** Text messages with which an operator starts and pauses the robot's stream of points. */
+export type StreamSwitch = 'start' | 'stop';
+
+/** @throws {ProtocolError} for any other text */
+export function decodeStreamSwitch(text: string): StreamSwitch {
+  if (text === 'start' || text === 'stop') return text;
+  throw new ProtocolError('invalid', 'stream switch', '', "neither 'start' nor 'stop'");
+}

@@ -1,12 +1,12 @@
 export * from './alarm.ts';
 export * from './bandwidth.ts';
+export * from './bandwidth.ts';
 export * from './barcode-time.ts';
 export * from './broadcast.ts';
 export * from './capture-stamp.ts';
 export * from './channels.ts';
 export * from './clock-offset.ts';
 export * from './cloud-format.ts';
-export * from './cloud-media.ts';
 export * from './cloud-payload.ts';
 export * from './colour664.ts';
 export * from './control.ts';
@@ -19,7 +19,6 @@ export * from './interventions.ts';
 export * from './json.ts';
 export * from './latency-barcode.ts';
 export * from './latency-barcode-reader.ts';
-export * from './loopback.ts';
 export {
   MAP_TILE,
   MAX_MAP_SIDE,
@@ -51,13 +50,15 @@ export * from './picture-file.ts';
 export * from './placement.ts';
 export { MAX_PATH_POINTS, MAX_PLACE_M, type PlannedPath } from './planned-path.ts';
 export * from './point-packet.ts';
+export * from './point-packet.ts';
 export * from './points64.ts';
 export * from './pose-algebra.ts';
+export * from './present-operators.ts';
 export { MAX_LISTED_OPERATORS, type Operators, type PresentOperator } from './present-operators.ts';
 export * from './quantity.ts';
 export * from './reading.ts';
 export * from './reference-bridge.ts';
-export * from './reference-control.ts';
+export * from './reference-bridge.ts';
 export * from './return-state.ts';
 export type { BodyHeights, RobotBody } from './robot-body.ts';
 export {
@@ -72,19 +73,18 @@ export {
   type ModelShape,
   type RobotModelParts,
 } from './robot-model.ts';
-export * from './role.ts';
 export { MAX_RINGS, type SensorRings } from './sensor-rings.ts';
 export * from './sequence.ts';
 export { operatorSessionCodec, robotSessionCodec } from './session-codecs.ts';
 export * from './session-messages.ts';
 export * from './session-requests.ts';
 export * from './sign-in.ts';
+export * from './sign-in.ts';
+export * from './signaling/farpoint.ts';
 export * from './signaling/farpoint.ts';
 export * from './signaling/reference.ts';
-export * from './signaling/robot-list.ts';
 export * from './signaling/signaling-endpoint.ts';
 export * from './sound-media.ts';
-export * from './stream-switch.ts';
 export * from './telemetry.ts';
 export * from './unorganised-stream.ts';
 export * from './video-media.ts';

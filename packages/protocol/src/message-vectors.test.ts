@@ -5,7 +5,7 @@ import { broadcastCodec } from './broadcast.ts';
 import { clockAnswerCodec, commandRejections, operatorControlCodec, robotControlCodec } from './control.ts';
 import { ProtocolError } from './errors.ts';
 import { decodeJson, encodeJson, encodeJsonBytes, type JsonCodec, type MessageData } from './json.ts';
-import { referenceControlCodec } from './reference-control.ts';
+import { referenceControlCodec } from './reference-bridge.ts';
 import { operatorSessionCodec, robotSessionCodec } from './session-codecs.ts';
 import { faultReasons } from './session-messages.ts';
 import {

@@ -1,7 +1,19 @@
 /** Who has a session with the robot. */
 import * as z from 'zod/mini';
 import { displayNameSchema, uint32Schema } from './identifiers.ts';
-import { type Role, roles } from './role.ts';
+
+/** What an operator's grant lets it do. Everybody may latch the emergency stop. */
+export const roles = [
+  'watch', // see, and nothing that moves the robot
+  'drive', // also take the lease and drive
+  'supervise', // also take the lease from whoever has it, and release any emergency stop
+] as const;
+/**
+ * What an operator's grant lets it do.
+ *
+ * @useDeclaredType
+ */
+export type Role = (typeof roles)[number];
 
 /** So many fit into a message, however long their names are. */
 export const MAX_LISTED_OPERATORS = 16;

@@ -3,7 +3,7 @@
  * telemetry (8090); frames (8095) are N × 3 int16 coordinates, then N × u16 colours, little-endian, without a header.
  */
 import * as z from 'zod/mini';
-import { twistSchema } from './geometry.ts';
+import { type Twist, twistSchema } from './geometry.ts';
 import type { JsonCodec } from './json.ts';
 
 const robotId = z.int().check(z.minimum(0), z.maximum(0xffffffff));
@@ -42,5 +42,15 @@ export const referenceBridgeToPageCodec: JsonCodec<ReferenceBridgeToPage> = {
 export const referenceBridgeTelemetryCodec: JsonCodec<ReferenceBridgeTelemetry> = {
   what: 'reference command from page to bridge',
   schema: bridgeTelemetry,
+  maxBytes: 1024,
+};
+
+/**
+ * The reference system's control message: a bare twist, UTF-8 JSON sent as a binary message. `linear.z ≠ 0` requests a
+ * latency-test frame and is no motion.
+ */
+export const referenceControlCodec: JsonCodec<Twist> = {
+  what: 'reference control message',
+  schema: z.object(twistSchema.shape),
   maxBytes: 1024,
 };

@@ -7,10 +7,9 @@ import { displayNameSchema, handleSchema, robotIdSchema, uint32Schema } from './
 import type { JsonCodec } from './json.ts';
 import { MAX_CAMERAS } from './picture-chunk.ts';
 import { MAX_SENSORS } from './placement.ts';
-import { operatorsSchema } from './present-operators.ts';
+import { operatorsSchema, roles } from './present-operators.ts';
 import { quantitySchema } from './quantity.ts';
 import { robotModelSchema } from './robot-model.ts';
-import { roles } from './role.ts';
 import { sensorRingsSchema, sensorSchema } from './sensor-rings.ts';
 import {
   afterGapChoices,

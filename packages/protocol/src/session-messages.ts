@@ -4,11 +4,10 @@
 import type { Alarm } from './alarm.ts';
 import type { CloudFormat } from './cloud-format.ts';
 import type { CommandRejection } from './control.ts';
-import type { Operators } from './present-operators.ts';
+import type { Operators, Role } from './present-operators.ts';
 import type { Quantity } from './quantity.ts';
 import type { RobotBody } from './robot-body.ts';
 import type { RobotModelParts } from './robot-model.ts';
-import type { Role } from './role.ts';
 import type { SensorRings } from './sensor-rings.ts';
 import type { MicrophoneState, VoiceState } from './sound-media.ts';
 import type { Videos } from './video-media.ts';

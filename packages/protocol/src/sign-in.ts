@@ -4,7 +4,6 @@
  */
 import * as z from 'zod/mini';
 import { handleSchema } from './identifiers.ts';
-import { isLoopbackHost } from './loopback.ts';
 
 /** Characters. */
 export const MAX_SIGN_IN_URL = 512;
@@ -99,4 +98,15 @@ export function parseSignInAnswer(hash: string): SignInAnswer | null {
   if (grant !== null) return { grant, state };
   const error = signInErrors.find((each) => each === members.get('sign-in-error'));
   return error === undefined ? null : { error, state };
+}
+
+const LOOPBACK = /^(?:localhost|127(?:\.\d{1,3}){3}|::1|\[::1\])$/;
+
+/**
+ * Whether an address stays within this machine.
+ *
+ * @param host a host name or an IP address, as one writes it or as `URL.hostname` has it; no other name of this machine
+ */
+export function isLoopbackHost(host: string): boolean {
+  return LOOPBACK.test(host);
 }

@@ -1,7 +1,7 @@
 import { type FileHandle, open } from 'node:fs/promises';
 import { crc32, constants as zlib, zstdCompressSync } from 'node:zlib';
 import { McapRecordBuilder, type McapTypes } from '@mcap/core';
-import { timeRange } from './time-range.ts';
+import { timeRange } from './mcap-indexed.ts';
 
 /** A chunk is written once it has this many bytes. */
 const CHUNK_BYTES = 1024 * 1024;

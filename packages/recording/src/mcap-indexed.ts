@@ -4,7 +4,6 @@ import { detailOf, RecordingError } from './errors.ts';
 import type { FileBytes } from './file-bytes.ts';
 import { topicsOf } from './mcap-topics.ts';
 import type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
-import { timeRange } from './time-range.ts';
 
 /** Size of the cache of index entries, so that a seek does not read them again. */
 const INDEX_CACHE_BYTES = 16 * 1024 * 1024;
@@ -123,4 +122,14 @@ export function asRecordingError(error: unknown, { path, lastOffset }: FileBytes
   if (error instanceof RecordingError && error.offset !== undefined) return error;
   const code = error instanceof RecordingError ? error.code : 'damaged';
   return new RecordingError(code, detailOf(error), { file: path, offset: lastOffset, cause: error });
+}
+
+/** The earliest and the latest time, 0 if there are none; bigint has no `Math.min`. */
+export function timeRange(times: Iterable<bigint>): { first: bigint; last: bigint } {
+  let [first, last]: [bigint | null, bigint | null] = [null, null];
+  for (const time of times) {
+    if (first === null || time < first) first = time;
+    if (last === null || time > last) last = time;
+  }
+  return { first: first ?? 0n, last: last ?? 0n };
 }

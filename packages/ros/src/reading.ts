@@ -5,7 +5,7 @@ import { levelOf } from './diagnostic-board.ts';
 import { batteryDetailsSchema, diagnosticArraySchema, navSatFixSchema, stampNs } from './messages.ts';
 import type { NavigationNews } from './navigation-news.ts';
 import type { TopicEntry, TopicRole } from './topic-table.ts';
-import type { JointNews, ModelNews } from './urdf/model-news.ts';
+import type { JointNews, ModelNews } from './urdf/read-urdf.ts';
 
 /** As it is sent, without its age, and what else the message says. */
 export interface TopicReading extends Pick<Reading, 'topic' | 'label' | 'level' | 'values'> {

@@ -1,6 +1,14 @@
-import type { PacketResult } from './packet-result.ts';
 import { SentPacketHistory } from './sent-packet-history.ts';
 import type { TransportFeedback } from './transport-feedback.ts';
+
+/** What became of one packet, according to transport-wide feedback. */
+export interface PacketResult {
+  transportSequence: number;
+  bytes: number;
+  sentMs: number;
+  /** The receiver's clock, µs, continuous across feedback messages; only differences are meaningful. `null`: lost. */
+  arrivalUs: number | null;
+}
 
 /** The reference time has 24 bits, in units of 64 ms. */
 const REFERENCE_WRAP_US = 2 ** 24 * 64_000;

@@ -8,16 +8,23 @@ import {
   type Twist,
   zeroTwist,
 } from '@farpoint/protocol';
+import type { CommandGateOptions } from './command-gate.ts';
 import { CommandGate, type CommandVerdict, type RejectedCommand, WITHOUT_WHEELS } from './command-gate.ts';
-import type { DriveGuardOptions } from './drive-guard-options.ts';
 import { EstopLatch, type EstopSource } from './estop.ts';
 import { type EstopReleaseOutcome, type EstopReleasePolicy, releaseEstop } from './estop-release.ts';
+import type { LeaseOptions } from './lease.ts';
 import { type LeaseOutcome, LeaseTable } from './lease.ts';
 import { copyTwist } from './limits.ts';
 import { OperatorView } from './motion/operator-view.ts';
 import { SentViews } from './motion/sent-views.ts';
 import type { RobotStop } from './robot-stop.ts';
 import { Watchdog } from './watchdog.ts';
+
+export interface DriveGuardOptions extends LeaseOptions, CommandGateOptions {
+  limits: DriveLimits;
+  /** Who may release what an operator has latched; default `driver`. */
+  estopRelease?: EstopReleasePolicy | undefined;
+}
 
 /**
  * Everything between the operators' messages and the robot's wheels. All times are the robot's monotonic clock in ms.

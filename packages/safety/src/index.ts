@@ -1,6 +1,6 @@
 export * from './command-gate.ts';
+export type * from './drive-guard.ts';
 export * from './drive-guard.ts';
-export type * from './drive-guard-options.ts';
 export * from './estop.ts';
 export * from './estop-release.ts';
 export * from './geofence/index.ts';

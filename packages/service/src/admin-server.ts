@@ -1,8 +1,7 @@
 import { createServer, type IncomingMessage, type ServerResponse } from 'node:http';
-import type { AddressInfo } from 'node:net';
+import type { AddressInfo, Server } from 'node:net';
 import { collectDefaultMetrics, Registry } from 'prom-client';
 import type { Health } from './health.ts';
-import { listen } from './listen.ts';
 import { ownNames, refusesHost } from './own-names.ts';
 
 export { Counter, Gauge, Histogram, Registry } from 'prom-client';
@@ -117,4 +116,15 @@ function reply(
     ...headers,
   });
   response.end(request.method === 'HEAD' ? undefined : body);
+}
+
+/** Resolves once a server listens. @throws {Error} if it cannot, for example EADDRINUSE */
+export function listen(server: Server, address: { host: string; port: number }): Promise<void> {
+  return new Promise((resolve, reject) => {
+    server.once('error', reject);
+    server.listen(address.port, address.host, () => {
+      server.off('error', reject);
+      resolve();
+    });
+  });
 }

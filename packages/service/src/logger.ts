@@ -2,7 +2,7 @@ import { type DestinationStream, destination, type Logger, pino } from 'pino';
 import { isJournal, toJournal } from './journal.ts';
 import { formatLogLine } from './log-format.ts';
 import type { CommonValues } from './option-table.ts';
-import { withoutCredentials } from './without-credentials.ts';
+import { withoutCredentials } from './secret.ts';
 
 export type { Logger } from 'pino';
 

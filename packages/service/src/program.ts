@@ -18,9 +18,9 @@ import {
   type ProgramDefinition,
 } from './option-table.ts';
 import { resolveOptions } from './options.ts';
+import { withoutCredentials } from './secret.ts';
 import { Shutdown } from './shutdown.ts';
 import { startFailureOf } from './start-failure.ts';
-import { withoutCredentials } from './without-credentials.ts';
 
 /** What the framework provides to a running program. */
 export interface ProgramContext<Table extends OptionTable> {

@@ -1,5 +1,5 @@
 import type { OptionTable } from './option-table.ts';
-import { withoutCredentials } from './without-credentials.ts';
+import { withoutCredentials } from './secret.ts';
 
 type Json = null | boolean | number | string | readonly Json[] | { readonly [key: string]: Json };
 

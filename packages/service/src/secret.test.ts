@@ -3,8 +3,7 @@ import fc from 'fast-check';
 import { expect, it } from 'vitest';
 import { createLogger } from './logger.ts';
 import * as schema from './option-schemas.ts';
-import { Secret } from './secret.ts';
-import { withoutCredentials } from './without-credentials.ts';
+import { Secret, withoutCredentials } from './secret.ts';
 
 it('a secret is shown by nothing but its own word', () => {
   const secret = new Secret('hunter2');

@@ -27,3 +27,14 @@ export class Secret {
     return SHOWN;
   }
 }
+
+/** User name and password in a URL (RFC 3986, 3.2.1), in text or in JSON. The last `@` before the path ends them. */
+const USER_INFO = /(\/\/)[^/?#\s"'\\<>]*@/g;
+/** Parameters of a query that are as good as a password. */
+const QUERY = /([?&](?:[a-z_-]*token|api_?key|key|password|passwd|pwd|secret|credential)=)[^&#\s"'\\<>]+/gi;
+
+/** A text, whose URLs are shown without user names, passwords and tokens. */
+export function withoutCredentials(text: string): string {
+  if (!text.includes('//') && !text.includes('=')) return text;
+  return text.replaceAll(USER_INFO, '$1…@').replaceAll(QUERY, '$1…');
+}

@@ -1,5 +1,5 @@
 /** Files that an option names and that hold text: an empty one is a mistake, never the same as none. */
-import { readFileSync } from 'node:fs';
+import { readFileSync, renameSync, writeFileSync } from 'node:fs';
 import { fileFault, systemErrorOf } from './system-error.ts';
 
 /** The file holds no text that can be used. The message completes a sentence that begins with the option. */
@@ -51,4 +51,16 @@ export function textOfFile(path: string, bytes: Uint8Array): string {
 /** The text without a byte order mark before it. */
 export function withoutMark(text: string): string {
   return text.startsWith(BYTE_ORDER_MARK) ? text.slice(1) : text;
+}
+
+/**
+ * Replaces a file at once: a reader finds either the old text or the new one, also after a loss of power.
+ *
+ * @param mode permissions of the new file
+ * @throws {Error} of the system
+ */
+export function replaceFile(path: string, text: string, mode: number): void {
+  const draft = `${path}.new`;
+  writeFileSync(draft, text, { mode, flush: true });
+  renameSync(draft, path);
 }

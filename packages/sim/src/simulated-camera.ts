@@ -2,9 +2,8 @@ import { type CameraIntrinsics, compose, multiply, type Pose } from '@farpoint/p
 import { type CameraOptions, type Images, StereoCamera, type WasmSource } from './camera.ts';
 import { SimulationError } from './errors.ts';
 import { type Part, STRIDE } from './figures.ts';
-import { BODY_TO_OPTICAL, fromYaw } from './quaternion.ts';
 import { compileScene } from './scene.ts';
-import { cos, sin } from './trigonometry.ts';
+import { BODY_TO_OPTICAL, cos, fromYaw, sin } from './trigonometry.ts';
 import type { WorldDescription } from './world.ts';
 import { type BodyPlace, basePose, type WorldSnapshot } from './world-snapshot.ts';
 

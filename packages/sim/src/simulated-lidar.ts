@@ -1,7 +1,7 @@
 import { compose, type Pose } from '@farpoint/protocol';
 import type { WasmSource } from './camera.ts';
-import { BODY_TO_OPTICAL } from './quaternion.ts';
 import { SimulatedCamera } from './simulated-camera.ts';
+import { BODY_TO_OPTICAL } from './trigonometry.ts';
 import type { WorldDescription } from './world.ts';
 import { basePose, type WorldSnapshot } from './world-snapshot.ts';
 

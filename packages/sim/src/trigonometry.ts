@@ -3,6 +3,8 @@
  * These functions, and with them the whole simulation, give the same bits everywhere.
  */
 
+import type { Quaternion } from '@farpoint/protocol';
+
 const HALF_PI = Math.PI / 2;
 
 /** Taylor polynomials, accurate to 1e-16 for |x| ≤ π/4. */
@@ -54,3 +56,11 @@ export function wrapAngle(x: number): number {
   const wrapped = x - 2 * Math.PI * Math.round(x / (2 * Math.PI));
   return wrapped <= -Math.PI ? wrapped + 2 * Math.PI : wrapped;
 }
+
+/** A rotation by `yaw` about z. */
+export function fromYaw(yaw: number): Quaternion {
+  return { x: 0, y: 0, z: sin(yaw / 2), w: cos(yaw / 2) };
+}
+
+/** From a body frame (x forward, y left, z up) to its optical frame (z forward, x right, y down), REP-103. */
+export const BODY_TO_OPTICAL: Quaternion = { x: -0.5, y: 0.5, z: -0.5, w: 0.5 };

@@ -1,5 +1,5 @@
 import type { Pose } from '@farpoint/protocol';
-import { fromYaw } from './quaternion.ts';
+import { fromYaw } from './trigonometry.ts';
 
 /** Position of a person or cart, and the distance it has walked, which determines its gait. */
 export interface BodyPlace {

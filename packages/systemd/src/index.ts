@@ -1,2 +1,1 @@
-export { loadSend, type Send } from './addon.ts';
-export { Notifier, type NotifyOrder, notifyOrder } from './notifier.ts';
+export { loadSend, Notifier, type NotifyOrder, notifyOrder, type Send } from './notifier.ts';

@@ -3,8 +3,7 @@ import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { loadSend, type Send } from './addon.ts';
-import { Notifier, notifyOrder } from './notifier.ts';
+import { loadSend, Notifier, notifyOrder, type Send } from './notifier.ts';
 
 describe('what systemd expects', () => {
   it.each([

@@ -1,6 +1,6 @@
 import type { Attack, Layer } from './attack.ts';
 import { inTime, NotTriedError } from './harm.ts';
-import { Tally } from './repeat/tally.ts';
+import { Tally } from './repeat/repeated.ts';
 import { Scene } from './scene.ts';
 
 export type Outcome = 'held' | 'harmed' | 'not tried';

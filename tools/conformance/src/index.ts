@@ -1,5 +1,4 @@
 export * from './exchange.ts';
-export * from './finding.ts';
 export * from './frames.ts';
 export * from './known-defects.ts';
 export * from './offer-rules.ts';
@@ -9,6 +8,7 @@ export * from './peers/reference-operator.ts';
 export * from './peers/reference-robot.ts';
 export * from './peers/socket-peer.ts';
 export * from './reach.ts';
+export * from './rtp-rules.ts';
 export * from './rtp-rules.ts';
 export * from './suites/bridge-suite.ts';
 export * from './suites/robot-suite.ts';

@@ -1,6 +1,6 @@
 /** What a robot's SDP offer must contain (docs/protocol.md, "In RTP"). Text in, findings out. */
 import { sdpLines, sdpSections } from '@farpoint/reference-profile';
-import type { Finding } from './finding.ts';
+import type { Finding } from './rtp-rules.ts';
 
 const FEEDBACK = ['ccm fir', 'goog-remb', 'nack', 'nack pli', 'transport-cc'];
 const TRANSPORT_WIDE_CC = 'http://www.ietf.org/id/draft-holmer-rmcat-transport-wide-cc-extensions-01';

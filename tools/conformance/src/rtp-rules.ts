@@ -6,7 +6,14 @@ import {
   POINT_PACKET_HEADER_BYTES,
   readPointPacketHeader,
 } from '@farpoint/protocol';
-import type { Finding } from './finding.ts';
+
+/** A departure of an implementation from the reference profile. */
+export interface Finding {
+  /** Short name of the rule, for lists. */
+  rule: string;
+  /** For people: what was observed. */
+  detail: string;
+}
 
 export const RTP_HEADER_BYTES = 20;
 const MAX_FINDINGS = 100;

@@ -1,7 +1,6 @@
 import { existsSync } from 'node:fs';
-import { join } from 'node:path';
+import { delimiter, join } from 'node:path';
 import { type Browser, chromium, type LaunchOptions } from '@playwright/test';
-import { findProgram } from './find-program.ts';
 
 /** The command that installs a missing browser. */
 export const CHROMIUM_REMEDY = 'npx -y pnpm@12 --dir e2e exec playwright install --with-deps chromium';
@@ -83,4 +82,15 @@ export function chromiumLaunchOptions(executablePath = findChromium()): LaunchOp
 /** Starts the browser with {@link chromiumLaunchOptions}, for what is no Playwright test. */
 export function launchChromium(): Promise<Browser> {
   return chromium.launch(chromiumLaunchOptions());
+}
+
+/**
+ * Finds the first of these programs on PATH, else the first of the other places that exists.
+ *
+ * @returns its path, or `null`
+ */
+export function findProgram(names: readonly string[], otherPlaces: readonly string[] = []): string | null {
+  const folders = (process.env.PATH ?? '').split(delimiter);
+  const candidates = names.flatMap((name) => folders.map((folder) => join(folder, name)));
+  return [...candidates, ...otherPlaces].find((path) => existsSync(path)) ?? null;
 }

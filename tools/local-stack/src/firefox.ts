@@ -1,5 +1,5 @@
 import { existsSync } from 'node:fs';
-import { findProgram } from './find-program.ts';
+import { findProgram } from './chromium.ts';
 
 /** The command that installs a missing browser. */
 export const FIREFOX_REMEDY = 'apt-get install firefox-esr xvfb';

@@ -13,7 +13,7 @@ import {
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
-import { findProgram } from './find-program.ts';
+import { findProgram } from './chromium.ts';
 import { freePorts } from './free-port.ts';
 import { type JanusConfigurationOptions, janusConfiguration } from './janus-configuration.ts';
 import { reserveNumber } from './reserved-numbers.ts';

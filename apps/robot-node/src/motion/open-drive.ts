@@ -7,6 +7,7 @@ import type {
   LatencyMeasured,
   Twist,
 } from '@farpoint/protocol';
+import type { BlindTravelLimits, RampLimits, ViewAgeLimits } from '@farpoint/safety';
 import {
   BlindTravel,
   type CommandVerdict,
@@ -18,20 +19,30 @@ import {
 } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import { monotonicMs } from '../ground/clock.ts';
+import { LimitedLines } from '../ground/limited-lines.ts';
 import type { VelocitySink } from '../ground/velocity-sink.ts';
 import { BaseOdometry } from '../sense/base/base-odometry.ts';
 import { DriveStation } from './drive/drive-station.ts';
 import { EstopJournal } from './drive/estop-journal.ts';
-import { InterventionReport } from './drive/intervention-report.ts';
-import type { MotionLimits } from './drive/motion-limits.ts';
 import { MotionStatus } from './drive/motion-status.ts';
 import type { FixPosition } from './geofence/fix-position.ts';
 import { type FenceOptions, openGeofence } from './geofence/open-geofence.ts';
 import type { ObstacleStation } from './obstacles/obstacle-station.ts';
-import { type HeardOperator, newestHeardMs } from './return/newest-heard.ts';
-import type { ReturnConfiguration } from './return/return-configuration.ts';
-import { type ReturnAudit, ReturnStation } from './return/return-station.ts';
+import type { ReturnConfiguration } from './return/return-announcer.ts';
+import {
+  type HeardOperator,
+  newestHeardMs,
+  type ReturnAudit,
+  ReturnStation,
+} from './return/return-station.ts';
 import { isConfigured, type RobotStopsOptions } from './stops/open-stops.ts';
+
+/** How the robot's motion is bounded, by its configuration only. */
+export interface MotionLimits {
+  ramps: RampLimits;
+  /** What the driver must see; `null`: it may drive without seeing anything. */
+  view: (ViewAgeLimits & BlindTravelLimits) | null;
+}
 
 export interface DriveOptions {
   id: string;
@@ -193,4 +204,23 @@ function openJournal(
     );
   }
   return estop;
+}
+
+/** Logs and counts what bounds the robot's motion. A driver can bring it about without end, but not fill the log. */
+export class InterventionReport {
+  readonly #log: Logger;
+  readonly #count: (reason: Intervention) => void;
+  readonly #lines = new LimitedLines();
+
+  constructor(log: Logger, count: (reason: Intervention) => void) {
+    this.#log = log;
+    this.#count = count;
+  }
+
+  begins(reason: Intervention, nowMs: number): void {
+    this.#count(reason);
+    const leftOut = this.#lines.take(nowMs);
+    if (leftOut === null) return;
+    this.#log.info({ reason, ...(leftOut === 0 ? {} : { unreported: leftOut }) }, 'motion is bounded');
+  }
 }

@@ -5,7 +5,7 @@ import { fileURLToPath } from 'node:url';
 import { LoggingProcess } from '@farpoint/service/testing';
 import { testFolder } from '@farpoint/service/testing/folder';
 import { expect, it } from 'vitest';
-import { checkState } from './doctor/check-state.ts';
+import { checkState } from './doctor/check-files.ts';
 
 const program = fileURLToPath(new URL('../main.ts', import.meta.url));
 

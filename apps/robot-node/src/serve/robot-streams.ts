@@ -10,7 +10,7 @@ import type { FrameLog } from '../send/clouds/frame-log.ts';
 import { RobotSound } from '../send/sound/robot-sound.ts';
 import { SendLoop } from '../send/transport/send-loop.ts';
 import type { Capture } from '../sense/capture/capture.ts';
-import type { StreamMode } from '../sense/encode/stream-mode.ts';
+import type { StreamMode } from '../sense/encode/plan.ts';
 import type { PicturePolicy } from '../sense/pictures/picture-plan.ts';
 import { openSoundDevices, type SoundOptions } from '../sense/sound/open-sound-devices.ts';
 import type { VideoCamera } from '../sense/video/video-encoder.ts';

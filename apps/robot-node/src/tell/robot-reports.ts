@@ -5,8 +5,7 @@ import type { MotionStatus } from '../motion/drive/motion-status.ts';
 import type { SessionRecording } from './session-recording.ts';
 import { streamStatistics } from './stream-statistics.ts';
 import type { TelemetryBoard } from './telemetry-board.ts';
-import type { TelemetrySender } from './telemetry-sender.ts';
-import type { TelemetryTarget } from './telemetry-target.ts';
+import type { TelemetrySender, TelemetryTarget } from './telemetry-sender.ts';
 
 const TELEMETRY_MS = 50;
 const STATISTICS_MS = 100;

@@ -1,8 +1,19 @@
 /** The samples of quantities that wait to be sent. */
+
+import type { Alarm, DiagnosticReport } from '@farpoint/protocol';
 import { MAX_SAMPLES, type Quantity, type Sample, type Samples } from '@farpoint/protocol';
 import type { TopicEntry } from '@farpoint/ros';
 import { quantitiesOf } from '@farpoint/ros';
-import type { TelemetryTaker } from './telemetry-taker.ts';
+
+/** Takes what the robot tells about itself besides its state, for a recording. Times are of the robot's clock, ms. */
+export interface TelemetryTaker {
+  /** @param timeMs when it was measured */
+  sample(quantity: number, timeMs: number, value: number): void;
+  /** @param timeMs when it changed, or when it is repeated */
+  alarm(number: number, timeMs: number, alarm: Alarm): void;
+  /** @param reports of all components of the topic @param timeMs when the newest came */
+  diagnostics(topic: string, timeMs: number, reports: readonly DiagnosticReport[]): void;
+}
 
 interface Taken {
   number: number;

@@ -28,11 +28,11 @@ import type { ReadyPicture } from '../sense/pictures/picture-messages.ts';
 import type { CameraDescription } from '../sense/sources/frame-source.ts';
 import type { VideoCamera } from '../sense/video/video-encoder.ts';
 import type { EncodedPicture } from '../sense/video/video-frame.ts';
-import type { VideoTaker } from '../sense/video/video-taker.ts';
+import type { VideoTaker } from '../sense/video/video-hub.ts';
 import type { RecordedVideos, SessionOutputs } from './recording-options.ts';
 import { durationWords, recordingBytesPerSecond, sizeWords } from './recording-rate.ts';
+import type { TelemetryTaker } from './sample-board.ts';
 import type { StreamStatistics } from './stream-statistics.ts';
-import type { TelemetryTaker } from './telemetry-taker.ts';
 
 const HOSTS = { localhost: '127.0.0.1', network: '0.0.0.0' } as const;
 const MOST_VIEWERS = 8;

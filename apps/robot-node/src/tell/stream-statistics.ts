@@ -1,7 +1,7 @@
 import type { RateSnapshot } from '@farpoint/congestion';
 import type { TimedBaseState } from '../ground/base.ts';
 import type { RobotCounters } from '../ground/robot-counters.ts';
-import type { TelemetryTarget } from './telemetry-target.ts';
+import type { TelemetryTarget } from './telemetry-sender.ts';
 
 /** One operator's stream at one moment, for measurements. Totals count from the start of the session. */
 export interface StreamStatistics extends RateSnapshot {

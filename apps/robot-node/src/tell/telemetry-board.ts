@@ -12,8 +12,8 @@ import { ComponentBoard } from './component-board.ts';
 import { ModelBoard } from './model-board.ts';
 import { NavigationBoard } from './navigation-board.ts';
 import { ReadingBoard } from './reading-board.ts';
+import type { TelemetryTaker } from './sample-board.ts';
 import { SampleBoard } from './sample-board.ts';
-import type { TelemetryTaker } from './telemetry-taker.ts';
 
 /** What alarms can watch of the robot's own state, by the name in the configuration. */
 export const STATE_QUANTITIES = {

@@ -1,3 +1,4 @@
+import type { RobotSessionMessage, StageTimings, StreamStatus } from '@farpoint/protocol';
 import {
   encodeJson,
   type NearField,
@@ -11,9 +12,23 @@ import { BitRate } from '@farpoint/timing';
 import type { TimedBaseState } from '../ground/base.ts';
 import type { StageTimer } from '../ground/stage-timer.ts';
 import type { MotionStatus } from '../motion/drive/motion-status.ts';
-import { NearFieldRepeats } from './near-field-repeats.ts';
+import type { OperatorPeer } from '../send/transport/operator-peer.ts';
+import type { StreamSender } from '../send/transport/stream-sender.ts';
 import type { TelemetryBoard } from './telemetry-board.ts';
-import type { TelemetryTarget } from './telemetry-target.ts';
+
+/** An operator, as far as it is told what the robot does. */
+export interface TelemetryTarget {
+  /** Of its session. */
+  readonly id: string;
+  readonly peer: Pick<OperatorPeer, 'connected' | 'sendTelemetry'>;
+  readonly messages: { send(message: RobotSessionMessage): void };
+  /** `null` before it is connected. */
+  readonly sender: Pick<StreamSender, 'rate' | 'targetBitsPerSecond' | 'counters'> | null;
+  /** Frames that its pacer has dropped, entirely or in part. */
+  readonly droppedFrames: number;
+  /** @param captureStages the stages up to the encoded cloud */
+  status(captureStages: StageTimings, nowMs: number): { stages: StageTimings; stream: StreamStatus };
+}
 
 /** On a path that carries less, telemetry is sent less often, because it would take a fifth of the path. */
 const NARROW_BITS_PER_SECOND = BitRate.fromMbps(1);
@@ -115,5 +130,23 @@ export class TelemetrySender {
   #tellOfModel(nowMs: number): void {
     const reading = this.#board.model.reading(nowMs);
     if (reading !== null) this.#board.readings.add(reading, nowMs);
+  }
+}
+
+/** What has not changed is repeated this often, so that operators know that it is still so, ms. */
+const REPEAT_MS = 500;
+
+/** Leaves out what operators already know. */
+export class NearFieldRepeats {
+  #told = '';
+  #toldMs = Number.NEGATIVE_INFINITY;
+
+  /** @returns what is to be sent now; `null` if nothing */
+  next(near: NearField | null, nowMs: number): NearField | null {
+    if (near === null) return null;
+    if (near.sectors === this.#told && nowMs - this.#toldMs < REPEAT_MS) return null;
+    this.#told = near.sectors;
+    this.#toldMs = nowMs;
+    return near;
   }
 }

@@ -5,7 +5,13 @@ import { displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protoco
 import { type HeadsetSettings, parseHeadset } from './headset-settings.ts';
 import { parseTokens, type SignalingTokens, tokenOrigin, withToken } from './signaling-tokens.ts';
 import { type MapTiles, mapTilesOf } from './telemetry/map-tiles.ts';
-import { VIDEO_RECEIVERS, type VideoReceiverName } from './video-receiver-name.ts';
+
+/**
+ * `track`: the browser receives and decodes, and its track processor gives each frame. `native`: the browser receives and decodes, and tells when it shows another frame. `webcodecs`: a worker takes the
+ * encoded frames and decodes them.
+ */
+export const VIDEO_RECEIVERS = ['track', 'native', 'webcodecs'] as const;
+export type VideoReceiverName = (typeof VIDEO_RECEIVERS)[number];
 
 /** What the browser keeps between visits. */
 export interface StoredSettings {

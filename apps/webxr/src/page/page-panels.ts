@@ -26,7 +26,7 @@ import type { CloudAppearance } from '../state/cloud-appearance.ts';
 import type { PageState } from '../state/page-state.ts';
 import type { ReleaseHold } from '../take/drive/release-hold.ts';
 import type { SoundPlayer } from '../take/sound/sound-player.ts';
-import type { Words } from '../words/tone.ts';
+import type { Words } from '../words/words.ts';
 import type { PageViews } from './page-views.ts';
 
 export interface PagePanelsParts {

@@ -1,6 +1,6 @@
-import { computed, effect } from '@preact/signals-core';
-import { expect, test } from 'vitest';
-import { Sampler } from './sampler.ts';
+import { computed, effect, signal } from '@preact/signals-core';
+import { expect, it, test } from 'vitest';
+import { Sampler, steady } from './sampler.ts';
 
 test('reads its sources at each sample, also at two samples with the same time', () => {
   const samples = new Sampler();
@@ -36,4 +36,18 @@ test('notifies readers only of changes, and reads nothing without a reader', () 
   samples.take(2);
   samples.take(3);
   expect([reads, runs]).toEqual([3, 1]);
+});
+
+it('changes with the value, and not with the object that holds it', () => {
+  const source = signal<{ list: number[] } | null>({ list: [1] });
+  const seen: unknown[] = [];
+  const kept = steady(source);
+  effect(() => {
+    seen.push(kept.value);
+  });
+  source.value = { list: [1] };
+  source.value = { list: [2] };
+  source.value = null;
+  source.value = null;
+  expect(seen).toEqual([{ list: [1] }, { list: [2] }, null]);
 });

@@ -1,7 +1,7 @@
 /** Records how the robot obeys its driver, for measurements: one row for each of its telemetry messages. */
 import type { RobotClient } from '@farpoint/operator';
 import type { DriveState, Intervention } from '@farpoint/protocol';
-import { viewAgeMs } from '../words/view-age.ts';
+import { viewAgeMs } from '../words/motion-words.ts';
 
 export interface DriveRow {
   /** `performance.now()` when it came. */

@@ -1,6 +1,7 @@
 import { finalLosses } from '@farpoint/operator';
 import { describe, expect, it } from 'vitest';
-import { grantEndsWords, grantWords, obstacleOf } from './access-words.ts';
+import { grantWords, obstacleOf } from './access-words.ts';
+import { grantEndsWords } from './words.ts';
 
 const key = (letter: string) => letter.repeat(43);
 const changed = { robotId: 'r1', known: key('a'), shown: key('b'), byGrant: false };

@@ -2,7 +2,7 @@
 import type { ChangedRobotKey, GrantClaims, SessionLoss } from '@farpoint/operator';
 import type { Role, SignInError } from '@farpoint/protocol';
 import type { GrantFault } from '../ground/access/operator-access.ts';
-import type { Words } from './tone.ts';
+import type { Words } from './words.ts';
 
 export const roleWords: Record<Role, string> = {
   watch: 'may watch',
@@ -104,17 +104,4 @@ export function obstacleOf(
     default:
       return null;
   }
-}
-
-/** Grants that end sooner than this are spoken of, s. */
-const SOON_S = 60;
-
-/** @returns `null` unless the grant ends soon */
-export function grantEndsWords(leftMs: number | null): Words | null {
-  if (leftMs === null || leftMs > SOON_S * 1000) return null;
-  const seconds = Math.max(0, Math.ceil(leftMs / 1000));
-  return {
-    text: `Your grant ends in ${seconds} s. Then the robot stops and the session ends.`,
-    tone: 'warning',
-  };
 }

@@ -1,7 +1,9 @@
 /** What the robot says about its own bounds on motion, for people. */
+
+import type { RobotClient } from '@farpoint/operator';
 import type { Intervention, MotionState, Telemetry, Twist } from '@farpoint/protocol';
 import { returnWords } from './return-words.ts';
-import type { Words } from './tone.ts';
+import type { Words } from './words.ts';
 
 type Explain = (motion: MotionState) => string;
 
@@ -101,4 +103,14 @@ export const obstacleGuardWords: Readonly<Record<'off' | 'blind', Words>> = {
 function age(ms: number | undefined): string {
   if (ms === undefined) return 'some time';
   return ms < 1000 ? `${ms} ms` : `${(ms / 1000).toFixed(1)} s`;
+}
+
+/**
+ * Age of what the operator sees, ms: as the robot judges it while commands come, with the way to the robot and back;
+ * otherwise since the capture of the newest that is on the screen. `null` while nothing is seen.
+ */
+export function viewAgeMs({ link, seen }: Pick<RobotClient, 'link' | 'seen'>, nowMs: number): number | null {
+  const judgedMs = link.session.telemetry?.motion?.viewAgeMs;
+  if (judgedMs !== undefined) return judgedMs;
+  return seen.stampUs === null ? null : link.session.ageMs(seen.stampUs, nowMs);
 }

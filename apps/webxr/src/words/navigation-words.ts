@@ -2,7 +2,7 @@
 import type { AgedReading, RobotSession } from '@farpoint/operator';
 import { type MapView, mapView, type PathView, pathView } from '../ground/navigation/navigation-view.ts';
 import { type ShownReading, shownReading } from './shown-readings.ts';
-import type { Words } from './tone.ts';
+import type { Words } from './words.ts';
 
 /** The robot's readings; those of its navigator say how old what is drawn is. @param nowMs page's clock */
 export function readingsWithNavigation(

@@ -1,7 +1,7 @@
 /** What is near the robot, for people: metres from its edge, and the direction. */
 import { type NearHit, nearestHits, unseenDirections } from '../ground/near-field/directions.ts';
 import type { NearView } from '../ground/near-field/near-view.ts';
-import type { Tone, Words } from './tone.ts';
+import type { Tone, Words } from './words.ts';
 
 /** Nearer than this is very near, and near, metres. */
 export const VERY_NEAR_M = 0.35;

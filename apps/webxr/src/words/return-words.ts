@@ -1,6 +1,6 @@
 /** What a robot says that drives back by itself, for people. */
 import type { ReturnEnd, ReturnState } from '@farpoint/protocol';
-import type { Words } from './tone.ts';
+import type { Words } from './words.ts';
 
 const ends: Readonly<Record<ReturnEnd, string>> = {
   'service-back': 'until somebody was heard again',

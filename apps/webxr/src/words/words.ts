@@ -9,10 +9,14 @@ import {
   type StopStatus,
 } from '@farpoint/operator';
 import type { CommandRejection, DriveState, LeaseState, Role, Telemetry } from '@farpoint/protocol';
-import { grantEndsWords } from './access-words.ts';
-import type { Words } from './tone.ts';
 
-export type { Tone, Words } from './tone.ts';
+/** How urgent a text is: its colour. */
+export type Tone = 'good' | 'neutral' | 'warning' | 'bad';
+
+export interface Words {
+  text: string;
+  tone: Tone;
+}
 
 export const driveWords: Record<DriveState, Words> = {
   driving: { text: 'Driving', tone: 'good' },
@@ -260,4 +264,17 @@ export function vrUnavailable(facts: {
   if (!facts.secure) return 'VR needs https: open the page at its https address.';
   if (!facts.hasWebXr) return 'This browser has no WebXR. To use VR, open the page in a headset’s browser.';
   return 'No headset found.';
+}
+
+/** Grants that end sooner than this are spoken of, s. */
+const SOON_S = 60;
+
+/** @returns `null` unless the grant ends soon */
+export function grantEndsWords(leftMs: number | null): Words | null {
+  if (leftMs === null || leftMs > SOON_S * 1000) return null;
+  const seconds = Math.max(0, Math.ceil(leftMs / 1000));
+  return {
+    text: `Your grant ends in ${seconds} s. Then the robot stops and the session ends.`,
+    tone: 'warning',
+  };
 }

@@ -5,7 +5,7 @@ import type { RobotLink, RobotLinkEvents } from '../link/robot-link.ts';
 import { RobotSession } from '../session/robot-session.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
-import type { SignalingState } from '../signaling/signaling-state.ts';
+import type { SignalingState } from '../signaling/operator-signaling.ts';
 import { BridgeSession, type BridgeSessionActions } from './bridge-session.ts';
 import type { BridgeAddress } from './bridge-settings.ts';
 import { BridgeSocket } from './bridge-socket.ts';

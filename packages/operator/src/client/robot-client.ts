@@ -9,14 +9,13 @@ import type { DriveWish } from '../drive/velocity-mapping.ts';
 import { WishInput } from '../drive/wish-input.ts';
 import type { AgeOfStamp } from '../latency/frame-latency.ts';
 import { LatencyProbe, type LatencyReport } from '../latency/latency-probe.ts';
-import { openLink } from '../link/open-link.ts';
 import type { RobotLink } from '../link/robot-link.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { RobotSound } from '../sound/robot-sound.ts';
 import { StreamStatistics, type StreamStats } from '../statistics/stream-statistics.ts';
 import { StopDelivery } from '../stop/stop-delivery.ts';
 import type { RobotClientOptions } from './client-options.ts';
-import { clientParts } from './client-parts.ts';
+import { clientParts, openLink } from './client-parts.ts';
 import { type ClientParts, linkEvents } from './link-events.ts';
 import type { RobotEvents } from './robot-events.ts';
 

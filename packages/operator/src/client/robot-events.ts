@@ -26,7 +26,7 @@ import type { LatencyResult } from '../latency/latency-test.ts';
 import type { Picture } from '../pictures/picture-feed.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
-import type { SignalingState } from '../signaling/signaling-state.ts';
+import type { SignalingState } from '../signaling/operator-signaling.ts';
 import type { VoiceStatus } from '../sound/robot-sound.ts';
 import type { StopStatus } from '../stop/stop-delivery.ts';
 import type { VideoTrack } from '../video/video-track.ts';

@@ -10,7 +10,7 @@ import type { IntakeReport } from '../cloud/worker-messages.ts';
 import type { RobotSession, RobotSessionEvents } from '../session/robot-session.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
-import type { SignalingState } from '../signaling/signaling-state.ts';
+import type { SignalingState } from '../signaling/operator-signaling.ts';
 import type { SoundLine } from '../sound/sound-line.ts';
 import type { VideoTrack } from '../video/video-track.ts';
 

@@ -10,12 +10,11 @@ import {
 } from '@farpoint/protocol';
 import type { StrangeRobotError } from '../access/session-admission.ts';
 import type { IntakeReport } from '../cloud/worker-messages.ts';
+import type { SignalingState } from '../signaling/operator-signaling.ts';
 import { OperatorSignaling, type SessionSignal } from '../signaling/operator-signaling.ts';
-import type { SignalingState } from '../signaling/signaling-state.ts';
 import { WebSocketPort } from '../signaling/web-socket-port.ts';
 import { IntroducedPeer } from './introduced-peer.ts';
 import { KeptLink } from './kept-link.ts';
-import { watchNetwork } from './network-changes.ts';
 import { watchPageLifecycle } from './page-lifecycle.ts';
 import type { RobotLinkEvents } from './robot-link.ts';
 import type { WebRtcLinkOptions } from './webrtc-link-options.ts';
@@ -201,4 +200,13 @@ export class WebRtcLink extends KeptLink {
     this.changedRobotKey = changed;
     this.keeper.onPeerFailed(performance.now(), reason);
   }
+}
+
+/** Reports, until `signal` is aborted, when the browser's network changes or is lost. */
+export function watchNetwork(onChange: (online: boolean) => void, signal: AbortSignal): void {
+  const changed = () => onChange(navigator.onLine);
+  window.addEventListener('online', changed, { signal });
+  window.addEventListener('offline', changed, { signal });
+  // Missing in some browsers, and in TypeScript's types.
+  (navigator as { connection?: EventTarget }).connection?.addEventListener('change', changed, { signal });
 }

@@ -1,5 +1,16 @@
+import type { PictureFormat } from '@farpoint/protocol';
 import { MAX_CAMERAS, type WholePicture } from '@farpoint/protocol';
-import type { PictureToDecode } from './worker-messages.ts';
+
+export interface PictureToDecode {
+  /** Identifies the request; repeated in the answer. */
+  ticket: number;
+  format: PictureFormat;
+  width: number;
+  height: number;
+  bytes: Uint8Array<ArrayBuffer>;
+}
+
+export type FromPictureWorker = { ticket: number; bitmap: ImageBitmap } | { ticket: number; fault: string };
 
 interface Slot {
   decoding: { ticket: number; picture: WholePicture } | null;

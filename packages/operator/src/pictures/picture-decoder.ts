@@ -1,7 +1,7 @@
 /** Decodes cameras' pictures in a worker, the newest of each camera. */
 import type { WholePicture } from '@farpoint/protocol';
+import type { FromPictureWorker, PictureToDecode } from './decode-queue.ts';
 import { DecodeQueue } from './decode-queue.ts';
-import type { FromPictureWorker, PictureToDecode } from './worker-messages.ts';
 
 export interface PictureDecoderEvents {
   /** Whoever takes the bitmap closes it. */

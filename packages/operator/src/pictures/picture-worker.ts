@@ -1,6 +1,6 @@
 /** Decodes pictures off the main thread. The bytes are untrusted: only files as announced are decoded. */
 import { readPictureFile } from '@farpoint/protocol';
-import type { FromPictureWorker, PictureToDecode } from './worker-messages.ts';
+import type { FromPictureWorker, PictureToDecode } from './decode-queue.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 

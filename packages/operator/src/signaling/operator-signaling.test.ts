@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import type { SignalingState } from './operator-signaling.ts';
 import { OperatorSignaling, type SessionSignal } from './operator-signaling.ts';
-import type { SignalingState } from './signaling-state.ts';
 
 class Bench {
   readonly calls: string[] = [];

@@ -18,7 +18,17 @@ import {
   serviceToOperatorCodec,
 } from '@farpoint/protocol';
 import { Reconnect } from '@farpoint/timing';
-import type { SignalingState } from './signaling-state.ts';
+
+/** The state of the connection to the signaling service. */
+export type SignalingState =
+  | 'connecting'
+  /** Welcomed: sessions can be opened. */
+  | 'ready'
+  /** Unreachable; reconnects automatically. */
+  | 'waiting'
+  /** The token is wrong or missing. Tries again slowly, in case the service's configuration is wrong. */
+  | 'refused'
+  | 'stopped';
 
 /** The socket and the timer. */
 export interface SignalingPort {

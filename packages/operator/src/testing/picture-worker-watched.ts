@@ -1,5 +1,5 @@
 /** A real picture worker of which a test knows when it has answered: browsers decode pictures in their own time. */
-import type { FromPictureWorker, PictureToDecode } from '../pictures/worker-messages.ts';
+import type { FromPictureWorker, PictureToDecode } from '../pictures/decode-queue.ts';
 
 /** The parts of a `Worker` that the library uses, and {@link decoded}. */
 export class PictureWorkerWatched {

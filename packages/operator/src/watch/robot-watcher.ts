@@ -8,10 +8,9 @@ import { CloudReceiver } from '../cloud/cloud-receiver.ts';
 import type { TransformSupport } from '../peer/encoded-transform.ts';
 import { CaptureTimes } from './capture-times.ts';
 import type { FromStampWorker } from './stamp-messages.ts';
-import type { WatchEvents } from './watch-events.ts';
-import { obstacleOf } from './watch-obstacle.ts';
 import { WatchPeer } from './watch-peer.ts';
-import type { WatchObstacle, WatchPhase, WatchState } from './watch-state.ts';
+import type { WatchEvents, WatchObstacle, WatchPhase, WatchState } from './watch-state.ts';
+import { obstacleOf } from './watch-state.ts';
 
 /** What a {@link RobotWatcher} is made with. */
 export interface RobotWatcherOptions {

@@ -3,7 +3,6 @@ import type { JanusCandidate } from '@farpoint/janus';
 import type { Broadcast } from '@farpoint/protocol';
 import { attachWorker, type TransformSupport, transformConfiguration } from '../peer/encoded-transform.ts';
 import { playWithoutDelay, type VideoTrack } from '../video/video-track.ts';
-import { separateStreams } from './separate-streams.ts';
 import type { StampOptions, ToStampWorker } from './stamp-messages.ts';
 
 export interface WatchPeerOptions {
@@ -110,4 +109,12 @@ export class WatchPeer {
       stampWorker.postMessage(message, [readable, writable]);
     }
   }
+}
+
+/**
+ * Gives each track of Janus' offer a stream of its own. Janus puts all into one, and a browser delays the tracks of one
+ * stream to play them in step, by rules of its own.
+ */
+export function separateStreams(sdp: string): string {
+  return sdp.replaceAll(/^a=msid:\S+ (\S+)/gm, 'a=msid:farpoint-$1 $1');
 }

@@ -1,3 +1,8 @@
+import { JanusFailure } from '@farpoint/janus';
+import type { Broadcast } from '@farpoint/protocol';
+import { ProtocolError } from '@farpoint/protocol';
+import type { RobotEvents } from '../client/robot-events.ts';
+
 /** Why nothing can be watched at present. */
 export type WatchObstacle =
   /** Janus does not answer. */
@@ -26,4 +31,19 @@ export interface WatchState {
   readonly obstacle: WatchObstacle | null;
   /** While it waits, for people: what Janus or the browser said. */
   readonly detail: string;
+}
+
+/** The events of {@link RobotWatcher.on}: of a {@link RobotClient}, those about what is seen. */
+export interface WatchEvents extends RobotEvents {
+  /** Whether anything can be seen, and why not. */
+  watching: WatchState;
+  /** What the robot broadcasts; again whenever it changes. */
+  broadcast: Broadcast;
+}
+
+export function obstacleOf(error: unknown): WatchObstacle {
+  if (error instanceof ProtocolError) return 'not-a-broadcast';
+  if (!(error instanceof JanusFailure)) return 'lost';
+  if (error.reason === 'no-mountpoint') return 'no-broadcast';
+  return error.reason === 'unauthorised' ? 'refused' : 'relay-unreachable';
 }

@@ -21,8 +21,16 @@ import type {
 import { ros1TypeOf, ros2TypeOf } from '../topic-table.ts';
 import { Master, type MasterState } from './master.ts';
 import { OwnNode } from './node.ts';
-import type { Ros1Options } from './options.ts';
 import { RosTcpServer, RosTcpSocket } from './tcp.ts';
+
+export interface Ros1Options {
+  /** The master, for example `http://localhost:11311`. */
+  masterUrl: string;
+  /** The node’s name, with or without a leading slash. */
+  name: string;
+  /** How others reach this machine: a name or an address that they know. */
+  hostname: string;
+}
 
 const WATCH_MS = 1000;
 const LOOPBACK = ['localhost', '127.0.0.1', '::1'];

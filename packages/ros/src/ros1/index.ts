@@ -1,2 +1,2 @@
+export type { Ros1Options } from './graph.ts';
 export { openRos1Graph } from './graph.ts';
-export type { Ros1Options } from './options.ts';

@@ -164,3 +164,9 @@ function placeOf({ position, orientation }: Pose): ModelPlace | null {
 function rounded(number: number): number {
   return Number(number.toFixed(DIGITS)) + 0;
 }
+
+/** What a description says: a model, or why there is none. */
+export type ModelNews = { kind: 'model'; model: RobotModel } | { kind: 'refused'; fault: UrdfFault };
+
+/** Where joints are, by their names: radians or metres. */
+export type JointNews = readonly (readonly [name: string, position: number])[];

@@ -12,8 +12,18 @@ import {
   strainOf,
   strainText,
 } from './strain.ts';
-import { Tally } from './tally.ts';
 import { worstState } from './worst-state.ts';
+
+/** What an attack has sent, and what it has measured. */
+export class Tally {
+  readonly packets: number;
+  readonly text: string;
+
+  constructor(packets: number, text: string) {
+    this.packets = packets;
+    this.text = text;
+  }
+}
 
 const PACKETS = 1000;
 /** Sent at once, and the pause after them, ms: 4,000 a second, which a socket's buffer takes. */

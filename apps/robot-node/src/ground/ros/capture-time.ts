@@ -1,4 +1,6 @@
 /** When what a ROS message holds was captured, on the robot's clock. */
+
+import { RosFault } from '@farpoint/ros';
 import { readAtOnce } from '../clock.ts';
 
 export interface RosClock {
@@ -37,4 +39,15 @@ export function readBoth(clock: RosClock): { nowMs: number; wallNs: bigint } {
     AT_ONCE_MS,
   );
   return { nowMs: (beforeMs + afterMs) / 2, wallNs: time };
+}
+
+/** Messages that are older when they come are late, or of a clock that is behind, ms. */
+export const LATE_MS = 1000;
+
+/** That a topic's messages are older than that. */
+export function lateFault(topic: string): RosFault {
+  return new RosFault('bad-message', 'its messages are more than a second old when they come', {
+    topic,
+    remedy: 'they are late, or the publisher’s clock is behind: keep both clocks in step',
+  });
 }

@@ -1,7 +1,7 @@
 import { messageBytes } from '@farpoint/ros/testing';
 import { describe, expect, test } from 'vitest';
 import { CollisionCells } from './collision-cells.ts';
-import { demandedMps } from './collision-message.ts';
+import { demandedMps } from './guard-topics-messages.ts';
 
 const INF = Number.POSITIVE_INFINITY;
 

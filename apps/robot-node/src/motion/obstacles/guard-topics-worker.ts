@@ -9,8 +9,8 @@ import { type Placing, ScanGuard } from '../../sense/obstacles/scan-guard.ts';
 import { SensorFrames } from '../../sense/obstacles/sensor-frames.ts';
 import { SinkBeat } from '../drive/sink-beat.ts';
 import { CollisionCells } from './collision-cells.ts';
-import { COLLISION_TYPES, demandedMps } from './collision-message.ts';
 import type { GuardTopicsReport, GuardTopicsRequest, GuardTopicsSetup } from './guard-topics-messages.ts';
+import { COLLISION_TYPES, demandedMps } from './guard-topics-messages.ts';
 
 const LASER_SCAN = 'sensor_msgs/msg/LaserScan';
 const BEAT_MS = 20;

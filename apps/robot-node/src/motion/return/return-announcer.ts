@@ -1,7 +1,15 @@
+import type { ReturnOptions } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
+import type { GraphOptions } from '../../ground/ros/open-graph.ts';
 import { KeptThread } from '../../ground/threads/kept-thread.ts';
 import type { AnnounceReport, AnnounceRequest, AnnounceSetup } from './announce-worker.ts';
-import type { ReturnConfiguration } from './return-configuration.ts';
+
+/** How the robot drives back by itself, as configured. */
+export interface ReturnConfiguration {
+  options: ReturnOptions;
+  /** Where the robot says that it does; `null`: in no topic. */
+  topic: { graph: GraphOptions; topic: string } | null;
+}
 
 const PROGRAM = new URL('./announce-worker.ts', import.meta.url);
 const MOST_RETRY_MS = 10_000;

@@ -2,8 +2,7 @@ import { zeroTwist } from '@farpoint/protocol';
 import { defaultReturnOptions } from '@farpoint/safety';
 import { describe, expect, test } from 'vitest';
 import { BaseOdometry } from '../../sense/base/base-odometry.ts';
-import { newestHeardMs } from './newest-heard.ts';
-import { ReturnStation } from './return-station.ts';
+import { newestHeardMs, ReturnStation } from './return-station.ts';
 
 const FACTS = { driven: false, leased: false, latched: false, wheels: true };
 const TICK_MS = 25;

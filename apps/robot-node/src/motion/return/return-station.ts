@@ -4,8 +4,8 @@ import { type Lookout, ReturnDrive, type ReturnPhase } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import { ReasonCounts } from '../../ground/robot-counters.ts';
 import type { BaseOdometry } from '../../sense/base/base-odometry.ts';
+import type { ReturnConfiguration } from './return-announcer.ts';
 import { ReturnAnnouncer } from './return-announcer.ts';
-import type { ReturnConfiguration } from './return-configuration.ts';
 
 /** Odometry may say that the robot is by so much faster than it is allowed to be. */
 const FASTER = 1.5;
@@ -103,4 +103,16 @@ export class ReturnStation {
     }
     this.#announcer?.say(this.drive.isActive);
   }
+}
+
+export interface HeardOperator {
+  /** When it was last heard, on any channel, or by RTCP or a connectivity check: robot's clock, ms. */
+  readonly heardMs: number;
+}
+
+/** When any operator was last heard, robot's clock, ms; −∞ if there is none. */
+export function newestHeardMs(operators: Iterable<HeardOperator | null | undefined>): number {
+  let newest = Number.NEGATIVE_INFINITY;
+  for (const operator of operators) newest = Math.max(newest, operator?.heardMs ?? newest);
+  return newest;
 }

@@ -1,7 +1,7 @@
 /** The configuration files that `init` writes: one for each kind of source. */
 import { configTemplate } from '@farpoint/service';
-import { measurementOptions } from '../options/measurement.ts';
 import { playbackOptions } from '../options/playback.ts';
+import { measurementOptions } from '../options/recording.ts';
 import { robotProgram } from '../options/robot-program.ts';
 import { rosOptions } from '../options/ros.ts';
 import { shmOptions } from '../options/shm.ts';

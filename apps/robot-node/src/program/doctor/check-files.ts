@@ -10,6 +10,8 @@ import {
 } from '@farpoint/shared-memory';
 import type { SinkOptions } from '../../motion/drive/open-sink.ts';
 import type { SourceOptions } from '../../sense/sources/open-source.ts';
+import type { RobotOptions } from '../robot-configuration.ts';
+import { fleetingState, placeText, STATE_REMEDY } from '../state-place.ts';
 import { fail, ok, type Result, warn } from './finding.ts';
 import { megabytes } from './host.ts';
 
@@ -133,4 +135,11 @@ function may(path: string, mode: number): boolean {
   } catch {
     return false;
   }
+}
+
+/** Checks whether the robot will remember its emergency stop, its key and revoked grants. */
+export function checkState(options: Pick<RobotOptions, 'stateFolder' | 'robotKey' | 'audit'>): Result[] {
+  const places = fleetingState(options);
+  if (places.length === 0) return [ok(`${options.stateFolder} is kept`)];
+  return places.map((place) => warn(placeText(place), STATE_REMEDY));
 }

@@ -1,18 +1,15 @@
 import { PulledMetrics, type Registry } from '@farpoint/service';
-import { addBroadcastMetrics } from './broadcast-metrics.ts';
-import { addDriveMetrics } from './drive-metrics.ts';
-import { addGuardMetrics } from './guard-metrics.ts';
-import { addLiveMetrics } from './live-metrics.ts';
+import { addDriveMetrics, addGuardMetrics } from './drive-metrics.ts';
 import type { MeasuredRobot } from './measured-robot.ts';
-import { addPathMetrics } from './path-metrics.ts';
-import { addPictureMetrics } from './picture-metrics.ts';
-import { addRecordingMetrics } from './recording-metrics.ts';
-import { addReferenceMetrics } from './reference-metrics.ts';
-import { addSensorMetrics } from './sensor-metrics.ts';
-import { addSessionMetrics } from './session-metrics.ts';
-import { addSignalingMetrics } from './signaling-metrics.ts';
-import { addSoundMetrics } from './sound-metrics.ts';
-import { addVideoMetrics } from './video-metrics.ts';
+import { addPathMetrics, addSensorMetrics } from './path-metrics.ts';
+import { addLiveMetrics, addRecordingMetrics } from './recording-metrics.ts';
+import {
+  addBroadcastMetrics,
+  addReferenceMetrics,
+  addSessionMetrics,
+  addSignalingMetrics,
+} from './session-metrics.ts';
+import { addPictureMetrics, addSoundMetrics, addVideoMetrics } from './video-metrics.ts';
 
 /** Registers all of the robot's counts for `/metrics`. */
 export function registerRobotMetrics(registry: Registry, robot: MeasuredRobot): void {

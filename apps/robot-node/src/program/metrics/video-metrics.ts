@@ -1,5 +1,6 @@
 import type { PulledMetrics } from '@farpoint/service';
 import type { VideoStream } from '../../sense/video/video-stream.ts';
+import type { OperatorSession } from '../../serve/session/operator-session.ts';
 import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of the cameras that are streamed as video. None if the robot has no such camera. */
@@ -59,5 +60,87 @@ export function addVideoMetrics(
     'Frames not sent, by reason, for operators connected now',
     'reason',
     () => [...operators.values()].flatMap(({ videos: { sender } }) => Object.entries(sender?.drops ?? {})),
+  );
+}
+
+/** Metrics of the robot's microphone and loudspeaker. None if it has neither. */
+export function addSoundMetrics(
+  metrics: PulledMetrics,
+  { streams: { sound }, operators }: MeasuredRobot,
+): void {
+  const { microphone, loudspeaker, hasMicrophone } = sound;
+  if (hasMicrophone) {
+    metrics.gauge('sound_listeners', 'Operators who are sent the microphone’s sound', () => sound.listeners);
+    metrics.sum('sound_packets', 'Packets of sound encoded', () => microphone.counters.packets);
+    metrics.sum('sound_bytes', 'Bytes of the packets encoded', () => microphone.counters.bytes);
+    metrics.gauge(
+      'sound_bits_per_second',
+      'Rate that the microphone’s encoder is set to; 0 while nobody listens',
+      () => microphone.bitsPerSecond,
+    );
+    metrics.gauge('sound_fault', 'Whether the microphone gives nothing although somebody listens', () =>
+      microphone.fault === null ? 0 : 1,
+    );
+  }
+  if (loudspeaker === null) return;
+  metrics.gauge('voice_open', 'Whether an operator’s voice is being played', () =>
+    sound.speaking === null ? 0 : 1,
+  );
+  metrics.sums('voice_packets', 'Packets of operators’ voices, by what became of them', 'outcome', () =>
+    Object.entries(loudspeaker.counters),
+  );
+  metrics.sums('voice_packets_dropped', 'Packets of voices that were not played, by reason', 'reason', () =>
+    Object.entries(loudspeaker.drops),
+  );
+  metrics.gauges(
+    'voice_packets_refused',
+    'Packets from operators connected now that were not taken for a voice, by reason',
+    'reason',
+    () =>
+      [...operators.values()].flatMap(({ sound: { line } }) => Object.entries(line?.voice?.refusals ?? {})),
+  );
+  metrics.gauge('voice_fault', 'Whether the loudspeaker cannot be used', () =>
+    loudspeaker.fault === null ? 0 : 1,
+  );
+}
+
+/** Metrics of camera pictures: made, lost, sent. None if the robot has no camera. */
+export function addPictureMetrics(
+  metrics: PulledMetrics,
+  { streams: { cameras }, operators }: MeasuredRobot,
+): void {
+  const { pictures } = cameras;
+  if (pictures === null) return;
+  const made = pictures.counters;
+  const total = (read: (operator: OperatorSession) => number) => () =>
+    [...operators.values()].reduce((sum, operator) => sum + read(operator), 0);
+
+  metrics.sum('pictures_made', 'Camera pictures prepared for sending', () => made.made);
+  metrics.sum(
+    'pictures_untouched',
+    'Prepared pictures that are the camera’s own files, unchanged',
+    () => made.untouched,
+  );
+  metrics.sum('picture_bytes', 'Bytes of the prepared pictures', () => made.bytes);
+  metrics.sum('picture_thread_seconds', 'Processor time of the picture thread', () => made.workSeconds);
+  metrics.sum('picture_thread_restarts', 'Restarts of the picture thread', () => made.restarts);
+  metrics.sums('pictures_lost', 'Pictures that could not be prepared, by reason', 'reason', () =>
+    made.lost.entries(),
+  );
+  metrics.gauge(
+    'pictures_sent',
+    'Pictures sent to operators connected now',
+    total(({ pictures: sender }) => sender.picturesSent),
+  );
+  metrics.gauge(
+    'picture_bytes_sent',
+    'Bytes on the wire of pictures to operators connected now',
+    total(({ pictures: sender }) => sender.bytesSent),
+  );
+  metrics.gauges(
+    'pictures_unsent',
+    'Pictures not sent, or only in part, by reason, for operators connected now',
+    'reason',
+    () => [...operators.values()].flatMap(({ pictures: sender }) => Object.entries(sender.drops)),
   );
 }

@@ -3,8 +3,11 @@ import type { TopicTable } from '@farpoint/ros';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 import * as z from 'zod';
 import type { GraphOptions } from '../../ground/ros/open-graph.ts';
-import type { CollisionType } from '../../motion/obstacles/collision-message.ts';
-import type { GuardScan, GuardTopicsOptions } from '../../motion/obstacles/guard-topics-messages.ts';
+import type {
+  CollisionType,
+  GuardScan,
+  GuardTopicsOptions,
+} from '../../motion/obstacles/guard-topics-messages.ts';
 import { mountSchema } from './mount.ts';
 import { type RosKindValues, rosKindOf } from './ros-kind.ts';
 

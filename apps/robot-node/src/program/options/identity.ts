@@ -22,3 +22,13 @@ export const identityOptions = {
     help: 'priority of this process, if the system permits it; commands and packets should not wait for the processor',
   }),
 } satisfies OptionTable;
+
+/** The robot’s model, which operators see. */
+export const modelOptions = {
+  urdf: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'FILE',
+    help: 'the robot’s model for operators: a URDF file, or none; default: of a topic with `as: model`, and the simulated robot’s own',
+  }),
+};

@@ -1,7 +1,7 @@
 /** How the robot's motion is bounded. */
 import { Footprint } from '@farpoint/safety';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
-import type { MotionLimits } from '../../motion/drive/motion-limits.ts';
+import type { MotionLimits } from '../../motion/open-drive.ts';
 import { footprintOf } from './guard.ts';
 
 export const motionOptions = optionGroup('motion', {

@@ -3,16 +3,18 @@ import { randomBytes } from 'node:crypto';
 import { join } from 'node:path';
 import { MOST_RESUME_MS } from '@farpoint/protocol';
 import { RosFault, type TopicEntry, topicAs } from '@farpoint/ros';
-import { type OptionMistake, OptionsError, ownNames, Secret } from '@farpoint/service';
+import { type OptionMistake, OptionsError, ownNames, publicValues, Secret } from '@farpoint/service';
 import { BitRate } from '@farpoint/timing';
+import type { RobotAuditOptions } from '../../admit/audit/open-robot-audit.ts';
 import { describeTopics, readFrom, sourcedFolders } from '../../ground/ros/message-folders.ts';
+import type { GraphOptions } from '../../ground/ros/open-graph.ts';
 import type { SinkOptions } from '../../motion/drive/open-sink.ts';
+import type { RobotStopsOptions } from '../../motion/stops/open-stops.ts';
 import { SIM_FIX, SIM_MOTORS } from '../../sense/base/sim-topics.ts';
 import type { VideoCameraOptions } from '../../serve/cameras/open-video-cameras.ts';
 import { describeQuantities } from '../../tell/sample-board.ts';
 import type { RobotOptions } from '../robot-configuration.ts';
 import { toAlarmRules } from './alarms.ts';
-import { toAudit } from './audit-configuration.ts';
 import { toBroadcast } from './broadcast.ts';
 import { checkAccess } from './check-access.ts';
 import { checkVideos } from './check-videos.ts';
@@ -20,7 +22,8 @@ import { toObstacleGuard } from './guard.ts';
 import { toGuardTopics } from './guard-topics.ts';
 import { toMotion } from './motion.ts';
 import { readCertificates } from './read-text.ts';
-import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
+import type { RobotOptionKey } from './robot-program.ts';
+import { type RobotOptionValues, robotProgram } from './robot-program.ts';
 import { rosKindOf } from './ros-kind.ts';
 import { toStateFolder } from './state.ts';
 import { toFence } from './to-fence.ts';
@@ -28,7 +31,6 @@ import { toGraph } from './to-graph.ts';
 import { toModel } from './to-model.ts';
 import { toReturn } from './to-return.ts';
 import { toSensors } from './to-sensors.ts';
-import { toStops } from './to-stops.ts';
 
 /** How messages say where an option's value comes from. */
 export type Where = (key: RobotOptionKey) => string;
@@ -223,5 +225,31 @@ function toSink(values: RobotOptionValues): SinkOptions {
     mode: values.shmAccess === 'group' ? 0o660 : 0o600,
     silenceMs: values.watchdogMs,
     readerRequired: values.shmReader === 'required',
+  };
+}
+
+/** @returns undefined if nothing is recorded */
+export function toAudit(values: RobotOptionValues): RobotAuditOptions | undefined {
+  if (values.auditLog === null) return undefined;
+  const { options, version } = robotProgram;
+  const configuration = publicValues(options, values);
+  return { path: values.auditLog, maxBytes: values.auditMax, version, configuration };
+}
+
+/** @param graph the robot's graph of this kind */
+export function toStops(
+  values: RobotOptionValues,
+  graph: (kind: GraphOptions['kind']) => GraphOptions,
+): RobotStopsOptions {
+  const { stopTopic: topic, stopShm, stopGpio, stopKey: key, stopSilenceMs: silentMs } = values;
+  const kind = rosKindOf(values);
+  const { shmFolder, shmOwner } = values;
+  return {
+    ...(topic === null || kind === null ? {} : { topic: { graph: graph(kind), topic, silentMs } }),
+    ...(stopShm === null
+      ? {}
+      : { shm: { path: join(shmFolder, stopShm), owner: shmOwner ?? undefined, silentMs } }),
+    ...(stopGpio === null ? {} : { gpio: stopGpio }),
+    key,
   };
 }

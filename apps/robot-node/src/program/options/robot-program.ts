@@ -3,33 +3,29 @@ import { adminOptions, defineProgram, type OptionTable, type OptionValues } from
 import manifest from '../../../package.json' with { type: 'json' };
 import { accessOptions } from './access.ts';
 import { alarmsOptions } from './alarms.ts';
-import { auditOptions } from './audit.ts';
 import { broadcastOptions } from './broadcast.ts';
 import { fenceOptions } from './fence.ts';
 import { foxgloveOptions } from './foxglove.ts';
 import { guardOptions } from './guard.ts';
 import { guardTopicsOptions } from './guard-topics.ts';
-import { identityOptions } from './identity.ts';
+import { identityOptions, modelOptions } from './identity.ts';
 import { limitsOptions } from './limits.ts';
-import { measurementOptions } from './measurement.ts';
-import { modelOptions } from './model.ts';
 import { motionOptions } from './motion.ts';
 import { networkOptions } from './network.ts';
 import { picturesOptions } from './pictures.ts';
 import { playbackOptions } from './playback.ts';
-import { recordingOptions } from './recording.ts';
+import { measurementOptions, recordingOptions } from './recording.ts';
 import { returnOptions } from './return.ts';
-import { rosOptions } from './ros.ts';
+import { rosOptions, topicsOptions } from './ros.ts';
 import { shmOptions } from './shm.ts';
 import { signalingOptions } from './signaling.ts';
 import { simOptions } from './sim.ts';
 import { sinkOptions } from './sink.ts';
 import { soundOptions } from './sound.ts';
 import { sourceOptions } from './source.ts';
-import { stateOptions } from './state.ts';
+import { auditOptions, stateOptions } from './state.ts';
 import { stopsOptions } from './stops.ts';
 import { streamOptions } from './stream.ts';
-import { topicsOptions } from './topics.ts';
 import { videosOptions } from './videos.ts';
 
 const options = {

@@ -1,5 +1,6 @@
 /** The robot as a node of a ROS graph, for its source, its sink, or both. */
 import { interfaceSchema, MOST_DOMAIN, machineSchema } from '@farpoint/dds';
+import { topicTableSchema } from '@farpoint/ros';
 import { defineOption, OptionsError, optionGroup, schema } from '@farpoint/service';
 import * as z from 'zod';
 
@@ -108,3 +109,14 @@ export function rosMasterUrl(rosMaster: string | null, env: NodeJS.ProcessEnv): 
   const detail = `must be an http:// address, as in http://localhost:11311, not ${JSON.stringify(url)}`;
   throw new OptionsError('ROS_MASTER_URI', detail);
 }
+
+/** The ROS topics that the robot may use. They can be set only in the configuration file. */
+export const topicsOptions = {
+  topics: defineOption({
+    schema: topicTableSchema,
+    default: [],
+    flag: false,
+    env: false,
+    help: 'ros1, ros2: the only topics that the robot subscribes and publishes; recording: the topics of pictures and readings to show beside the clouds',
+  }),
+};

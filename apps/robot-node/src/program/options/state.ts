@@ -1,7 +1,14 @@
 /** Where the robot stores state that must outlive the process. */
 import { homedir } from 'node:os';
 import { join } from 'node:path';
-import { defineOption, folderFault, type OptionTable, type OptionValues, schema } from '@farpoint/service';
+import {
+  defineOption,
+  folderFault,
+  type OptionTable,
+  type OptionValues,
+  optionGroup,
+  schema,
+} from '@farpoint/service';
 
 export const stateOptions = {
   stateDir: defineOption({
@@ -31,3 +38,21 @@ export function stateFolder(stateDir: string | null, env: NodeJS.ProcessEnv): st
   if (ofService) return ofService;
   return join(env.XDG_STATE_HOME || join(homedir(), '.local', 'state'), 'farpoint');
 }
+
+/** What is recorded about who did what. */
+export const auditOptions = optionGroup('audit', {
+  auditLog: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'FILE',
+    file: 'log',
+    help: 'record sessions, leases, emergency stops and refusals in this file, in a chain that shows every change (`farpoint-robot audit verify`); default: not recorded',
+  }),
+  auditMax: defineOption({
+    schema: schema.size({ min: 100_000 }),
+    default: 64e6,
+    argument: 'SIZE',
+    file: 'max',
+    help: 'audit: begin a new file when the old one has this size; the old one is renamed and kept',
+  }),
+});

@@ -1,8 +1,7 @@
 /** What operators receive. */
 import { MAX_POINTS_PER_FRAME, POINTS_PER_PACKET } from '@farpoint/protocol';
 import { defineOption, optionGroup, schema } from '@farpoint/service';
-import { PLAN_POLICIES } from '../../sense/encode/plan.ts';
-import { STREAM_MODES } from '../../sense/encode/stream-mode.ts';
+import { PLAN_POLICIES, STREAM_MODES } from '../../sense/encode/plan.ts';
 
 export const streamOptions = optionGroup('stream', {
   mode: defineOption({

@@ -1,9 +1,8 @@
 import { defaultReturnOptions } from '@farpoint/safety';
 import type { GraphOptions } from '../../ground/ros/open-graph.ts';
-import type { ReturnConfiguration } from '../../motion/return/return-configuration.ts';
-import { hasOdometry } from './odometry.ts';
+import type { ReturnConfiguration } from '../../motion/return/return-announcer.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
-import { rosKindOf } from './ros-kind.ts';
+import { hasOdometry, rosKindOf } from './ros-kind.ts';
 
 /** The lease must be free by then, and its holder told. */
 const AFTER_LEASE_S = 1;
@@ -31,7 +30,7 @@ export function toReturn(
   } = values;
   if (obstacleGuard === 'off' || (source !== 'sim' && guardMount === null))
     refuse('return', 'needs the obstacle guard: guard.obstacles not off, and guard.mount');
-  if (!hasOdometry(values))
+  if (!hasOdometry(values.source, values.topics))
     refuse(
       'return',
       'needs odometry: the source sim, or ros1 or ros2 with a topic of nav_msgs/Odometry with `as: pose`',

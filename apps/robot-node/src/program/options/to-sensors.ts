@@ -4,9 +4,16 @@ import type { CaptureOptions } from '../../sense/capture/capture-messages.ts';
 import type { SourceOptions } from '../../sense/sources/open-source.ts';
 import { opticalMount, type SensorMount } from '../../sense/sources/sensor-mount.ts';
 import { cloudTrigger } from './check-videos.ts';
-import { framesPerS } from './frame-rate.ts';
 import type { RobotOptionValues } from './robot-program.ts';
 import { toGraph } from './to-graph.ts';
+
+/** If not configured. A recording has its own rate, which is kept. */
+const DEFAULT_FPS: Partial<Record<RobotOptionValues['source'], number>> = { sim: 60, recording: 120 };
+
+/** The highest rate asked of the source of clouds, 1/s. */
+export function framesPerS({ fps, source }: RobotOptionValues): number {
+  return fps ?? DEFAULT_FPS[source] ?? 30;
+}
 
 /** The main source of clouds comes first. */
 export function toSensors(values: RobotOptionValues, topics: TopicEntry[]): CloudSensorOptions[] {

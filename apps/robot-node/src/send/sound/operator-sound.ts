@@ -7,7 +7,7 @@ import {
   soundWireRate,
 } from '../../sense/sound/sound-frame.ts';
 import type { PathBudget } from '../budgets/path-budget.ts';
-import type { SoundLine } from '../transport/sound-line.ts';
+import type { SoundLine } from '../transport/peer-events.ts';
 import type { StreamSender } from '../transport/stream-sender.ts';
 import type { VoicePacket } from '../transport/voice-packet.ts';
 import { VoiceGate } from './voice-gate.ts';

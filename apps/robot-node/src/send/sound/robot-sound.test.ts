@@ -4,7 +4,7 @@ import { describe, expect, it } from 'vitest';
 import type { LoudspeakerEvents, MicrophoneEvents } from '../../sense/sound/sound-devices.ts';
 import type { SoundFrame } from '../../sense/sound/sound-frame.ts';
 import { PathBudget } from '../budgets/path-budget.ts';
-import type { SoundLine } from '../transport/sound-line.ts';
+import type { SoundLine } from '../transport/peer-events.ts';
 import type { StreamSender } from '../transport/stream-sender.ts';
 import type { VoicePacket } from '../transport/voice-packet.ts';
 import { OperatorSound } from './operator-sound.ts';

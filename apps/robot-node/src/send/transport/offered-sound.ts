@@ -2,7 +2,7 @@ import { SOUND_MEDIA, SOUND_STREAM_ID } from '@farpoint/protocol';
 import { MediaStream, type RTCPeerConnection, type RTCRtpTransceiver, RTP_EXTENSION_URI } from 'werift';
 import { monotonicMs } from '../../ground/clock.ts';
 import { unixOffsetMs } from '../../ground/wall-clock.ts';
-import type { SoundLine } from './sound-line.ts';
+import type { SoundLine } from './peer-events.ts';
 import { RtpTransportError, SrtpTransport } from './srtp-transport.ts';
 import { VoiceReceiver } from './voice-receiver.ts';
 

@@ -15,9 +15,9 @@ import { unixOffsetMs } from '../../ground/wall-clock.ts';
 import { streamOfVideo, VideoFrame } from '../../sense/video/video-frame.ts';
 import { OperatorClient } from '../../testing/operator-client.ts';
 import { OperatorPeer } from './operator-peer.ts';
+import type { VideoLine } from './peer-events.ts';
 import type { RtpTransport } from './rtp-transport.ts';
 import { StreamSender } from './stream-sender.ts';
-import type { VideoLine } from './video-line.ts';
 
 async function session(codecs: readonly (VideoCodec | readonly VideoCodec[])[]) {
   const videos = codecs.map((each) => [each].flat());

@@ -3,8 +3,8 @@ import { MediaStream, type RTCPeerConnection, type RTCRtpTransceiver } from 'wer
 import { unixOffsetMs } from '../../ground/wall-clock.ts';
 import { type AnsweredVideo, readVideoAnswers } from './answered-codecs.ts';
 import { videoCodecParameters } from './media-codecs.ts';
+import type { VideoLine } from './peer-events.ts';
 import { RtpTransportError, SrtpTransport } from './srtp-transport.ts';
-import type { VideoLine } from './video-line.ts';
 
 const REFUSED: AnsweredVideo & { refusal: 'refused' } = { payloadTypes: new Map(), refusal: 'refused' };
 

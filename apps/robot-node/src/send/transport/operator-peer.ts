@@ -19,12 +19,20 @@ import {
 import { MediaStream, type RTCDataChannel, type RTCPeerConnection, type RTCRtpTransceiver } from 'werift';
 import { answerFault } from './answer-fault.ts';
 import { AnswerGate, type AnswerVerdict } from './answer-gate.ts';
-import { MAX_RELIABLE_BACKLOG, MAX_UNRELIABLE_BACKLOG, MESSAGE_OVERHEAD_BYTES } from './message-limits.ts';
 import { OfferedSound } from './offered-sound.ts';
 import { OfferedVideos } from './offered-videos.ts';
 import { candidateOf, errorText, openPeerConnection, toWeriftServers } from './open-peer-connection.ts';
 import type { OperatorPeerEvents, OperatorPeerOptions, PeerEnd } from './peer-events.ts';
 import { SrtpTransport } from './srtp-transport.ts';
+
+/**
+ * Bytes on the wire in addition to a message's text: SCTP chunk and header 28, DTLS record 37, UDP and IPv4 28 bytes.
+ */
+export const MESSAGE_OVERHEAD_BYTES = 93;
+/** Unreliable messages are dropped while more than this is queued, bytes. */
+export const MAX_UNRELIABLE_BACKLOG = 16_384;
+/** A peer is closed when more than this is queued on its reliable channel, bytes. */
+export const MAX_RELIABLE_BACKLOG = 262_144;
 
 export class OperatorPeer {
   readonly #events: OperatorPeerEvents;

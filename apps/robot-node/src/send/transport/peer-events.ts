@@ -1,8 +1,31 @@
 import type { IceCandidate, IceServer, VideoCodec } from '@farpoint/protocol';
 import type { CandidateRefusal, Refusal } from '@farpoint/webrtc';
+import type { VideoRefusal } from './answered-codecs.ts';
 import type { RtpTransport } from './rtp-transport.ts';
-import type { SoundLine } from './sound-line.ts';
-import type { VideoLine } from './video-line.ts';
+import type { SrtpTransport } from './srtp-transport.ts';
+import type { VoiceReceiver } from './voice-receiver.ts';
+
+/** A video's m-line, as it was negotiated with one operator. */
+export interface VideoLine {
+  /** `a=mid`. */
+  mid: string;
+  /** `null` if the operator refused the line, for example because it cannot decode any of the codecs. */
+  transport: SrtpTransport | null;
+  /** The payload type of each codec that the operator decodes; empty if it refused the line. */
+  payloadTypes: ReadonlyMap<VideoCodec, number>;
+  /** Why there is no transport; `null` if there is one. */
+  refusal: VideoRefusal | null;
+}
+
+/** The m-line for sound, as it was negotiated with one operator. */
+export interface SoundLine {
+  /** `a=mid`. */
+  mid: string;
+  /** The robot's microphone; `null` if the operator refused the line. */
+  transport: (RtpTransport & { sendReport(nowMs: number, clockRate: number): void }) | null;
+  /** The operator's voice; `null` if the operator refused the line. */
+  voice: VoiceReceiver | null;
+}
 
 /** Why a connection ended. */
 export type PeerEnd =

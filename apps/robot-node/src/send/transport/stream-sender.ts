@@ -10,8 +10,7 @@ import type { OutgoingFrame } from '../../ground/outgoing-frame.ts';
 import { FrameFit } from './frame-fit.ts';
 import { ReportIntake } from './report-intake.ts';
 import type { RtpTransport } from './rtp-transport.ts';
-import { emptyStreamCounters } from './stream-counters.ts';
-import { StreamFeedback } from './stream-feedback.ts';
+import { emptyStreamCounters, StreamFeedback } from './stream-feedback.ts';
 
 /** The number of the clouds' stream. */
 const CLOUD_STREAM = 0;

@@ -1,6 +1,6 @@
 import type { VideoCodec } from '@farpoint/protocol';
 import type { VideoRefusal } from '../transport/answered-codecs.ts';
-import type { VideoLine } from '../transport/video-line.ts';
+import type { VideoLine } from '../transport/peer-events.ts';
 
 const ANSWERED: Readonly<Record<Exclude<VideoRefusal, 'refused' | 'no-common-codec'>, string>> = {
   'bad-line': 'its m-line for this video makes no sense',

@@ -1,8 +1,8 @@
 import { VIDEO_CLOCK_RATE, type VideoCodec } from '@farpoint/protocol';
 import { streamOfVideo, type VideoFrame, videoOfStream } from '../../sense/video/video-frame.ts';
 import type { PathBudget } from '../budgets/path-budget.ts';
+import type { VideoLine } from '../transport/peer-events.ts';
 import type { StreamSender } from '../transport/stream-sender.ts';
-import type { VideoLine } from '../transport/video-line.ts';
 import { VideoSender } from './video-sender.ts';
 
 /** A receiver uses the reports to relate a video's timestamps to time of day, ms. */

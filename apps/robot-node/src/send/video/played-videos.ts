@@ -3,7 +3,7 @@ import type { Logger } from '@farpoint/service';
 import { availableEncoders, chooseEncoders, VideoError } from '@farpoint/video';
 import { monotonicMs } from '../../ground/clock.ts';
 import type { Capture } from '../../sense/capture/capture.ts';
-import type { PlayedPicture } from '../../sense/sources/played-picture.ts';
+import type { PlayedPicture } from '../../sense/sources/frame-source.ts';
 import { CodecEncoders } from '../../sense/video/codec-encoders.ts';
 import { ProcessEncoder } from '../../sense/video/process-encoder.ts';
 import type { VideoCamera } from '../../sense/video/video-encoder.ts';

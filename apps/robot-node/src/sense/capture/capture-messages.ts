@@ -8,9 +8,8 @@ import type { EncodedFrame, SamplingOptions } from '../encode/encoded-frame.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
 import type { PlanPolicy } from '../encode/plan.ts';
 import type { SensorGuardOptions } from '../obstacles/sensor-guard.ts';
-import type { CameraDescription, SourceDescription } from '../sources/frame-source.ts';
+import type { CameraDescription, PlayedPicture, SourceDescription } from '../sources/frame-source.ts';
 import type { SourceOptions } from '../sources/open-source.ts';
-import type { PlayedPicture } from '../sources/played-picture.ts';
 import type { PlayedMessage } from '../sources/played-telemetry.ts';
 
 export interface CaptureOptions {

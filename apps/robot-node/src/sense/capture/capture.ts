@@ -4,8 +4,7 @@ import type { TopicReading } from '@farpoint/ros';
 import type { TimedBaseState } from '../../ground/base.ts';
 import type { CaptureBudget } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
-import type { CameraDescription, SourceDescription } from '../sources/frame-source.ts';
-import type { PlayedPicture } from '../sources/played-picture.ts';
+import type { CameraDescription, PlayedPicture, SourceDescription } from '../sources/frame-source.ts';
 import type { PlayedMessage } from '../sources/played-telemetry.ts';
 import type { CaptureOptions, CaptureReport, CaptureRequest, ReadyFrame } from './capture-messages.ts';
 

@@ -19,6 +19,10 @@ import {
 import { BitRate, bitsOfBytes, bytesOfBits } from '@farpoint/timing';
 import { maxPoints } from '@farpoint/wasm-codec';
 
+/** `auto`: our own coded formats for everyone who reads them; `points64`: only `points64`, for everyone. */
+export const STREAM_MODES = ['auto', 'points64'] as const;
+export type StreamMode = (typeof STREAM_MODES)[number];
+
 export const PLAN_POLICIES = ['latency', 'paper'] as const;
 export type PlanPolicy = (typeof PLAN_POLICIES)[number];
 

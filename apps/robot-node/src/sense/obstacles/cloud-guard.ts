@@ -4,8 +4,7 @@ import { type Codec, CodecError, ObstacleGrid } from '@farpoint/wasm-codec';
 import { monotonicMs } from '../../ground/clock.ts';
 import type { SourceDescription, SourceFrame } from '../sources/frame-source.ts';
 import { STATIC_CAMERA_POSE } from '../sources/playback-source.ts';
-import { BlankFloor } from './blank-floor.ts';
-import { FLOOR_SLOPE } from './floor-slope.ts';
+import { BlankFloor, FLOOR_SLOPE } from './blank-floor.ts';
 import { type GridShape, SharedGridWriter } from './shared-grid.ts';
 
 /** Plain data, so that it can be passed to the capture thread. Lengths in metres. */

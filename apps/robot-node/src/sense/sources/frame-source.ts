@@ -4,8 +4,19 @@ import type { TopicEntry, TopicReading } from '@farpoint/ros';
 import type { Pinhole } from '@farpoint/wasm-codec';
 import type { BaseState } from '../../ground/base.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
-import type { PlayedPicture } from './played-picture.ts';
 import type { PlayedMessage, PlayedTelemetry } from './played-telemetry.ts';
+
+export const RECORDED_CODINGS = ['h264', 'vp8'] as const;
+export type RecordedCoding = (typeof RECORDED_CODINGS)[number];
+
+/** A coded picture of a played video. */
+export interface PlayedPicture {
+  coding: RecordedCoding;
+  /** H.264: an access unit as in Annex B; VP8: a frame. */
+  bytes: Uint8Array<ArrayBuffer>;
+  /** On the robot's clock, as if it were captured now, ms. */
+  capturedAtMs: number;
+}
 
 /** A camera whose pictures can be shown to the operator. */
 export interface CameraDescription {

@@ -2,8 +2,8 @@
 import { displayNameSchema, MAX_VIDEOS } from '@farpoint/protocol';
 import type { RecordedMessage, RecordedTopic } from '@farpoint/recording';
 import { FOXGLOVE_COMPRESSED_VIDEO_TYPES, foxgloveCompressedVideoSchema } from '@farpoint/ros';
+import { type PlayedPicture, RECORDED_CODINGS, type RecordedCoding } from './frame-source.ts';
 import { isKeyPicture } from './key-picture.ts';
-import { type PlayedPicture, RECORDED_CODINGS, type RecordedCoding } from './played-picture.ts';
 
 /** A video that a source plays. */
 export interface PlayedVideo {

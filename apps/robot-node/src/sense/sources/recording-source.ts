@@ -13,10 +13,10 @@ import type {
   CaptureRoom,
   CaptureWishes,
   FrameSource,
+  PlayedPicture,
   SourceDescription,
   SourceFrame,
 } from './frame-source.ts';
-import type { PlayedPicture } from './played-picture.ts';
 import type { PlayedMessage } from './played-telemetry.ts';
 import { RecordedTelemetry } from './recorded-telemetry.ts';
 import { RecordedVideos } from './recorded-videos.ts';

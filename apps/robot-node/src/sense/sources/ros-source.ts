@@ -10,8 +10,7 @@ import {
   topicAs,
 } from '@farpoint/ros';
 import type { BaseState } from '../../ground/base.ts';
-import { capturedAtMs, type RosClock } from '../../ground/ros/capture-time.ts';
-import { LATE_MS, lateFault } from '../../ground/ros/late-fault.ts';
+import { capturedAtMs, LATE_MS, lateFault, type RosClock } from '../../ground/ros/capture-time.ts';
 import { REFUSED_AGE_MS, StampClock, stampRefusals } from '../../ground/ros/stamp-clock.ts';
 import type { PictureTaker } from '../pictures/source-picture.ts';
 import { FaultLimit } from './fault-limit.ts';

@@ -14,7 +14,7 @@ import {
 } from '@farpoint/ros';
 import type { BaseState } from '../../ground/base.ts';
 import type { RosClock } from '../../ground/ros/capture-time.ts';
-import { LATE_MS, lateFault } from '../../ground/ros/late-fault.ts';
+import { LATE_MS, lateFault } from '../../ground/ros/capture-time.ts';
 import { ReadingTopic } from '../../ground/ros/reading-topic.ts';
 import { type Listener, listen } from '../../ground/ros/ros-listener.ts';
 import { type StampClock, stampRefusals } from '../../ground/ros/stamp-clock.ts';

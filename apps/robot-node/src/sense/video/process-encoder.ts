@@ -1,6 +1,5 @@
 import { type VideoEncoder as EncoderElement, VideoProcess, type VideoSourceOptions } from '@farpoint/video';
-import type { VideoEncoder, VideoEncoderEvents } from './video-encoder.ts';
-import type { VideoLog } from './video-log.ts';
+import type { VideoEncoder, VideoEncoderEvents, VideoLog } from './video-encoder.ts';
 import type { EncodedFormat } from './video-plan.ts';
 
 /** What is encoded, and by what. Plain data, so that it can be passed to a worker. */

@@ -2,9 +2,16 @@ import type { VideoCodec, VideoDescription } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
 import { CodecChoice } from './codec-choice.ts';
 import type { VideoCamera } from './video-encoder.ts';
-import type { VideoFrame } from './video-frame.ts';
+import type { EncodedPicture, VideoFrame } from './video-frame.ts';
 import { VideoStream, type VideoWish } from './video-stream.ts';
-import type { VideoTaker } from './video-taker.ts';
+
+/** Takes videos as they are encoded for operators, for example to record them. */
+export interface VideoTaker {
+  /** Whether a video is to be encoded although no operator can watch it. */
+  wants(video: number): boolean;
+  /** @param codec of the picture: it may change from key frame to key frame */
+  take(video: number, picture: EncodedPicture, codec: VideoCodec): void;
+}
 
 /** An operator who may watch videos. */
 export interface VideoTarget {

@@ -4,6 +4,7 @@ import {
   decodeJson,
   decodeStreamSwitch,
   FULL_POINT_PACKET_BYTES,
+  POINTS_PER_PACKET,
   ProtocolError,
   referenceControlCodec,
 } from '@farpoint/protocol';
@@ -19,7 +20,6 @@ import { StreamSender } from '../../send/transport/stream-sender.ts';
 import { slotSequenceOffset } from '../../sense/encode/packetiser.ts';
 import type { SessionHost } from '../session/operator-messages.ts';
 import { ReferenceDriver } from './reference-driver.ts';
-import { toReferenceFrame } from './reference-frame.ts';
 import { ReferencePeer, type ReferencePeerOptions } from './reference-peer.ts';
 import { ReferenceTransport } from './reference-transport.ts';
 import { ReportedLimit } from './reported-limit.ts';
@@ -252,4 +252,19 @@ export class ReferenceOperator implements FrameTarget {
 
 function isGreen(frame: OutgoingFrame): boolean {
   return frame instanceof SharedFrame && frame.frame.latencyTest;
+}
+
+/**
+ * A frame as the reference profile sends it: whole packets only. It shares the original frame's buffer and holds it
+ * until it is released itself. It leaves out the points beyond the last whole packet, which are the farthest.
+ *
+ * @param overheadBytes bytes that the reference transport adds to each payload on the wire
+ * @returns `null` if there is no whole packet. The caller must `release` the frame
+ */
+export function toReferenceFrame(shared: SharedFrame, overheadBytes: number): SharedFrame | null {
+  const packets = Math.floor(shared.frame.points / POINTS_PER_PACKET);
+  if (packets === 0) return null;
+  const held = shared.hold();
+  const frame = { ...shared.frame, packets, points: packets * POINTS_PER_PACKET };
+  return new SharedFrame(frame, overheadBytes, () => held.release());
 }

@@ -4,7 +4,7 @@ import type { RtpTransport } from '../../send/transport/rtp-transport.ts';
 import { SharedFrame } from '../../send/transport/shared-frame.ts';
 import type { ReadyFrame } from '../../sense/capture/capture-messages.ts';
 import { completePackets, SLOT_BYTES } from '../../sense/encode/packetiser.ts';
-import { toReferenceFrame } from './reference-frame.ts';
+import { toReferenceFrame } from './reference-operator.ts';
 import { ReferenceTransport } from './reference-transport.ts';
 
 interface Sent {

@@ -1,4 +1,6 @@
 /** Keeps an operator's clouds to the rate that its computer draws. Time is an argument. */
+
+import type { CloudFormat } from '@farpoint/protocol';
 import { EvenPace } from '@farpoint/timing';
 import type { DrawnMost } from '../../sense/encode/plan.ts';
 
@@ -18,4 +20,14 @@ export class DisplayPace {
     pace.taken(capturedAtMs, intervalMs);
     return true;
   }
+}
+
+/** Which clouds one operator wants, and reads, and draws. */
+export class WantedClouds {
+  /** The sensors whose clouds the operator wants. */
+  sensors: ReadonlySet<number> = new Set([0]);
+  /** The coded formats that the operator says it reads. */
+  formats: ReadonlySet<CloudFormat> = new Set();
+  /** How many of them its computer draws. */
+  readonly pace = new DisplayPace();
 }

@@ -8,13 +8,11 @@ import { OperatorSound } from '../../send/sound/operator-sound.ts';
 import type { AnswerVerdict } from '../../send/transport/answer-gate.ts';
 import { OperatorPeer } from '../../send/transport/operator-peer.ts';
 import type { PacketLog } from '../../send/transport/packet-log.ts';
-import type { PeerEnd } from '../../send/transport/peer-events.ts';
+import type { PeerEnd, SoundLine, VideoLine } from '../../send/transport/peer-events.ts';
 import type { RtpTransport } from '../../send/transport/rtp-transport.ts';
 import type { SendLoop } from '../../send/transport/send-loop.ts';
 import { SharedFrame } from '../../send/transport/shared-frame.ts';
-import type { SoundLine } from '../../send/transport/sound-line.ts';
 import { StreamSender } from '../../send/transport/stream-sender.ts';
-import type { VideoLine } from '../../send/transport/video-line.ts';
 import { OperatorVideos } from '../../send/video/operator-videos.ts';
 import type { CodedStream } from '../../sense/encode/coded-frame-encoder.ts';
 import { slotSequenceOffset } from '../../sense/encode/packetiser.ts';
@@ -22,12 +20,12 @@ import type { CodedFormat, DrawnMost } from '../../sense/encode/plan.ts';
 import type { ReadyPicture } from '../../sense/pictures/picture-messages.ts';
 import { SOUND_STREAM } from '../../sense/sound/sound-frame.ts';
 import type { VideoFrame } from '../../sense/video/video-frame.ts';
+import { WantedClouds } from './display-pace.ts';
 import { type LatencyTest, LatencyTests } from './latency-tests.ts';
 import { OperatorMessages, type SessionHost } from './operator-messages.ts';
 import type { OperatorSessionEvents, OperatorSessionOptions } from './operator-session-options.ts';
 import { RestartPolicy } from './restart-policy.ts';
 import { ResumeKey } from './resume-key.ts';
-import { WantedClouds } from './wanted-clouds.ts';
 import { wishesListener } from './wishes-listener.ts';
 
 /** A page tells the capture time of a video's picture from its clock and the network's, ms. */

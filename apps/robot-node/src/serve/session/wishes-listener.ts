@@ -4,9 +4,9 @@ import type { PathBudget } from '../../send/budgets/path-budget.ts';
 import type { PictureSender } from '../../send/pictures/picture-sender.ts';
 import type { OperatorSound } from '../../send/sound/operator-sound.ts';
 import type { OperatorVideos } from '../../send/video/operator-videos.ts';
+import type { WantedClouds } from './display-pace.ts';
 import type { OperatorSessionEvents, OperatorSessionOptions } from './operator-session-options.ts';
 import type { WishesListener } from './operator-wishes.ts';
-import type { WantedClouds } from './wanted-clouds.ts';
 
 export interface WishedParts {
   clouds: WantedClouds;

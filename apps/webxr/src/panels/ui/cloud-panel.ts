@@ -3,19 +3,20 @@
  * no field to type in and no control keeps the focus after a click, because both would take keys from driving.
  */
 import type { CloudView } from '@farpoint/cloud-view';
+import { DROP_TINT, HIT_TINT, type Rgb } from '@farpoint/cloud-view';
+import type { BodyHeights } from '@farpoint/operator';
 import { effect, type ReadonlySignal, type Signal, signal, untracked } from '@preact/signals-core';
 import type { Switches } from '../../ground/switches.ts';
 import { type CloudAppearance, UNNAMED } from '../../state/cloud-appearance.ts';
 import type { RobotState } from '../../state/robot-state.ts';
+import { hazardLegendWords } from '../../words/hazard-words.ts';
 import { colourControls } from './colour-controls.ts';
 import { cutControls } from './cut-controls.ts';
 import { elements } from './elements.ts';
-import { hazardLegend } from './hazard-legend.ts';
 import { boundLeftColumn } from './left-column.ts';
-import { type Legend, legendOf } from './legend.ts';
+import { cssOf, type Legend, legendOf } from './legend.ts';
 import { type MemoryControlsParts, memoryControls } from './memory-controls.ts';
 import { quietButton, rowOf } from './panel-parts.ts';
-import { surfaceControls } from './surface-controls.ts';
 
 export interface CloudPanelParts {
   readonly appearance: CloudAppearance;
@@ -148,4 +149,53 @@ function element(className: string): HTMLElement {
   const made = document.createElement('div');
   made.className = className;
   return made;
+}
+
+/** Whether clouds on a camera’s grid are drawn as a surface or as points, and what paints the surface. */
+export function surfaceControls({ surface, drawsSurface, paint }: CloudAppearance): HTMLElement {
+  const button = quietButton('Surfaces', 'Draw clouds of depth cameras as surfaces, or as points', () => {
+    surface.value = !drawsSurface.peek();
+  });
+  const video = quietButton(
+    'Video',
+    'Paint surfaces with the depth camera’s video where the robot sends it, or with the points’ own colours',
+    () => {
+      paint.value = !paint.peek();
+    },
+  );
+  const group = document.createElement('div');
+  const painting = rowOf('Paint', video);
+  effect(() => {
+    button.ariaPressed = String(drawsSurface.value);
+    video.ariaPressed = String(paint.value);
+    painting.hidden = !drawsSurface.value;
+  });
+  group.append(rowOf('Draw', button), painting);
+  return group;
+}
+
+const TITLE = 'By height above the robot’s base alone. What stops the robot, its own obstacle guard decides';
+
+/** What the tints of hazards stand for. @param heights `null`: the robot does not say which heights matter to it */
+export function hazardLegend(heights: BodyHeights | null): HTMLElement {
+  const words = hazardLegendWords(heights);
+  const figure = document.createElement('figure');
+  figure.className = 'legend overlay hazards';
+  figure.title = TITLE;
+  if (words.unknown === undefined) figure.append(swatch(HIT_TINT, words.hit), swatch(DROP_TINT, words.drop));
+  else {
+    const caption = document.createElement('figcaption');
+    caption.textContent = words.unknown;
+    figure.append(caption);
+  }
+  return figure;
+}
+
+function swatch(tint: Rgb, text: string): HTMLElement {
+  const row = document.createElement('div');
+  const colour = document.createElement('span');
+  row.className = 'swatch';
+  colour.style.background = cssOf(tint);
+  row.append(colour, text);
+  return row;
 }

@@ -3,7 +3,7 @@ import type { RobotBody } from '@farpoint/protocol';
 import { computed, effect } from '@preact/signals-core';
 import type { NearView } from '../../ground/near-field/near-view.ts';
 import type { PageState } from '../../state/page-state.ts';
-import { steady } from '../../state/steady.ts';
+import { steady } from '../../state/sampler.ts';
 import { nearDetails, nearWords } from '../../words/near-words.ts';
 import { elements } from './elements.ts';
 import { drawNear } from './near-canvas.ts';

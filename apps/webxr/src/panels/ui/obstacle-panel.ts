@@ -1,6 +1,6 @@
 /** The panel that says why the page does not connect, and what the operator can do. */
 import { effect, type ReadonlySignal } from '@preact/signals-core';
-import { steady } from '../../state/steady.ts';
+import { steady } from '../../state/sampler.ts';
 import type { Obstacle } from '../../words/access-words.ts';
 import { elements } from './elements.ts';
 

@@ -8,8 +8,21 @@ import { KeyboardInput } from '../../take/drive/keyboard-input.ts';
 import { PickGamepad, unknownGamepadWords } from '../../take/drive/pick-gamepad.ts';
 import type { ReleaseControl } from '../../take/drive/release-hold.ts';
 import { TouchJoystick } from '../../take/drive/touch-joystick.ts';
-import type { TalkControl } from '../../take/sound/talk-hold.ts';
 import { elements } from './elements.ts';
+
+export type TalkControl = 'key' | 'pointer' | 'headset';
+
+/** Whether any of the controls with which an operator speaks is held. */
+export class TalkHold {
+  readonly #down = new Set<TalkControl>();
+
+  /** @returns whether any is held now */
+  set(control: TalkControl, down: boolean): boolean {
+    if (down) this.#down.add(control);
+    else this.#down.delete(control);
+    return this.#down.size > 0;
+  }
+}
 
 export type Action =
   | 'estop'

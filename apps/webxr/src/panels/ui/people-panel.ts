@@ -2,7 +2,7 @@
 import type { RobotClient } from '@farpoint/operator';
 import { computed, effect } from '@preact/signals-core';
 import type { PageState } from '../../state/page-state.ts';
-import { steady } from '../../state/steady.ts';
+import { steady } from '../../state/sampler.ts';
 import { type ShownPerson, shownPeople } from '../../words/people-words.ts';
 import { elements } from './elements.ts';
 

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { ringBar, ringCaption, ringTicks } from './ring-legend.ts';
+import { ringBar, ringCaption, ringTicks } from './legend.ts';
 
 describe('the legend of rings', () => {
   test('says how many there are, and whether that is known', () => {

@@ -1,12 +1,11 @@
 import { parseSignalingUrl } from '@farpoint/operator';
 import type { Signal } from '@preact/signals-core';
-import { parseHeadset } from '../../ground/headset-settings.ts';
+import { type HeadsetSettings, parseHeadset } from '../../ground/headset-settings.ts';
 import { clampScale, ownSignalingUrl } from '../../ground/settings.ts';
 import { tokenOrigin, withToken } from '../../ground/signaling-tokens.ts';
 import { forgetVisitTokens, loadStored, pageOrigin, store } from '../../ground/stored-settings.ts';
 import { parseTileTemplate } from '../../ground/telemetry/map-tiles.ts';
 import { elements } from './elements.ts';
-import { fillHeadsetFields, readHeadsetFields } from './headset-fields.ts';
 
 /** Sets up the dialog. @param pointScale follows the slider while it moves */
 export function initSettingsDialog(pointScale: Signal<number>): void {
@@ -78,4 +77,24 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
     for (const name of ['signaling', 'token', 'name', 'sync', 'cues']) address.searchParams.delete(name);
     location.replace(address);
   });
+}
+
+const CHOICES = ['turn', 'posture', 'driveHand'] as const;
+const NUMBERS = ['snapDegrees', 'vignette', 'frameRate', 'foveation', 'resolution'] as const;
+
+type Field = HTMLInputElement | HTMLSelectElement;
+
+function fieldOf(form: HTMLFormElement, name: keyof HeadsetSettings): Field {
+  return form.elements.namedItem(name) as Field;
+}
+
+/** The headset’s part of the settings dialog. */
+export function fillHeadsetFields(form: HTMLFormElement, settings: HeadsetSettings): void {
+  for (const name of [...CHOICES, ...NUMBERS]) fieldOf(form, name).value = String(settings[name]);
+}
+
+export function readHeadsetFields(form: HTMLFormElement): HeadsetSettings {
+  const chosen = CHOICES.map((name) => [name, fieldOf(form, name).value] as const);
+  const numbers = NUMBERS.map((name) => [name, Number(fieldOf(form, name).value)] as const);
+  return parseHeadset(Object.fromEntries([...chosen, ...numbers]));
 }

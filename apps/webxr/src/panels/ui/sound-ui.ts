@@ -3,10 +3,10 @@ import type { RobotClient, VoiceFailure } from '@farpoint/operator';
 import { effect } from '@preact/signals-core';
 import type { SoundState } from '../../state/sound-state.ts';
 import type { SoundPlayer } from '../../take/sound/sound-player.ts';
-import { type TalkControl, TalkHold } from '../../take/sound/talk-hold.ts';
 import { voiceFailureWords } from '../../words/sound-words.ts';
 import type { Words } from '../../words/words.ts';
 import { elements } from './elements.ts';
+import { type TalkControl, TalkHold } from './operator-inputs.ts';
 import { quietButton, sliderOf } from './panel-parts.ts';
 
 const METER_MS = 100;

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { frontSide } from './front-side.ts';
+import { frontSide } from './headset-rig.ts';
 
 test('says to which side to turn the head, the short way', () => {
   expect(frontSide(0.5, 0.4)).toBe(0);

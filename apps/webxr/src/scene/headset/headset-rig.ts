@@ -2,7 +2,7 @@
 import { type Signal, signal } from '@preact/signals-core';
 import { Group, type Object3D } from 'three';
 import type { HeadsetSettings, HeadsetView } from '../../ground/headset-settings.ts';
-import { frontSide } from './front-side.ts';
+import { shortestTurn } from '../pose-follower.ts';
 import { headYaw, OperatorOrigin } from './operator-origin.ts';
 import { OperatorTurn } from './operator-turn.ts';
 import { ABOVE_M, RigPose, type WorldPlace } from './rig-pose.ts';
@@ -168,4 +168,18 @@ export class HeadsetRig {
     this.front.position.set(origin.x, origin.y, origin.z);
     this.front.rotation.y = origin.yaw;
   }
+}
+
+/** A front within this angle of where the face points is in view, radians. */
+const IN_VIEW = (40 * Math.PI) / 180;
+
+/**
+ * @param front the robot's heading, radians, positive to the left
+ * @param face where the operator's face points, likewise
+ * @returns −1: to the left, 1: to the right, 0: in view
+ */
+export function frontSide(front: number, face: number): -1 | 0 | 1 {
+  const away = shortestTurn(front - face);
+  if (!(Math.abs(away) > IN_VIEW)) return 0;
+  return away > 0 ? -1 : 1;
 }

@@ -1,7 +1,7 @@
 /** Figures of the videos' presentation. Time is an argument. */
 import { type CompositorStats, type Distribution, SampleWindow } from '@farpoint/operator';
 import { RateMeter } from '@farpoint/timing';
-import type { VideoReceiverName } from '../../ground/video-receiver-name.ts';
+import type { VideoReceiverName } from '../../ground/settings.ts';
 
 /** What was shown of one video. */
 export interface ShownVideoStats {

@@ -1,6 +1,6 @@
 /** How this browser receives videos: as `?video=` says, or else in the fastest way that it has. */
 
-import { VIDEO_RECEIVERS, type VideoReceiverName } from '../../ground/video-receiver-name.ts';
+import { VIDEO_RECEIVERS, type VideoReceiverName } from '../../ground/settings.ts';
 import type { OpenReader } from './readers/open-reader.ts';
 import { hasTrackProcessor, openTrack } from './readers/track-reader.ts';
 import { hasFrameCallbacks, openNative } from './readers/video-reader.ts';

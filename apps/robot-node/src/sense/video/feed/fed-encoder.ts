@@ -1,8 +1,7 @@
 import { Backoff } from '@farpoint/timing';
 import type { VideoEncoder as EncoderElement } from '@farpoint/video';
 import { ProcessEncoder } from '../process-encoder.ts';
-import type { VideoEncoder, VideoEncoderEvents } from '../video-encoder.ts';
-import type { VideoLog } from '../video-log.ts';
+import type { VideoEncoder, VideoEncoderEvents, VideoLog } from '../video-encoder.ts';
 import type { EncodedFormat } from '../video-plan.ts';
 import type { Feed, FeedEvents, FeedTarget } from './feed.ts';
 

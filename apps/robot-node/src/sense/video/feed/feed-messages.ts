@@ -1,8 +1,7 @@
 /** Messages between the main thread and the thread that feeds cameras. Raw pictures are in none of them. */
 import type { VideoEncoder } from '@farpoint/video';
-import type { VideoFaultReason } from '../video-encoder.ts';
+import type { VideoFaultReason, VideoLog } from '../video-encoder.ts';
 import type { EncodedPicture } from '../video-frame.ts';
-import type { VideoLog } from '../video-log.ts';
 import type { EncodedFormat } from '../video-plan.ts';
 import type { FeedSource } from './feed-source.ts';
 

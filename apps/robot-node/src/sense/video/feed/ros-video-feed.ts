@@ -11,7 +11,7 @@ import type { Coding } from '@farpoint/video';
 import { capturedAtMs, type RosClock } from '../../../ground/ros/capture-time.ts';
 import { type Listener, listenBytes } from '../../../ground/ros/ros-listener.ts';
 import type { Feed, FeedEvents, FeedTarget } from './feed.ts';
-import { FrameRooms } from './frame-rooms.ts';
+import { FrameRooms } from './feed.ts';
 import { imageFrame } from './image-frame.ts';
 
 const COMPRESSED = 'sensor_msgs/msg/CompressedImage';

@@ -1,8 +1,8 @@
 import { officeWorld, SimulatedCamera, type WorldSnapshot, withThings } from '@farpoint/sim';
 import { SharedWorld } from '../../base/shared-snapshot.ts';
 import type { Feed, FeedTarget } from './feed.ts';
+import { FrameRooms } from './feed.ts';
 import type { SimVideoSource } from './feed-source.ts';
-import { FrameRooms } from './frame-rooms.ts';
 import { SimTrigger } from './sim-trigger.ts';
 
 /** The simulated robot's video cameras, triggered together. */

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { separateStreams } from './separate-streams.ts';
+import { separateStreams } from './watch-peer.ts';
 
 test('names each stream after its track, and changes nothing else', () => {
   const sdp = (cloud: string, video: string) =>
