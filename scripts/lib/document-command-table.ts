@@ -72,6 +72,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'pnpm bridge': { up: 'health and metrics', also: FREE_BRIDGE },
   'pnpm emulate': { up: 'health and metrics', also: FREE_LINK },
   'pnpm robot --help': { help: true },
+  'pnpm robot --help all': { help: true },
   'pnpm robot init': { help: true, because: 'writes into the working tree' },
   'npx -y pnpm@12 robot --signaling wss://signal.example.org --id rover-1 --name "Rover" --token …': robot,
   'npx -y pnpm@12 robot --signaling ws://127.0.0.1:3100 --id bad --name "Behind 8 Mbit/s"': robot,

@@ -1,6 +1,5 @@
 export * from './alarm.ts';
 export * from './bandwidth.ts';
-export * from './bandwidth.ts';
 export * from './barcode-time.ts';
 export * from './broadcast.ts';
 export * from './capture-stamp.ts';
@@ -50,14 +49,17 @@ export * from './picture-file.ts';
 export * from './placement.ts';
 export { MAX_PATH_POINTS, MAX_PLACE_M, type PlannedPath } from './planned-path.ts';
 export * from './point-packet.ts';
-export * from './point-packet.ts';
 export * from './points64.ts';
 export * from './pose-algebra.ts';
-export * from './present-operators.ts';
-export { MAX_LISTED_OPERATORS, type Operators, type PresentOperator } from './present-operators.ts';
+export {
+  MAX_LISTED_OPERATORS,
+  type Operators,
+  type PresentOperator,
+  type Role,
+  roles,
+} from './present-operators.ts';
 export * from './quantity.ts';
 export * from './reading.ts';
-export * from './reference-bridge.ts';
 export * from './reference-bridge.ts';
 export * from './return-state.ts';
 export type { BodyHeights, RobotBody } from './robot-body.ts';
@@ -79,8 +81,6 @@ export { operatorSessionCodec, robotSessionCodec } from './session-codecs.ts';
 export * from './session-messages.ts';
 export * from './session-requests.ts';
 export * from './sign-in.ts';
-export * from './sign-in.ts';
-export * from './signaling/farpoint.ts';
 export * from './signaling/farpoint.ts';
 export * from './signaling/reference.ts';
 export * from './signaling/signaling-endpoint.ts';

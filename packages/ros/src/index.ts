@@ -59,7 +59,6 @@ export { axesOf, checkedCount, PointCloud2Decoder } from './point-cloud2.ts';
 export type { CloudAxes } from './point-words.ts';
 export { RateLimit } from './rate-limit.ts';
 export { fixStampNs, readingOf, shortened, type TopicReading } from './reading.ts';
-export { ros1Hostname } from './ros1/node.ts';
 export { numbersOf, quantitiesOf, type TopicQuantity } from './topic-quantities.ts';
 export {
   qosOf,
@@ -76,8 +75,7 @@ export {
 export { TransformTree } from './transform-tree.ts';
 export type { JointSource } from './urdf/joint-sources.ts';
 export { ModelTopic, modelReading, newsOf } from './urdf/model-topic.ts';
-export type { JointNews, ModelNews } from './urdf/read-urdf.ts';
-export { type RobotModel, readUrdf } from './urdf/read-urdf.ts';
+export { type JointNews, type ModelNews, type RobotModel, readUrdf } from './urdf/read-urdf.ts';
 export { UrdfFault, type UrdfFaultCode, urdfFaultCodes } from './urdf/urdf-fault.ts';
 export { type VelocityWriter, velocityWriter } from './velocity.ts';
 export {

@@ -24,5 +24,4 @@ export * from './sent-packet-history.ts';
 export * from './sequence-number.ts';
 export * from './transport-feedback.ts';
 export * from './transport-feedback-adapter.ts';
-export * from './transport-feedback-adapter.ts';
 export * from './transport-feedback-writer.ts';

@@ -1,5 +1,4 @@
 export * from './command-gate.ts';
-export type * from './drive-guard.ts';
 export * from './drive-guard.ts';
 export * from './estop.ts';
 export * from './estop-release.ts';

@@ -1,9 +1,10 @@
 import { Command, CommanderError, Option } from 'commander';
 import { OptionsError } from './option-errors.ts';
-import type { OptionPlace, OptionTable, ProgramDefinition } from './option-table.ts';
+import { commonOptions, type OptionPlace, type OptionTable, type ProgramDefinition } from './option-table.ts';
 
 export type ParsedFlags =
-  | { action: 'help' }
+  /** `all`: of every option, by group. */
+  | { action: 'help'; of: 'basics' | 'all' }
   | { action: 'version' }
   /** Key → text (or boolean, for a flag without an argument), only for flags that were given. */
   | { action: 'run'; values: Map<string, unknown> };
@@ -23,7 +24,7 @@ export function parseFlags(
     command.parse([...argv], { from: 'user' });
   } catch (error) {
     if (!(error instanceof CommanderError)) throw error;
-    if (error.code === 'commander.helpDisplayed') return { action: 'help' };
+    if (error.code === 'commander.helpDisplayed') return { action: 'help', of: helpWanted(argv) };
     if (error.code === 'commander.version') return { action: 'version' };
     // "error: unknown option '--prot'\n(Did you mean --port?)"
     const detail = error.message.replace(/^error: /, '').replace(/\s*\n\s*/g, ' ');
@@ -37,18 +38,48 @@ export function parseFlags(
   return { action: 'run', values };
 }
 
-/** The output of `--help`: every option with its default and its environment variable. */
-export function helpText(definition: ProgramDefinition<OptionTable>, places: readonly OptionPlace[]): string {
-  const { command } = buildCommand(definition, places);
-  const commands = Object.entries(definition.commands ?? {});
-  if (commands.length === 0) return command.helpInformation();
-  const lines = commands.map(([name, what]) => `  ${`${definition.name} ${name}`.padEnd(26)} ${what}\n`);
-  return `${command.helpInformation()}\nCommands (each has its own --help):\n${lines.join('')}`;
+function helpWanted(argv: readonly string[]): 'basics' | 'all' {
+  const at = argv.findIndex((argument) => argument === '--help' || argument === '-h');
+  return argv[at + 1] === 'all' ? 'all' : 'basics';
+}
+
+/**
+ * The output of `--help` and of `--help all`: options with their defaults and their environment variables.
+ *
+ * @param of `basics`: those that the program names as such, and how to see the rest; all of a program that names none
+ */
+export function helpText(
+  definition: ProgramDefinition<OptionTable>,
+  places: readonly OptionPlace[],
+  of: 'basics' | 'all' = 'basics',
+): string {
+  const { command } = buildCommand(definition, places, of);
+  const parts = [command.helpInformation()];
+  const { name, basics, commands = {} } = definition;
+  if (of === 'basics' && basics !== undefined) {
+    const all = places.filter(({ flag }) => flag !== null).length;
+    parts.push(
+      `These are ${basics.length} of ${all} options. \`${name} --help all\` lists them all, by group.\n`,
+    );
+  }
+  const lines = Object.entries(commands).map(
+    ([command, what]) => `  ${`${name} ${command}`.padEnd(26)} ${what}\n`,
+  );
+  if (lines.length > 0) parts.push(`Commands (each has its own --help):\n${lines.join('')}`);
+  return parts.join('\n');
+}
+
+/** The heading under which `--help all` shows an option; `undefined`: under none. */
+function headingOf({ groups = {} }: ProgramDefinition<OptionTable>, key: string): string | undefined {
+  const [heading] = Object.entries(groups).find(([, table]) => key in table) ?? [];
+  if (heading !== undefined) return `${heading}:`;
+  return Object.keys(groups).length > 0 && key in commonOptions ? 'Configuration and log:' : undefined;
 }
 
 function buildCommand(
   definition: ProgramDefinition<OptionTable>,
   places: readonly OptionPlace[],
+  of: 'basics' | 'all' = 'all',
 ): { command: Command; keys: Map<string, string> } {
   const silent = { writeOut: () => {}, writeErr: () => {} };
   const command = new Command(definition.name)
@@ -59,7 +90,10 @@ function buildCommand(
     )
     .usage('[options]')
     .version(definition.version, '--version', 'print the version')
-    .helpOption('-h, --help', 'print this help')
+    .helpOption(
+      '-h, --help',
+      definition.basics === undefined ? 'print this help' : 'print this help; --help all: of every option',
+    )
     .exitOverride()
     .configureOutput(silent)
     .configureHelp({ helpWidth: 110 });
@@ -67,17 +101,21 @@ function buildCommand(
   for (const place of places) {
     if (place.flag === null) continue;
     const { spec, flag, key } = place;
+    const isLeftOut = of === 'basics' && definition.basics?.includes(key) === false;
+    const heading = of === 'all' ? headingOf(definition, key) : undefined;
     const description = `${spec.help} ${origins(place)}`;
     const option = new Option(spec.argument === undefined ? flag : `${flag} <${spec.argument}>`, description);
     keys.set(option.attributeName(), key);
+    if (heading !== undefined) option.helpGroup(heading);
     if (spec.argument !== undefined) {
-      command.addOption(option);
+      command.addOption(option.hideHelp(isLeftOut));
       continue;
     }
     // For a boolean, both `--x` and `--no-x` work; help shows the one that changes the default.
     const negated = new Option(flag.replace(/^--/, '--no-'), description);
-    command.addOption(option.hideHelp(spec.default === true));
-    command.addOption(negated.hideHelp(spec.default !== true));
+    if (heading !== undefined) negated.helpGroup(heading);
+    command.addOption(option.hideHelp(isLeftOut || spec.default === true));
+    command.addOption(negated.hideHelp(isLeftOut || spec.default !== true));
   }
   return { command, keys };
 }

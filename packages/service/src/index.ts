@@ -1,5 +1,4 @@
 export * from './admin-server.ts';
-export * from './admin-server.ts';
 export { closest } from './closest.ts';
 export * from './config-template.ts';
 export * from './health.ts';
@@ -18,11 +17,9 @@ export * from './program.ts';
 export { publicValues } from './public-values.ts';
 export * from './pulled-metrics.ts';
 export * from './secret.ts';
-export { withoutCredentials } from './secret.ts';
 export * from './shutdown.ts';
 export { StartFailure } from './start-failure.ts';
 export { fileFault } from './system-error.ts';
-export * from './text-file.ts';
 export * from './text-file.ts';
 export { proxies, TrustedProxies } from './trusted-proxies.ts';
 export { WatchedText, type WatchedTextOptions } from './watched-text.ts';

@@ -34,6 +34,10 @@ export interface ProgramDefinition<Table extends OptionTable> {
   /** Its section of the configuration file, which is also the second word of its environment variables. */
   readonly section: ConfigSection;
   readonly options: Table;
+  /** The options of {@link options} by what they are for, as `--help all` lists them: heading to options. */
+  readonly groups?: Readonly<Record<string, OptionTable>>;
+  /** The options that `--help` shows; the rest is in `--help all`. Without it, `--help` shows them all. */
+  readonly basics?: readonly string[];
   /** Its other commands, as `--help` lists them: name to description. */
   readonly commands?: Readonly<Record<string, string>>;
 }
@@ -90,9 +94,31 @@ export function optionGroup<const Table extends OptionTable>(group: string, tabl
   return Object.fromEntries(grouped) as Table;
 }
 
+type Intersection<Union> = (Union extends unknown ? (each: Union) => void : never) extends (
+  all: infer All,
+) => void
+  ? All
+  : never;
+type Merged<Groups extends Readonly<Record<string, OptionTable>>> = {
+  [Key in keyof Intersection<Groups[keyof Groups]>]: Intersection<Groups[keyof Groups]>[Key];
+};
+
+/** One table of the options of several groups, in their order. @throws {Error} if two groups have the same option */
+export function mergeGroups<const Groups extends Readonly<Record<string, OptionTable>>>(
+  groups: Groups,
+): Merged<Groups> {
+  const entries = Object.values(groups).flatMap((table) => Object.entries(table));
+  const merged = Object.fromEntries(entries);
+  const twice = entries.find(([key, spec]) => merged[key] !== spec);
+  if (twice !== undefined) throw new Error(`two groups have the option ${twice[0]}`);
+  return merged as Merged<Groups>;
+}
+
 /** Types a program's table. */
 export function defineProgram<const Table extends OptionTable>(
-  definition: ProgramDefinition<Table>,
+  definition: ProgramDefinition<Table> & {
+    readonly basics?: readonly (keyof Table | keyof typeof commonOptions)[];
+  },
 ): ProgramDefinition<Table> {
   return definition;
 }

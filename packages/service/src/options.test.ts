@@ -3,7 +3,7 @@ import { describe, expect, expectTypeOf, test } from 'vitest';
 import * as z from 'zod';
 import { OptionsError } from './option-errors.ts';
 import * as schema from './option-schemas.ts';
-import { defineOption, defineProgram, optionGroup } from './option-table.ts';
+import { defineOption, defineProgram, mergeGroups, optionGroup } from './option-table.ts';
 import { type OptionInput, resolveOptions } from './options.ts';
 
 const program = defineProgram({
@@ -308,6 +308,50 @@ test('--help shows every flag with its default and its variable, secrets without
   expect(text).toContain('env: FARPOINT_ROBOT_TURN, file: limits.turn)');
   expect(text).toContain('token (env: FARPOINT_TOKEN)');
   expect(resolve({ argv: ['--version'] })).toEqual({ action: 'print', text: 'farpoint-robot 1.2.3\n' });
+});
+
+describe('help of a program with many options', () => {
+  const speed = defineOption({ schema: schema.text(), default: '', argument: 'MPS', help: 'limit' });
+  const turn = defineOption({ schema: schema.text(), default: '', argument: 'RAD', help: 'limit' });
+  const record = defineOption({ schema: schema.boolean(), default: false, help: 'record' });
+  const groups = { Wheels: { speed, turn }, Files: { record } };
+  const program = defineProgram({
+    name: 'farpoint-robot',
+    summary: 'Drives.',
+    version: '1.2.3',
+    section: 'robot',
+    options: mergeGroups(groups),
+    groups,
+    basics: ['speed', 'logLevel'],
+  });
+  const help = (...argv: string[]) => {
+    const resolved = resolveOptions(program, { argv, env: {}, readFile: () => null });
+    return resolved.action === 'print' ? resolved.text : '';
+  };
+  const flagsIn = (text: string) => text.match(/^ {2}--[a-z-]+/gm)?.map((flag) => flag.trim());
+
+  test.each(['--help', '-h'])('%s shows the basic ones, and how to see the others', (flag) => {
+    expect(flagsIn(help(flag))).toEqual(['--version', '--speed', '--log-level']);
+    expect(help(flag)).toContain('These are 2 of 6 options. `farpoint-robot --help all` lists them all');
+  });
+
+  test('--help all shows all of them, by group', () => {
+    const all = help('--help', 'all');
+    expect(flagsIn(all)).toEqual([
+      '--version',
+      '--speed',
+      '--turn',
+      '--record',
+      '--config',
+      '--log-level',
+      '--log-format',
+    ]);
+    expect(all.match(/^\S.*:$/gm)).toEqual(['Options:', 'Wheels:', 'Files:', 'Configuration and log:']);
+  });
+
+  test('no option is in two groups', () => {
+    expect(() => mergeGroups({ Wheels: { speed }, Files: { speed: { ...speed } } })).toThrow('option speed');
+  });
 });
 
 describe('text in the file is taken as it is written', () => {

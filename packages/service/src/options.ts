@@ -53,7 +53,7 @@ export function resolveOptions<Table extends OptionTable>(
 ): ResolvedOptions<Table> {
   const places = optionPlaces(definition);
   const flags = parseFlags(definition, places, input.argv);
-  if (flags.action === 'help') return { action: 'print', text: helpText(definition, places) };
+  if (flags.action === 'help') return { action: 'print', text: helpText(definition, places, flags.of) };
   if (flags.action === 'version')
     return { action: 'print', text: `${definition.name} ${definition.version}\n` };
 

@@ -9,7 +9,6 @@ export * from './peers/reference-robot.ts';
 export * from './peers/socket-peer.ts';
 export * from './reach.ts';
 export * from './rtp-rules.ts';
-export * from './rtp-rules.ts';
 export * from './suites/bridge-suite.ts';
 export * from './suites/robot-suite.ts';
 export * from './suites/signaling-suite.ts';

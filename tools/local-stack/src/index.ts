@@ -1,7 +1,6 @@
 export * from './bridge-process.ts';
 export * from './choose-ports.ts';
 export * from './chromium.ts';
-export * from './chromium.ts';
 export * from './dev-sim.ts';
 export * from './emulated-headset.ts';
 export * from './emulated-link.ts';

@@ -1,2 +1,1 @@
-export type { Ros1Options } from './graph.ts';
-export { openRos1Graph } from './graph.ts';
+export { openRos1Graph, type Ros1Options } from './graph.ts';

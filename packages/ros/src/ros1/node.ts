@@ -1,6 +1,5 @@
 /** The library’s node, extended: it knows who is already connected, and that others may end it. */
 
-import { hostname } from 'node:os';
 import { RosNode, type Subscription } from '@foxglove/ros1';
 
 type NodeOptions = ConstructorParameters<typeof RosNode>[0];
@@ -33,9 +32,4 @@ export class OwnNode extends RosNode {
       this.#connecting.delete(key);
     }
   }
-}
-
-/** The name under which others reach this machine, determined as ROS 1's own nodes do. */
-export function ros1Hostname(environment: NodeJS.ProcessEnv): string {
-  return environment.ROS_HOSTNAME || environment.ROS_IP || hostname();
 }

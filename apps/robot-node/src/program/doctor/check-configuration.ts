@@ -27,7 +27,7 @@ export function checkConfiguration(
     const results = error.mistakes.map(({ where, detail, found }) =>
       fail(
         `${where} ${detail}${found === undefined ? '' : `, not ${found}`}`,
-        'correct it; `farpoint-robot --help` lists every option',
+        'correct it; `farpoint-robot --help all` lists every option',
       ),
     );
     return { results, values: null, robot: null };
@@ -43,7 +43,7 @@ function describe({ configPath, sources, values, unknownEnvironment }: Resolved)
   const results = [ok(what)];
   for (const name of unknownEnvironment)
     results.push(
-      warn(`the variable ${name} is not an option`, 'see `farpoint-robot --help` for the correct name'),
+      warn(`the variable ${name} is not an option`, 'see `farpoint-robot --help all` for the correct name'),
     );
   const secret = sources.token === 'config' || sources.key === 'config' || sources.iceServers === 'config';
   if (configPath !== null && secret && values.token !== null && isPublic(configPath))

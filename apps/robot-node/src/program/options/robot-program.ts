@@ -1,5 +1,11 @@
 /** All options of the robot program. Each group has its own file. */
-import { adminOptions, defineProgram, type OptionTable, type OptionValues } from '@farpoint/service';
+import {
+  adminOptions,
+  defineProgram,
+  mergeGroups,
+  type OptionTable,
+  type OptionValues,
+} from '@farpoint/service';
 import manifest from '../../../package.json' with { type: 'json' };
 import { accessOptions } from './access.ts';
 import { alarmsOptions } from './alarms.ts';
@@ -28,39 +34,32 @@ import { stopsOptions } from './stops.ts';
 import { streamOptions } from './stream.ts';
 import { videosOptions } from './videos.ts';
 
-const options = {
-  ...identityOptions,
-  ...signalingOptions,
-  ...accessOptions,
-  ...auditOptions,
-  ...sourceOptions,
-  ...shmOptions,
-  ...playbackOptions,
-  ...simOptions,
-  ...sinkOptions,
-  ...topicsOptions,
-  ...modelOptions,
-  ...alarmsOptions,
-  ...rosOptions,
-  ...limitsOptions,
-  ...motionOptions,
-  ...stopsOptions,
-  ...fenceOptions,
-  ...guardOptions,
-  ...guardTopicsOptions,
-  ...returnOptions,
-  ...stateOptions,
-  ...streamOptions,
-  ...picturesOptions,
-  ...videosOptions,
-  ...soundOptions,
-  ...broadcastOptions,
-  ...networkOptions,
-  ...recordingOptions,
-  ...foxgloveOptions,
-  ...adminOptions(9400),
-  ...measurementOptions,
-} satisfies OptionTable;
+/** By what they are for: the headings of `--help all`. */
+const groups = {
+  'Name and signaling service': { ...identityOptions, ...signalingOptions },
+  'Who may operate the robot, and what is recorded of it': { ...accessOptions, ...auditOptions },
+  'Where clouds come from': { ...sourceOptions, ...shmOptions, ...playbackOptions, ...simOptions },
+  'Wheels, topics and readings': {
+    ...sinkOptions,
+    ...topicsOptions,
+    ...modelOptions,
+    ...alarmsOptions,
+    ...rosOptions,
+  },
+  'Limits of motion': { ...limitsOptions, ...motionOptions },
+  'Emergency stops and the fence': { ...stopsOptions, ...fenceOptions },
+  'Obstacle guard': { ...guardOptions, ...guardTopicsOptions },
+  'Driving back by itself': returnOptions,
+  State: stateOptions,
+  'Clouds and pictures on the link': { ...streamOptions, ...picturesOptions },
+  'Videos and sound': { ...videosOptions, ...soundOptions },
+  'Broadcast through Janus': broadcastOptions,
+  'Network paths': networkOptions,
+  'Recordings and Foxglove': { ...recordingOptions, ...foxgloveOptions },
+  'Health, metrics and measurement': { ...adminOptions(9400), ...measurementOptions },
+} satisfies Record<string, OptionTable>;
+
+const options = mergeGroups(groups);
 
 export const robotProgram = defineProgram({
   name: 'farpoint-robot',
@@ -75,6 +74,34 @@ export const robotProgram = defineProgram({
     audit: 'verifies an audit log',
   },
   options,
+  groups,
+  basics: [
+    'config',
+    'id',
+    'name',
+    'signaling',
+    'token',
+    'grantKeys',
+    'source',
+    'path',
+    'fps',
+    'sink',
+    'urdf',
+    'maxLinear',
+    'maxAngular',
+    'obstacleGuard',
+    'footprint',
+    'fence',
+    'return',
+    'bitrateMbps',
+    'maxOperators',
+    'iceServers',
+    'udpPorts',
+    'record',
+    'foxglovePort',
+    'stateDir',
+    'logLevel',
+  ],
 });
 
 export type RobotOptionValues = OptionValues<typeof options>;

@@ -1,4 +1,4 @@
-import { ros1Hostname } from '@farpoint/ros';
+import { hostname } from 'node:os';
 import type { GraphOptions } from '../../ground/ros/open-graph.ts';
 import type { RobotOptionValues } from './robot-program.ts';
 import { rosMasterUrl } from './ros.ts';
@@ -26,4 +26,9 @@ export function toGraph(values: RobotOptionValues, kind: GraphOptions['kind']): 
     masterUrl: rosMasterUrl(values.rosMaster, env),
     hostname: values.rosHostname ?? ros1Hostname(env),
   };
+}
+
+/** The name under which others reach this machine, determined as ROS 1's own nodes do. */
+function ros1Hostname(environment: NodeJS.ProcessEnv): string {
+  return environment.ROS_HOSTNAME || environment.ROS_IP || hostname();
 }
