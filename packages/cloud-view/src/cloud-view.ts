@@ -4,6 +4,7 @@
  */
 import type {
   Batch,
+  CloudSource,
   DropCounts,
   DropReason,
   Vector3 as Position,
@@ -15,7 +16,6 @@ import { writePose } from './batch-pose.ts';
 import type { CloudColouring } from './cloud-colouring.ts';
 import { freshnessAt } from './cloud-colouring.ts';
 import type { CloudPaint } from './cloud-paint.ts';
-import type { CloudSource, CloudViewOptions } from './cloud-source.ts';
 import { CloudSurface } from './cloud-surface.ts';
 import { type DrawnPoints, type FramePose, readDrawnPoints } from './drawn-points.ts';
 import { FrameWindow } from './frame-window.ts';
@@ -32,6 +32,12 @@ import { WaitingBatches } from './waiting-batches.ts';
 const FIRST_CAPACITY = 1 << 19;
 /** 128 MiB on the GPU. */
 const MAX_CAPACITY = 1 << 24;
+
+/** Options of a {@link CloudView}. */
+export interface CloudViewOptions {
+  /** Number of the sensor whose clouds are drawn; default: the first. */
+  sensor?: number;
+}
 
 /**
  * The clouds of one of a robot's sensors, as an object of a three.js scene. Its axes are those of the robot's world

@@ -3,6 +3,7 @@
  *
  * @module cloud-view
  */
+export type { CloudSource } from '@farpoint/operator';
 export { bodyYaw } from '@farpoint/protocol';
 export { opticalYaw, RobotWorld, worldToThree } from './axes.ts';
 export {
@@ -14,8 +15,7 @@ export {
   type ValueRange,
 } from './cloud-colouring.ts';
 export type { CameraPicture, CloudPaint, PictureUse } from './cloud-paint.ts';
-export type { CloudSource, CloudViewOptions } from './cloud-source.ts';
-export { CloudView } from './cloud-view.ts';
+export { CloudView, type CloudViewOptions } from './cloud-view.ts';
 export { COLOUR_STOPS, colourAt, colourStops, type Rgb } from './colour-map.ts';
 export { ALL_FRAMES_PER_SECOND, DisplayMeter } from './display-meter.ts';
 export { DrawGate } from './draw-gate.ts';

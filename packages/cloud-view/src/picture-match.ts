@@ -4,10 +4,9 @@
  *
  * Instants are in µs on the robot's clock, modulo 2³².
  */
+import { isSameInstant } from '@farpoint/operator';
 import { sequenceDelta32 } from '@farpoint/protocol';
 
-/** Stamps of one capture differ by less: a video's count in 1/90 ms. */
-const SAME_INSTANT_US = 500;
 /** How many of the cloud's newest frames are known. */
 const FRAMES_KEPT = 64;
 
@@ -37,7 +36,7 @@ export class PictureMatch {
 
   /** Whether the cloud has a frame of this instant. */
   isFrame(instantUs: number): boolean {
-    for (const frame of this.#frames) if (isSame(frame, instantUs)) return true;
+    for (const frame of this.#frames) if (isSameInstant(frame, instantUs)) return true;
     return false;
   }
 
@@ -59,7 +58,7 @@ export class PictureMatch {
   layerOf(instantUs: number): number | null {
     for (let layer = 0; layer < this.#instants.length; layer++) {
       const has = this.#instants[layer] ?? null;
-      if (has !== null && isSame(has, instantUs)) return layer;
+      if (has !== null && isSameInstant(has, instantUs)) return layer;
     }
     return null;
   }
@@ -96,8 +95,4 @@ export class PictureMatch {
     const newest = this.#newestFrame;
     return newest === null || sequenceDelta32(instantUs, newest) > 0 || this.isFrame(instantUs);
   }
-}
-
-function isSame(a: number, b: number): boolean {
-  return Math.abs(sequenceDelta32(a, b)) <= SAME_INSTANT_US;
 }

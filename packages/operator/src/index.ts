@@ -86,22 +86,41 @@ export {
 export { DEFAULT_EXTENT } from './cloud/image-extent.ts';
 export type { DropCounts, DropReason } from './cloud/packet-intake.ts';
 export type { IntakeReport } from './cloud/worker-messages.ts';
-export { captureMsOfRtp, captureMsOfStamp } from './compositor/capture-instant.ts';
-export type { ItemDropReason } from './compositor/capture-source.ts';
-export {
-  Compositor,
-  type CompositorOptions,
-  type DroppedItem,
-  type Presentation,
-  type PresentedItem,
-} from './compositor/compositor.ts';
-export type { CompositorStats, SourceFigures, SourceState } from './compositor/compositor-statistics.ts';
 export { activeInput, type DriveInput, type PressedButtons } from './drive/drive-input.ts';
 export type { Driver } from './drive/driver.ts';
 export { type GripLoss, READING_HOLDS_MS } from './drive/grips.ts';
 export { robotAfter } from './drive/robot-switch.ts';
 export type { SeenView } from './drive/seen-view.ts';
 export { type DriveWish, toTwist } from './drive/velocity-mapping.ts';
+export {
+  captureMsOfRtp,
+  captureMsOfStamp,
+  isSameInstant,
+  SAME_INSTANT_US,
+} from './instant/capture-instant.ts';
+export type { ItemDropReason } from './instant/capture-source.ts';
+export {
+  CloudHold,
+  type CloudHoldStats,
+  driverHold,
+  type HoldLimit,
+  noHold,
+  watcherHold,
+} from './instant/cloud-hold.ts';
+export {
+  Compositor,
+  type CompositorOptions,
+  type DroppedItem,
+  type Presentation,
+  type PresentedItem,
+} from './instant/compositor.ts';
+export type { CompositorStats, SourceFigures, SourceState } from './instant/compositor-statistics.ts';
+export {
+  type ClockedCloudSource,
+  type CloudSource,
+  HeldClouds,
+  type SessionClock,
+} from './instant/held-clouds.ts';
 export { LatencyError, type LatencyProbe, type LatencyReport } from './latency/latency-probe.ts';
 export type { LatencyFailure, LatencyResult } from './latency/latency-test.ts';
 export { type Distribution, SampleWindow } from './latency/sample-window.ts';

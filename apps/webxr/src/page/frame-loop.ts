@@ -9,14 +9,13 @@ import {
   isSoftwareRenderer,
   WorstGap,
 } from '@farpoint/cloud-view';
-import type { RobotClient } from '@farpoint/operator';
+import type { HeldClouds, RobotClient } from '@farpoint/operator';
 import type { Settings } from '../ground/settings.ts';
 import type { RememberedWorld } from '../panels/ui/remembered-world.ts';
 import { followScene } from '../scene/view/follow-scene.ts';
 import type { SensorClouds } from '../scene/view/sensor-clouds.ts';
 import type { Stage } from '../scene/view/stage.ts';
 import type { VrSession } from '../scene/view/vr-session.ts';
-import type { HeldClouds } from '../take/video/held-clouds.ts';
 import type { VideoFeed } from '../take/video/video-feed.ts';
 import type { PageStatistics } from '../words/page-stats.ts';
 

@@ -1,8 +1,8 @@
 /** The client of one robot, with what it knows of robots and of this browser's user. */
 import { RobotClient, type RobotClientOptions, type TransformSupport } from '@farpoint/operator';
-import { StoredRobots } from '../ground/access/known-robots.ts';
 import { OperatorAccess } from '../ground/access/operator-access.ts';
 import { browserAccess } from '../ground/access/stored-access.ts';
+import { StoredRobots } from '../ground/access/stored-robots.ts';
 import type { Settings } from '../ground/settings.ts';
 import { tokenOrigin } from '../ground/signaling-tokens.ts';
 import type { OperatorInputs } from '../panels/ui/operator-inputs.ts';

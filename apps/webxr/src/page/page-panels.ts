@@ -1,8 +1,8 @@
 /** The panels, dialogs and controls of the page, and what they do. */
 import type { RobotClient } from '@farpoint/operator';
-import type { StoredRobots } from '../ground/access/known-robots.ts';
 import type { OperatorAccess } from '../ground/access/operator-access.ts';
 import { SignIn, tabStorage } from '../ground/access/sign-in.ts';
+import type { StoredRobots } from '../ground/access/stored-robots.ts';
 import type { Settings } from '../ground/settings.ts';
 import type { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
 import { DashboardOpener } from '../panels/dashboard/dashboard-opener.ts';

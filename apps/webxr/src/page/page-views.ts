@@ -1,6 +1,7 @@
 /** What shows, in the scene, what the robot sends: clouds, videos, what was seen before, and where the robot is. */
 import { CloudView } from '@farpoint/cloud-view';
 import type { RobotClient } from '@farpoint/operator';
+import { CloudHold, driverHold, HeldClouds, noHold } from '@farpoint/operator';
 import type { Settings } from '../ground/settings.ts';
 import { PresentedInstant } from '../ground/telemetry/presented-instant.ts';
 import { RememberedWorld } from '../panels/ui/remembered-world.ts';
@@ -9,8 +10,6 @@ import { SensorClouds } from '../scene/view/sensor-clouds.ts';
 import type { Stage } from '../scene/view/stage.ts';
 import type { CloudAppearance } from '../state/cloud-appearance.ts';
 import type { PageState } from '../state/page-state.ts';
-import { CloudHold, driverHold, noHold } from '../take/video/cloud-hold.ts';
-import { HeldClouds } from '../take/video/held-clouds.ts';
 import { VideoColour } from '../take/video/video-colour.ts';
 import { VideoFeed } from '../take/video/video-feed.ts';
 import type { VideoReceiver } from '../take/video/video-receiver.ts';

@@ -1,6 +1,6 @@
 /** Runs a compositor in virtual time with sources whose items are lost and delayed, and accounts for every payload. */
-import { Compositor, type Presentation } from '../compositor/compositor.ts';
-import type { CompositorStats } from '../compositor/compositor-statistics.ts';
+import { Compositor, type Presentation } from '../instant/compositor.ts';
+import type { CompositorStats } from '../instant/compositor-statistics.ts';
 
 export interface SimulatedSource {
   readonly name: string;

@@ -1,14 +1,20 @@
 /** The page for those who watch: cameras and clouds together, and nothing that reaches the robot. */
 import { CloudView, DrawingGovernor } from '@farpoint/cloud-view';
-import { RobotWatcher, type TransformSupport, type WatchState } from '@farpoint/operator';
+import {
+  CloudHold,
+  HeldClouds,
+  noHold,
+  RobotWatcher,
+  type TransformSupport,
+  type WatchState,
+  watcherHold,
+} from '@farpoint/operator';
 import { computed, effect, signal } from '@preact/signals-core';
 import { Switches } from '../../ground/switches.ts';
 import { startLook } from '../../panels/ui/look-controls.ts';
 import { SensorClouds } from '../../scene/view/sensor-clouds.ts';
 import { Stage } from '../../scene/view/stage.ts';
 import { Enlarged } from '../../state/enlarged.ts';
-import { CloudHold, noHold, watcherHold } from '../../take/video/cloud-hold.ts';
-import { HeldClouds } from '../../take/video/held-clouds.ts';
 import { VideoFeed } from '../../take/video/video-feed.ts';
 import { videoReceiver } from '../../take/video/video-receiver.ts';
 import { VideoViews } from '../../take/video/video-views.ts';

@@ -1,7 +1,7 @@
 /** The dialog for grants: this browser's key, the grants that it holds, and the robots that it knows. */
 import { effect, type ReadonlySignal, signal } from '@preact/signals-core';
-import type { StoredRobots } from '../../ground/access/known-robots.ts';
 import type { OperatorAccess, ReadResult } from '../../ground/access/operator-access.ts';
+import type { StoredRobots } from '../../ground/access/stored-robots.ts';
 import { grantFaultWords, grantWords } from '../../words/access-words.ts';
 import type { Words } from '../../words/words.ts';
 import { elements } from './elements.ts';

@@ -1,8 +1,8 @@
 /** The remembered world of the page: remembers what comes, draws it, also as a small map, and saves and loads it. */
 import { MemoryView } from '@farpoint/cloud-view';
+import type { HeldClouds } from '@farpoint/operator';
 import { type PointFileFormat, type RobotClient, WorldMemory } from '@farpoint/operator';
 import type { Camera, Object3D, WebGLRenderer } from 'three';
-import type { HeldClouds } from '../../take/video/held-clouds.ts';
 import type { RememberedFigures } from '../../words/page-stats.ts';
 import { MinimapPanel } from './minimap-panel.ts';
 

@@ -3,9 +3,8 @@
  * the video's picture of the same capture instant, and with the packets' own colours where there is none.
  */
 import type { CloudView, PictureUse } from '@farpoint/cloud-view';
-import type { Batch, RobotClient, VideoDescription } from '@farpoint/operator';
+import type { Batch, CloudHold, RobotClient, VideoDescription } from '@farpoint/operator';
 import { effect, type ReadonlySignal } from '@preact/signals-core';
-import type { CloudHold } from './cloud-hold.ts';
 import type { VideoImage } from './readers/video-image.ts';
 import type { VideoFeed } from './video-feed.ts';
 import type { VideoViews } from './video-views.ts';

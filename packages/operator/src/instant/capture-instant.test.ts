@@ -1,7 +1,7 @@
 import { stampUsOf } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { captureMsOfRtp, captureMsOfStamp } from './capture-instant.ts';
+import { captureMsOfRtp, captureMsOfStamp, isSameInstant } from './capture-instant.ts';
 
 const WRAP = 2 ** 32;
 const rtpOf = (ms: number): number => Math.floor(ms * 90) % WRAP;
@@ -35,5 +35,16 @@ test('equal timestamps give equal instants, whatever the reference', () => {
       expect(captureMsOfRtp(stamp, near + off)).toBe(near);
     }),
     { seed: 2, numRuns: 1000 },
+  );
+});
+
+test('a video’s frame and a cloud of one capture are of one instant; those of the next one, at 120 Hz, are not', () => {
+  fc.assert(
+    fc.property(fc.double({ min: 0, max: 1e9, noNaN: true }), (ms) => {
+      const cloudUs = stampUsOf(ms);
+      expect(isSameInstant(stampUsOf(captureMsOfRtp(rtpOf(ms), ms)), cloudUs)).toBe(true);
+      expect(isSameInstant(stampUsOf(captureMsOfRtp(rtpOf(ms + 1000 / 120), ms)), cloudUs)).toBe(false);
+    }),
+    { seed: 3, numRuns: 1000 },
   );
 });

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { parseRobotKeys, robotKeysText, StoredRobots, withRobotKey } from './known-robots.ts';
+import { parseRobotKeys, robotKeysText, StoredRobots, withRobotKey } from './stored-robots.ts';
 
 const [a, b] = ['a'.repeat(43), 'b'.repeat(43)];
 const HERE = 'wss://robots.example';

@@ -2,7 +2,8 @@
  * Holds clouds until the videos that were captured with them are shown. Videos take longer: they are encoded, put
  * together and decoded. Time is an argument.
  */
-import { type Distribution, SampleWindow } from '@farpoint/operator';
+import { type Distribution, SampleWindow } from '../latency/sample-window.ts';
+import { SAME_INSTANT_US } from './capture-instant.ts';
 
 /** For one who only watches, ms: nothing is lost by it. */
 const WATCHER_HOLD_MS = 200;
@@ -22,8 +23,6 @@ const GROWTH = 1 / 8;
 const MEAN_SHARE = 1 / 32;
 /** Holding ends only when it is so much too short, as a factor: a change shifts the delay of what is seen. */
 const END_FACTOR = 1.3;
-/** What was captured together has stamps that differ by less, ms. */
-const SAME_INSTANT_MS = 1;
 const MOST_AWAITED = 64;
 const SAMPLES_KEPT = 512;
 
@@ -41,10 +40,21 @@ export type HoldLimit = (intervalMs: number) => number;
 
 /** Clouds pass at once. */
 export const noHold: HoldLimit = () => 0;
+/** For one who only watches: up to 200 ms, because nothing is lost by it. */
 export const watcherHold: HoldLimit = () => WATCHER_HOLD_MS;
+/** For one who drives: an interval of the videos and 10 ms, at most 60 ms, because the points show obstacles. */
 export const driverHold: HoldLimit = (intervalMs) =>
   Math.min(intervalMs + DRIVER_MARGIN_MS, MOST_DRIVER_HOLD_MS);
 
+/** How clouds and videos fit together, of the newest clouds that were passed while videos were shown. */
+export interface CloudHoldStats {
+  /** How much later a cloud was captured than the video's frame it is seen with, ms; `null`: no cloud yet. */
+  readonly aheadMs: Distribution | null;
+  /** How long a cloud waited, ms; `null`: no cloud yet. */
+  readonly heldMs: Distribution | null;
+}
+
+/** Holds clouds back until the videos of their instant are shown, but never longer than its limit. */
 export class CloudHold {
   readonly #limit: HoldLimit;
   readonly #waiting: Waiting[] = [];
@@ -67,12 +77,16 @@ export class CloudHold {
   /** When the newest cloud that was passed was captured, ms on the robot's clock; `null` before the first. */
   passedMs: number | null = null;
 
+  /** @param limit {@link noHold}, {@link watcherHold}, {@link driverHold}, or one's own */
   constructor(limit: HoldLimit) {
     this.#limit = limit;
   }
 
   /**
-   * @param captureMs on the robot's clock
+   * Takes a cloud that has arrived.
+   *
+   * @param captureMs when it was captured: ms on the robot's clock
+   * @param nowMs when it arrived: ms on the clock of {@link tick}
    * @param pass called once, now or at one of the next ticks, in the order of arrival
    */
   add(captureMs: number, nowMs: number, pass: () => void): void {
@@ -87,7 +101,11 @@ export class CloudHold {
     this.#passDue(nowMs);
   }
 
-  /** @param videoMs the newest capture instant of what is shown of the videos, robot's clock; `null` for none */
+  /**
+   * Passes what has waited long enough. Call it for each display frame.
+   *
+   * @param videoMs the newest capture instant of what is shown of the videos, robot's clock; `null` for none
+   */
   tick(videoMs: number | null, nowMs: number): void {
     if (videoMs !== this.#videoMs) {
       this.#wentOnMs = nowMs;
@@ -114,10 +132,11 @@ export class CloudHold {
   }
 
   /** Of what was passed while videos were shown. */
-  get stats(): { aheadMs: Distribution | null; heldMs: Distribution | null } {
+  get stats(): CloudHoldStats {
     return { aheadMs: this.#ahead.distribution(), heldMs: this.#held.distribution() };
   }
 
+  /** Restarts both distributions. */
   resetDistributions(): void {
     this.#ahead.clear();
     this.#held.clear();
@@ -129,7 +148,7 @@ export class CloudHold {
 
   /** What was captured so long after a picture at most belongs to it: usually half an interval of the slower source. */
   get #togetherMs(): number {
-    if (this.exact) return SAME_INSTANT_MS;
+    if (this.exact) return SAME_INSTANT_US / 1000;
     return Math.max(this.#videoIntervalMs, this.#cloudIntervalMs) / 2;
   }
 

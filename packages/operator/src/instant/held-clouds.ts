@@ -1,14 +1,36 @@
-import type { CloudSource } from '@farpoint/cloud-view';
-import { type Batch, captureMsOfStamp, type RobotEvents } from '@farpoint/operator';
+import type { RobotClient } from '../client/robot-client.ts';
+import type { RobotEvents } from '../client/robot-events.ts';
+import type { Batch } from '../cloud/batch.ts';
+import { captureMsOfStamp } from './capture-instant.ts';
 import type { CloudHold } from './cloud-hold.ts';
 
+/** Where clouds come from: a {@link RobotClient}, or an object with the same interface. */
+export type CloudSource = Pick<
+  RobotClient,
+  'on' | 'release' | 'noteUploaded' | 'noteDrawn' | 'pointsAtMs'
+> & {
+  /** Latency tests: `wantsTime` says whether the display frame being drawn must be timed. */
+  readonly latency: Pick<RobotClient['latency'], 'wantsTime'>;
+};
+
 /** Where clouds come from, and the clock on which they were captured. */
-export interface ClockedCloudSource extends CloudSource {
-  readonly link: { readonly session: { readonly clock: { readonly offsetMs: number | null } } };
+export type ClockedCloudSource = CloudSource & {
+  /** Whose session knows the robot's clock. */
+  readonly link: SessionClock;
+};
+
+/** What {@link HeldClouds} reads of a client's link. */
+export interface SessionClock {
+  /** The session, which compares its robot's clock with the page's. */
+  readonly session: {
+    /** The comparison. */
+    readonly clock: Pick<RobotClient['link']['session']['clock'], 'offsetMs'>;
+  };
 }
 
 /** A robot's clouds, some of them a little later: in step with the videos. */
 export class HeldClouds implements CloudSource {
+  /** Of the source. */
   readonly latency: CloudSource['latency'];
   readonly #source: ClockedCloudSource;
   readonly #hold: CloudHold;
@@ -17,6 +39,7 @@ export class HeldClouds implements CloudSource {
   /** Called with each batch as it comes, before it is held; it must copy what it keeps. */
   onBatch: ((batch: Batch) => void) | null = null;
 
+  /** @param now the clock of {@link tick}, such as `performance.now()` */
   constructor(source: ClockedCloudSource, hold: CloudHold, now: () => number) {
     this.latency = source.latency;
     this.#source = source;
@@ -28,10 +51,12 @@ export class HeldClouds implements CloudSource {
     });
   }
 
+  /** Of the source. */
   get pointsAtMs(): number {
     return this.#source.pointsAtMs;
   }
 
+  /** Listens to the source; clouds come when they are no longer held. @returns ends it */
   on<Type extends keyof RobotEvents>(type: Type, listener: (event: RobotEvents[Type]) => void): () => void {
     if (type !== 'cloud' && !type.startsWith('cloud:')) return this.#source.on(type, listener);
     // The types cannot say that these events are batches.
@@ -39,14 +64,17 @@ export class HeldClouds implements CloudSource {
     return this.#source.on(type as 'cloud', (batch) => this.#take(batch, take));
   }
 
+  /** Of the source. */
   release(batch: Batch): void {
     this.#source.release(batch);
   }
 
+  /** Of the source. */
   noteUploaded(batch: Batch, packet: number): void {
     this.#source.noteUploaded(batch, packet);
   }
 
+  /** Of the source. */
   noteDrawn(nowMs: number): void {
     this.#source.noteDrawn(nowMs);
   }

@@ -8,6 +8,17 @@ const VIDEO_TICKS_PER_MS = VIDEO_CLOCK_RATE / 1000;
 const STAMP_TICKS_PER_MS = 1000;
 
 /**
+ * What was captured together has stamps that differ by at most this, µs. A video's stamp counts in 1/90 ms, a cloud's in
+ * µs, and the fastest cameras capture every 8 ms.
+ */
+export const SAME_INSTANT_US = 500;
+
+/** Whether a picture and a cloud were captured together. @param aUs capture stamps, µs modulo 2³² */
+export function isSameInstant(aUs: number, bUs: number): boolean {
+  return Math.abs(sequenceDelta32(aUs, bUs)) <= SAME_INSTANT_US;
+}
+
+/**
  * The capture instant of a video's frame. Frames with the same timestamp have the same instant, to the last bit.
  *
  * @param rtpTimestamp of the frame, modulo 2³²
