@@ -4,14 +4,14 @@ import type { VideoCodec, VideoDescription } from '@farpoint/protocol';
 import { FMT_FULL_INTRA, FMT_PICTURE_LOSS, RTCP_PAYLOAD_FEEDBACK, walkRtcp } from '@farpoint/rtp';
 import type { Logger } from '@farpoint/service';
 import type { Budgets } from '../../send/budgets/budgets.ts';
-import { type CloudClaim, cloudShare } from '../../send/budgets/cloud-shares.ts';
-import { PathBudget } from '../../send/budgets/path-budget.ts';
-import type { FrameTarget } from '../../send/clouds/frame-fan-out.ts';
+import type { CloudClaim } from '../../send/budgets/cloud-shares.ts';
+import { FrameReceiver } from '../../send/clouds/frame-receiver.ts';
 import type { SendLoop } from '../../send/transport/send-loop.ts';
 import type { SharedFrame } from '../../send/transport/shared-frame.ts';
 import { StreamSender } from '../../send/transport/stream-sender.ts';
 import { VideoSender } from '../../send/video/video-sender.ts';
 import type { CodedStream } from '../../sense/encode/coded-frame-encoder.ts';
+import { CODED_FORMATS } from '../../sense/encode/plan.ts';
 import { streamOfVideo, type VideoFrame, videoOfStream } from '../../sense/video/video-frame.ts';
 import type { VideoTarget } from '../../sense/video/video-hub.ts';
 import { asBroadcast, type CloudHeader, describeBroadcast } from './broadcast-description.ts';
@@ -60,7 +60,7 @@ const SILENCE_MS = 10_000;
  * Feeds a relay with videos and clouds, once for any number of viewers, and only while somebody watches. To the robot it
  * is one more operator that sees everything and drives nothing.
  */
-export class Broadcast implements FrameTarget, VideoTarget {
+export class Broadcast extends FrameReceiver implements VideoTarget {
   readonly id = 'broadcast';
   readonly wantsBarcode = false;
   readonly keyFrames: KeyFrameGate;
@@ -68,11 +68,9 @@ export class Broadcast implements FrameTarget, VideoTarget {
   viewers = 0;
   readonly #parts: BroadcastParts;
   readonly #media: readonly MountpointMedia[];
-  readonly #sensors: ReadonlySet<number>;
   /** Of each video the codec that its m-line has. */
   readonly #codecs: ReadonlyMap<number, ReadonlySet<VideoCodec>>;
   readonly #videos: readonly number[];
-  readonly #budget = new PathBudget();
   /** By sensor and format. */
   readonly #streams = new Map<string, CloudHeader>();
   #feed: Feed | null = null;
@@ -83,14 +81,17 @@ export class Broadcast implements FrameTarget, VideoTarget {
   #bytesBefore = 0;
 
   constructor(parts: BroadcastParts) {
+    super(parts.claims);
     this.#parts = parts;
     const { options, codecs, sensors, log, name } = parts;
     this.#media = broadcastMedia(codecs, options.clouds);
-    this.#sensors = new Set(options.clouds ? sensors.keys() : []);
+    this.clouds.sensors = new Set(options.clouds ? sensors.keys() : []);
+    // Viewers that cannot read a format see nothing of it, but the page that comes with the robot reads all.
+    this.clouds.formats = new Set(CODED_FORMATS);
     this.#codecs = new Map(codecs.map((codec, video) => [video, new Set([codec])]));
     this.#videos = [...codecs.keys()];
     this.keyFrames = new KeyFrameGate(options.keyFrameMs);
-    this.#budget.wantVideos(
+    this.budget.wantVideos(
       () =>
         new Map(
           this.#videos.map((video) => [video, parts.mostVideoBitsPerSecond(video, this.videoCodecs(video))]),
@@ -126,10 +127,6 @@ export class Broadcast implements FrameTarget, VideoTarget {
     return this.up && this.viewers > 0;
   }
 
-  get sender(): StreamSender | null {
-    return this.#feed?.sender ?? null;
-  }
-
   /** Datagrams that could not be sent to the present mountpoint. */
   get failures(): number {
     return this.#feed?.sockets.failures ?? 0;
@@ -141,30 +138,9 @@ export class Broadcast implements FrameTarget, VideoTarget {
 
   readonly videoCodecs = (video: number) => this.#codecs.get(video) ?? new Set<VideoCodec>();
 
-  wants(sensor: number): boolean {
-    return this.#sensors.has(sensor);
-  }
-
   /** Without feedback there is no probing. */
-  probesWith(): boolean {
+  override probesWith(): boolean {
     return false;
-  }
-
-  /** Viewers that cannot read a format see nothing of it, but the page that comes with the robot reads all. */
-  reads(): boolean {
-    return true;
-  }
-
-  cloudBitsPerSecond(sensor: number): number {
-    const { sender } = this;
-    if (sender === null) return 0;
-    const total = this.#budget.cloudBitsPerSecond(sender.targetBitsPerSecond) * sender.fit;
-    return cloudShare(sensor, total, this.#parts.claims(), this.#sensors);
-  }
-
-  videoBitsPerSecond(video: number): number {
-    const { sender } = this;
-    return sender === null ? 0 : this.#budget.videoBitsPerSecond(video, sender.targetBitsPerSecond);
   }
 
   enqueue(shared: SharedFrame): void {
@@ -177,7 +153,7 @@ export class Broadcast implements FrameTarget, VideoTarget {
     this.#feed?.videos.offer(frame);
   }
 
-  announce({ format, header }: CodedStream, sensor: number): void {
+  override announce({ format, header }: CodedStream, sensor: number): void {
     this.#streams.set(`${sensor} ${format}`, {
       format,
       header: Buffer.from(header).toString('base64'),
@@ -243,6 +219,7 @@ export class Broadcast implements FrameTarget, VideoTarget {
       if (stream > 0) videos.onDropped(videoOfStream(stream));
     };
     this.#feed = { sockets, transports, sender, videos };
+    this.sender = sender;
     sendLoop.add(sender);
     videos.want(this.#videos);
     this.#knock(now());
@@ -252,6 +229,7 @@ export class Broadcast implements FrameTarget, VideoTarget {
     const feed = this.#feed;
     if (feed === null) return;
     this.#feed = null;
+    this.sender = null;
     this.viewers = 0;
     this.#bytesBefore += feed.sender.counters.bytesSent;
     this.#parts.sendLoop.remove(feed.sender);

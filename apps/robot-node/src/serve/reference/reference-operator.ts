@@ -10,7 +10,8 @@ import {
 } from '@farpoint/protocol';
 import type { OutgoingFrame } from '../../ground/outgoing-frame.ts';
 import type { Budgets } from '../../send/budgets/budgets.ts';
-import type { FrameTarget } from '../../send/clouds/frame-fan-out.ts';
+import type { CloudClaim } from '../../send/budgets/cloud-shares.ts';
+import { FrameReceiver } from '../../send/clouds/frame-receiver.ts';
 import type { PacketLog } from '../../send/transport/packet-log.ts';
 import type { PeerEnd } from '../../send/transport/peer-events.ts';
 import type { SendLoop } from '../../send/transport/send-loop.ts';
@@ -55,12 +56,16 @@ const QUIET_MS = 2000;
 const LEASE_MS = 1000;
 const GONE_MS = 5000;
 
+/** The reference profile has a single sensor, and a single format, which is not one of ours. */
+const ONE_SENSOR: readonly CloudClaim[] = [
+  { priority: 0, weight: 1, usefulBitsPerSecond: Number.POSITIVE_INFINITY },
+];
+
 /** One operator of the reference system: connection, commands and stream. */
-export class ReferenceOperator implements FrameTarget {
+export class ReferenceOperator extends FrameReceiver {
   readonly id: string;
   readonly peer: ReferencePeer;
   readonly driver: ReferenceDriver;
-  sender: StreamSender | null = null;
   readonly #host: ReferenceHost;
   readonly #sendLoop: SendLoop;
   readonly #options: ReferenceOperatorOptions;
@@ -80,6 +85,7 @@ export class ReferenceOperator implements FrameTarget {
     sendLoop: SendLoop,
     events: ReferenceOperatorEvents,
   ) {
+    super(() => ONE_SENSOR);
     this.id = options.id;
     this.#options = options;
     this.#host = host;
@@ -94,27 +100,13 @@ export class ReferenceOperator implements FrameTarget {
     });
   }
 
-  /** The reference profile has a single format. */
-  reads(): boolean {
-    return false;
-  }
-
   get streaming(): boolean {
     return this.sender !== null && this.#started && !this.#quiet;
   }
 
-  /** The reference profile has a single sensor. */
-  wants(sensor: number): boolean {
-    return sensor === 0;
-  }
-
-  probesWith(sensor: number): boolean {
-    return this.wants(sensor);
-  }
-
-  cloudBitsPerSecond(): number {
-    const { sender } = this;
-    return sender === null ? 0 : sender.targetBitsPerSecond * sender.fit;
+  /** Nothing else is sent to it. */
+  protected override cloudPart(targetBitsPerSecond: number): number {
+    return targetBitsPerSecond;
   }
 
   silentMs(nowMs: number): number {

@@ -1,7 +1,5 @@
 import type { Sound, StageTimings, StreamStatus } from '@farpoint/protocol';
-import { cloudShare, probingSensor } from '../../send/budgets/cloud-shares.ts';
-import { PathBudget } from '../../send/budgets/path-budget.ts';
-import type { FrameTarget } from '../../send/clouds/frame-fan-out.ts';
+import { FrameReceiver } from '../../send/clouds/frame-receiver.ts';
 import { droppedFrames, StreamMeter } from '../../send/clouds/stream-meter.ts';
 import { PictureSender } from '../../send/pictures/picture-sender.ts';
 import { OperatorSound } from '../../send/sound/operator-sound.ts';
@@ -16,11 +14,9 @@ import { StreamSender } from '../../send/transport/stream-sender.ts';
 import { OperatorVideos } from '../../send/video/operator-videos.ts';
 import type { CodedStream } from '../../sense/encode/coded-frame-encoder.ts';
 import { slotSequenceOffset } from '../../sense/encode/packetiser.ts';
-import type { CodedFormat, DrawnMost } from '../../sense/encode/plan.ts';
 import type { ReadyPicture } from '../../sense/pictures/picture-messages.ts';
 import { SOUND_STREAM } from '../../sense/sound/sound-frame.ts';
 import type { VideoFrame } from '../../sense/video/video-frame.ts';
-import { WantedClouds } from './display-pace.ts';
 import { type LatencyTest, LatencyTests } from './latency-tests.ts';
 import { OperatorMessages, type SessionHost } from './operator-messages.ts';
 import type { OperatorSessionEvents, OperatorSessionOptions } from './operator-session-options.ts';
@@ -32,13 +28,11 @@ import { wishesListener } from './wishes-listener.ts';
 const VIDEO_EXACT_MS = 50;
 
 /** One operator: connection, session and stream. */
-export class OperatorSession implements FrameTarget {
+export class OperatorSession extends FrameReceiver {
   readonly messages: OperatorMessages;
   readonly peer: OperatorPeer;
   readonly restarts = new RestartPolicy();
   readonly resumeKey = new ResumeKey();
-  sender: StreamSender | null = null;
-  readonly #claims: OperatorSessionOptions['claims'];
   /** Nothing has been heard from the operator for a while, so its points would be lost. */
   quiet = false;
   readonly #host: SessionHost;
@@ -47,13 +41,11 @@ export class OperatorSession implements FrameTarget {
   readonly #packetLog: PacketLog | undefined;
   readonly #events: OperatorSessionEvents;
   readonly #meter = new StreamMeter();
-  readonly #budget: PathBudget;
   readonly #budgets: OperatorSessionOptions['budgets'];
   readonly pictures: PictureSender;
   readonly videos: OperatorVideos;
   readonly sound: OperatorSound;
   readonly #tests = new LatencyTests();
-  readonly #clouds = new WantedClouds();
   readonly #onViewSent = () => this.#host.drive.guard.onViewSent(this.id, this.#host.now());
   #pathHeardMs = 0;
 
@@ -63,14 +55,13 @@ export class OperatorSession implements FrameTarget {
     sendLoop: SendLoop,
     events: OperatorSessionEvents,
   ) {
+    super(options.claims, options.pictureShare);
     this.#host = host;
     this.#sendLoop = sendLoop;
     this.#events = events;
     this.#makeController = options.makeController;
     this.#packetLog = options.packetLog;
-    this.#claims = options.claims;
     this.#budgets = options.budgets;
-    this.#budget = new PathBudget(options.pictureShare);
     this.peer = new OperatorPeer(options.peer, {
       onCandidate: (candidate) => events.onCandidate(candidate),
       onCandidateRefused: (reason, detail) => events.onCandidateRefused(reason, detail),
@@ -81,10 +72,10 @@ export class OperatorSession implements FrameTarget {
       onEnded: (end, detail) => this.#onEnded(end, detail),
     });
     this.pictures = new PictureSender(this.peer, this.#onViewSent);
-    this.videos = new OperatorVideos(this.#budget, options.mostVideoBitsPerSecond, (video) =>
+    this.videos = new OperatorVideos(this.budget, options.mostVideoBitsPerSecond, (video) =>
       events.onNeedsKeyFrame(video),
     );
-    this.sound = new OperatorSound(this.#budget, () => host.now());
+    this.sound = new OperatorSound(this.budget, () => host.now());
     this.messages = new OperatorMessages(options.session, options.operatorName, host, this.peer);
     this.messages.onReceiverReport = (report) => this.sender?.onReceiverReport(report);
     this.messages.onReceiverLimit = (bitsPerSecond) => {
@@ -92,11 +83,11 @@ export class OperatorSession implements FrameTarget {
       options.budgets.update();
     };
     this.messages.wishes.listener = wishesListener({
-      clouds: this.#clouds,
+      clouds: this.clouds,
       videos: this.videos,
       pictures: this.pictures,
       sound: this.sound,
-      budget: this.#budget,
+      budget: this.budget,
       clear: () => this.#clear(),
       budgets: options.budgets,
       events,
@@ -108,11 +99,6 @@ export class OperatorSession implements FrameTarget {
     const verdict = await this.peer.answer(sdp);
     if (verdict === 'taken') this.restarts.onAnswer();
     return verdict;
-  }
-
-  /** Whether the operator reads this format. Formats are independent: reading one implies no other. */
-  reads(format: CodedFormat): boolean {
-    return this.#clouds.formats.has(format);
   }
 
   /** The name by which the guard knows the operator. */
@@ -138,26 +124,6 @@ export class OperatorSession implements FrameTarget {
     return Math.max(this.messages.heardMs, this.sender?.heardMs ?? 0, this.#pathHeardMs);
   }
 
-  get display(): DrawnMost | null {
-    return this.#clouds.pace.display;
-  }
-
-  wants(sensor: number): boolean {
-    return this.#clouds.sensors.has(sensor);
-  }
-
-  probesWith(sensor: number): boolean {
-    return probingSensor(this.#claims(), this.#clouds.sensors) === sensor;
-  }
-
-  /** How much of the path a sensor's points may take, bit/s on the wire; 0 while there is no path. */
-  cloudBitsPerSecond(sensor: number): number {
-    const { sender } = this;
-    if (sender === null) return 0;
-    const total = this.#budget.cloudBitsPerSecond(sender.targetBitsPerSecond) * sender.fit;
-    return cloudShare(sensor, total, this.#claims(), this.#clouds.sensors);
-  }
-
   get watchedCameras(): ReadonlySet<number> {
     return this.pictures.watched;
   }
@@ -165,7 +131,7 @@ export class OperatorSession implements FrameTarget {
   /** How much of the path pictures may take, bit/s on the wire; 0 while there is no path. */
   get pictureBitsPerSecond(): number {
     const { sender } = this;
-    return sender === null ? 0 : this.#budget.pictureBitsPerSecond(sender.targetBitsPerSecond);
+    return sender === null ? 0 : this.budget.pictureBitsPerSecond(sender.targetBitsPerSecond);
   }
 
   get wantedVideos(): ReadonlySet<number> {
@@ -174,11 +140,6 @@ export class OperatorSession implements FrameTarget {
 
   get wantsBarcode(): boolean {
     return this.videos.barcode;
-  }
-
-  /** How much of the path a video may take, bit/s without headers; 0 while there is no path. */
-  videoBitsPerSecond(video: number): number {
-    return this.sender === null ? 0 : this.#budget.videoBitsPerSecond(video, this.sender.targetBitsPerSecond);
   }
 
   readonly videoCodecs = (video: number) => this.videos.codecs(video);
@@ -209,7 +170,7 @@ export class OperatorSession implements FrameTarget {
     if (this.sender === null || !this.streaming) return;
     const { frame } = shared;
     const { frameNumber, points, capturedAtMs } = frame;
-    if (!frame.latencyTest && !this.#clouds.pace.takes(frame.sensor, capturedAtMs)) return;
+    if (!frame.latencyTest && !this.clouds.pace.takes(frame.sensor, capturedAtMs)) return;
     for (const { id, commandMs } of this.#tests.answeredBy(shared)) {
       const moments = { commandMs, captureMs: capturedAtMs };
       this.messages.send({ type: 'latencyFrame', id, frameNumber, points, ...moments });
@@ -219,7 +180,7 @@ export class OperatorSession implements FrameTarget {
     this.sender.enqueue(shared);
   }
 
-  announce({ format, header }: CodedStream, sensor: number): void {
+  override announce({ format, header }: CodedStream, sensor: number): void {
     const text = Buffer.from(header).toString('base64');
     this.messages.send({ type: 'cloudStream', format, header: text, ...(sensor === 0 ? {} : { sensor }) });
   }
@@ -227,7 +188,7 @@ export class OperatorSession implements FrameTarget {
   /** Call every 25 ms. */
   tick(): void {
     if (this.peer.heardSinceLast()) this.#pathHeardMs = this.#host.now();
-    this.#budget.update(this.peer.messageBytesSent, this.pictures.bytesSent, this.#host.now());
+    this.budget.update(this.peer.messageBytesSent, this.pictures.bytesSent, this.#host.now());
     this.#sendPictures();
     this.videos.tick(this.#host.now());
     this.sender?.tick();

@@ -1,10 +1,10 @@
 /** Hands what an operator wants of the streams to the session's parts. */
 
 import type { PathBudget } from '../../send/budgets/path-budget.ts';
+import type { WantedClouds } from '../../send/clouds/wanted-clouds.ts';
 import type { PictureSender } from '../../send/pictures/picture-sender.ts';
 import type { OperatorSound } from '../../send/sound/operator-sound.ts';
 import type { OperatorVideos } from '../../send/video/operator-videos.ts';
-import type { WantedClouds } from './display-pace.ts';
 import type { OperatorSessionEvents, OperatorSessionOptions } from './operator-session-options.ts';
 import type { WishesListener } from './operator-wishes.ts';
 

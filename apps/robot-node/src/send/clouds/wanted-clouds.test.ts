@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { DisplayPace } from './display-pace.ts';
+import { DisplayPace } from './wanted-clouds.ts';
 
 function taken(pace: DisplayPace, timesMs: readonly number[], sensor = 0): number[] {
   return timesMs.filter((ms) => pace.takes(sensor, ms));
