@@ -1,6 +1,6 @@
 import type { Codec } from '@farpoint/wasm-codec';
 import { BridgeStream } from '../bridge/bridge-stream.ts';
-import { BatchAssembler, type BatchAssemblerPort } from './batch-assembler.ts';
+import { ReceivePipeline, type ReceivePipelinePort } from './pipeline.ts';
 import type { ToCloudWorker } from './worker-messages.ts';
 
 /** An RTP payload as an encoded transform delivers it (https://w3c.github.io/webrtc-encoded-transform/). */
@@ -15,13 +15,13 @@ export interface EncodedPayload {
 
 /** The cloud worker's work: decodes the receiver's payloads or a bridge's frames, those of the newest session only. */
 export class CloudDecoding {
-  readonly #assembler: BatchAssembler;
+  readonly #pipeline: ReceivePipeline;
   /** `null` if the codec cannot be loaded; the page has been told. */
   readonly #codec: Promise<Codec | null>;
   #bridge: BridgeStream | null = null;
 
-  constructor(loading: Promise<Codec>, port: BatchAssemblerPort) {
-    this.#assembler = new BatchAssembler(port);
+  constructor(loading: Promise<Codec>, port: ReceivePipelinePort) {
+    this.#pipeline = new ReceivePipeline(port);
     this.#codec = loading.then(
       (codec) => {
         port.post({ type: 'ready' }, []);
@@ -37,7 +37,7 @@ export class CloudDecoding {
   onMessage(message: ToCloudWorker): void {
     switch (message.type) {
       case 'return':
-        this.#assembler.giveBack(message.buffer);
+        this.#pipeline.giveBack(message.buffer);
         return;
       case 'stream':
         void this.consume(message.readable, message.generation);
@@ -49,45 +49,45 @@ export class CloudDecoding {
         this.#takeFromBridge(message.url, message.generation);
         return;
       case 'drawEvery':
-        this.#assembler.drawEvery(message.every, message.everySample);
+        this.#pipeline.drawEvery(message.every, message.everySample);
         return;
       case 'drawSurface':
-        this.#assembler.drawSurface(message.wanted);
+        this.#pipeline.drawSurface(message.wanted);
     }
   }
 
   /** Decodes a session's payloads and forwards none, until the stream ends or a newer session begins. */
   async consume(stream: ReadableStream<EncodedPayload>, generation: number): Promise<void> {
     const codec = await this.#codec;
-    const assembler = this.#assembler;
-    if (codec === null || generation < assembler.generation) return;
-    assembler.begin(generation, codec);
+    const pipeline = this.#pipeline;
+    if (codec === null || generation < pipeline.generation) return;
+    pipeline.begin(generation, codec);
     const reader = stream.getReader();
     for (;;) {
       const { value: payload, done } = await reader.read().catch(() => ({ value: undefined, done: true }));
-      if (done || payload === undefined || assembler.generation !== generation) break;
+      if (done || payload === undefined || pipeline.generation !== generation) break;
       const { sequenceNumber, receiveTime = Number.NaN } = payload.getMetadata();
-      assembler.take(payload.data, sequenceNumber, receiveTime);
+      pipeline.take(payload.data, sequenceNumber, receiveTime);
     }
     reader.cancel().catch(() => undefined);
   }
 
   /** Reports the session's totals. */
   report(): void {
-    this.#assembler.report();
+    this.#pipeline.report();
   }
 
   async #beginStream(message: ToCloudWorker & { type: 'cloudStream' }): Promise<void> {
     const codec = await this.#codec;
-    if (codec === null || message.generation < this.#assembler.generation) return;
-    this.#assembler.begin(message.generation, codec);
-    this.#assembler.beginStream(codec, message.format, message.header, message.sensor);
+    if (codec === null || message.generation < this.#pipeline.generation) return;
+    this.#pipeline.begin(message.generation, codec);
+    this.#pipeline.beginStream(codec, message.format, message.header, message.sensor);
   }
 
   #takeFromBridge(url: string, generation: number): void {
-    const assembler = this.#assembler;
-    this.#bridge ??= new BridgeStream(url, assembler.pool, { flush: (batch) => assembler.handOver(batch) });
+    const pipeline = this.#pipeline;
+    this.#bridge ??= new BridgeStream(url, pipeline.pool, { flush: (batch) => pipeline.handOver(batch) });
     this.#bridge.restart();
-    assembler.beginCounting(generation, this.#bridge.intake);
+    pipeline.beginCounting(generation, this.#bridge.intake);
   }
 }

@@ -3,20 +3,20 @@ import type { CloudFormat } from '@farpoint/protocol';
 import type { Codec } from '@farpoint/wasm-codec';
 import type { RobotEvents } from '../client/robot-events.ts';
 import { Batch } from '../cloud/batch.ts';
-import { BatchAssembler } from '../cloud/batch-assembler.ts';
+import { ReceivePipeline } from '../cloud/pipeline.ts';
 
 export class AssembledCloud {
   readonly latency = { wantsTime: false };
   pointsAtMs = Number.NEGATIVE_INFINITY;
   readonly #codec: Codec;
-  readonly #assembler: BatchAssembler;
+  readonly #assembler: ReceivePipeline;
   readonly #listeners: ((batch: Batch) => void)[] = [];
   #sequence = 0;
   #flush: (() => void) | null = null;
 
   constructor(codec: Codec) {
     this.#codec = codec;
-    this.#assembler = new BatchAssembler({
+    this.#assembler = new ReceivePipeline({
       post: (message) => {
         if (message.type !== 'batch') return;
         const batch = new Batch(message.buffer, message.packets, message.points, message.sensor);

@@ -1,6 +1,6 @@
 /** Stands in for the cloud worker: decodes at once, on the caller's thread, so that a test knows when points are there. */
 import { type Codec, loadCodec } from '@farpoint/wasm-codec';
-import { BatchAssembler } from '../cloud/batch-assembler.ts';
+import { ReceivePipeline } from '../cloud/pipeline.ts';
 import type { FromCloudWorker, ToCloudWorker } from '../cloud/worker-messages.ts';
 
 const REPORT_EVERY_MS = 100;
@@ -10,12 +10,12 @@ export class CloudWorkerHere {
   onmessage: ((event: { data: FromCloudWorker }) => void) | null = null;
   onerror: ((event: { message: string }) => void) | null = null;
   readonly #codec: Codec;
-  readonly #assembler: BatchAssembler;
+  readonly #assembler: ReceivePipeline;
   readonly #timer: ReturnType<typeof setInterval>;
 
   private constructor(codec: Codec) {
     this.#codec = codec;
-    this.#assembler = new BatchAssembler({
+    this.#assembler = new ReceivePipeline({
       // A copy, as between threads: who keeps a buffer that it has handed over finds it detached.
       post: (message, transfer) => this.onmessage?.({ data: structuredClone(message, { transfer }) }),
       nowMs: () => performance.now(),

@@ -4,7 +4,7 @@ import type { CaptureOptions } from '../../sense/capture/capture-messages.ts';
 import type { CaptureBudget } from '../../sense/encode/capture-budget.ts';
 import type { BudgetedSensor, Budgets } from '../budgets/budgets.ts';
 import type { CloudClaim } from '../budgets/cloud-shares.ts';
-import { type FanOutOptions, FrameFanOut, type FrameTarget } from './frame-fan-out.ts';
+import { type FrameTarget, SendPipeline, type SendPipelineOptions } from './pipeline.ts';
 
 export interface CloudSensorOptions {
   /** The name that people read. */
@@ -16,7 +16,8 @@ export interface CloudSensorOptions {
   weight: number;
 }
 
-export interface SensorFanOut extends Omit<FanOutOptions, 'capture' | 'sensor' | 'lane' | 'overheadBytes'> {
+export interface SensorFanOut
+  extends Omit<SendPipelineOptions, 'capture' | 'sensor' | 'lane' | 'overheadBytes'> {
   /** Whether live viewers want the clouds even if no operator does; default: they do not. */
   wantedAnyway?: () => boolean;
 }
@@ -28,14 +29,14 @@ export class CloudSensor implements BudgetedSensor {
   readonly name: string;
   readonly capture: Capture;
   readonly #claim: CloudClaim;
-  readonly #fanOut: FrameFanOut;
+  readonly #pipeline: SendPipeline;
   readonly #budgets: Budgets;
   readonly #wantedAnyway: () => boolean;
 
   constructor(
     { name, capture: { sensor }, priority, weight }: CloudSensorOptions,
     capture: Capture,
-    fanOut: SensorFanOut,
+    pipeline: SensorFanOut,
     budgets: Budgets,
   ) {
     this.number = sensor;
@@ -43,16 +44,16 @@ export class CloudSensor implements BudgetedSensor {
     this.capture = capture;
     this.#claim = { priority, weight, usefulBitsPerSecond: Number.POSITIVE_INFINITY };
     this.#budgets = budgets;
-    this.#wantedAnyway = fanOut.wantedAnyway ?? (() => false);
-    this.#fanOut = new FrameFanOut({
-      ...fanOut,
+    this.#wantedAnyway = pipeline.wantedAnyway ?? (() => false);
+    this.#pipeline = new SendPipeline({
+      ...pipeline,
       overheadBytes: () => budgets.overheadBytes(this),
       capture,
       sensor,
       lane: priority,
       onFrame: (frame) => {
         this.#claim.usefulBitsPerSecond = frame.usefulBitsPerSecond;
-        fanOut.onFrame?.(frame);
+        pipeline.onFrame?.(frame);
       },
     });
     budgets.add(this);
@@ -77,7 +78,7 @@ export class CloudSensor implements BudgetedSensor {
   }
 
   announceTo(target: FrameTarget): void {
-    this.#fanOut.announceTo(target);
+    this.#pipeline.announceTo(target);
   }
 }
 

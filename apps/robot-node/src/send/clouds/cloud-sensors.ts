@@ -3,7 +3,7 @@ import { Capture, type CaptureError, type CaptureRecording } from '../../sense/c
 import type { Budgets } from '../budgets/budgets.ts';
 import type { CloudClaim } from '../budgets/cloud-shares.ts';
 import { CloudSensor, type CloudSensorOptions, type SensorFanOut } from './cloud-sensor.ts';
-import type { FrameTarget } from './frame-fan-out.ts';
+import type { FrameTarget } from './pipeline.ts';
 
 export interface CloudSensorsEvents {
   /** The state of the base, as the first sensor reports it. */

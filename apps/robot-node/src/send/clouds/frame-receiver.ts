@@ -4,7 +4,7 @@ import { type CloudClaim, cloudShare, probingSensor } from '../budgets/cloud-sha
 import { PathBudget } from '../budgets/path-budget.ts';
 import type { SharedFrame } from '../transport/shared-frame.ts';
 import type { StreamSender } from '../transport/stream-sender.ts';
-import type { FrameTarget } from './frame-fan-out.ts';
+import type { FrameTarget } from './pipeline.ts';
 import { WantedClouds } from './wanted-clouds.ts';
 
 /**

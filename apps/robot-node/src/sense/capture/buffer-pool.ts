@@ -16,9 +16,16 @@ export class BufferPool {
     return this.#free.length;
   }
 
-  /** How often `take` found no buffer. */
+  /** How often no buffer was available. */
   get refused(): number {
     return this.#refused;
+  }
+
+  /** Whether a buffer is available for work that is to begin now; work that cannot begin is counted as refused. */
+  admits(): boolean {
+    if (this.#free.length > 0) return true;
+    this.#refused++;
+    return false;
   }
 
   /** Takes a buffer; `null` if none is available because the reader is behind. */

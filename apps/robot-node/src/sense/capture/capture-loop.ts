@@ -4,7 +4,7 @@ import { type CaptureBudget, NO_BUDGET } from '../encode/capture-budget.ts';
 import type { FrameSource } from '../sources/frame-source.ts';
 import { SourceRate } from '../sources/source-rate.ts';
 import type { CaptureReport, CaptureRequest, ReportSink } from './capture-messages.ts';
-import type { FrameCapture } from './frame-capture.ts';
+import type { CapturePipeline } from './pipeline.ts';
 
 const STATE_INTERVAL_MS = 20;
 /** An unchanged state is repeated at this interval, as a sign of life, ms. */
@@ -25,9 +25,9 @@ export interface CaptureLoopOptions {
   send: ReportSink;
 }
 
-/** The parts of {@link FrameCapture} that the loop uses. */
+/** The parts of {@link CapturePipeline} that the loop uses. */
 export type LoopFrames = Pick<
-  FrameCapture,
+  CapturePipeline,
   | 'capture'
   | 'close'
   | 'framesWithoutBuffer'

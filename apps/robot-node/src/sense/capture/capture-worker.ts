@@ -12,7 +12,7 @@ import type { CaptureRecording } from './capture.ts';
 import { CaptureLoop } from './capture-loop.ts';
 import type { CaptureOptions, CaptureRequest, ReportSink } from './capture-messages.ts';
 import { CapturePictures } from './capture-pictures.ts';
-import { FrameCapture } from './frame-capture.ts';
+import { CapturePipeline } from './pipeline.ts';
 
 const port = parentPort;
 if (port === null) throw new Error('capture-worker.ts runs as a worker only');
@@ -29,7 +29,7 @@ const guard =
   options.guard === undefined
     ? null
     : await SensorGuard.open(codec, options.source, source.description, options.guard);
-const frames = new FrameCapture(source, codec, options, clocks, send, { pictures, recording: tap, guard });
+const frames = new CapturePipeline(source, codec, options, clocks, send, { pictures, recording: tap, guard });
 const loop = new CaptureLoop(source, frames, {
   framesPerSecond: options.framesPerSecond,
   sourceFramesPerSecond: source.description.framesPerSecond,

@@ -64,22 +64,25 @@ export class CodedFrameEncoder {
     budgetBytes: number,
     latencyTest: boolean,
   ): EncodedFrame | null {
-    const fits = allowed.includes('organised') && this.#organised?.take(frame, this.#source.camera) === true;
-    if (!fits && !allowed.includes('unorganised')) return null;
-    // Creating the other encoder may move the codec's memory, and with it a frame that lies there.
+    if (allowed.includes('organised') && this.#organised?.take(frame, this.#source.camera) === true) {
+      const encoded = this.#organised.encode(frame, frameNumber, budgetBytes, latencyTest);
+      this.#used(this.#organised, 'organised');
+      return encoded;
+    }
+    if (frame.form === 'images' || !allowed.includes('unorganised')) return null;
+    // Creating the encoder may move the codec's memory, and with it a frame that lies there.
     const kept =
-      !fits && frame.form === 'points' && this.#unorganised === null
-        ? { ...frame, points: frame.points.slice(0, frame.count * 4) }
-        : frame;
-    const encoder = fits ? this.#organised : frame.form === 'images' ? null : this.#makeUnorganised();
-    if (encoder === null) return null;
-    const encoded = encoder.encode(kept as never, frameNumber, budgetBytes, latencyTest);
+      this.#unorganised === null ? { ...frame, points: frame.points.slice(0, frame.count * 4) } : frame;
+    const encoder = this.#makeUnorganised();
+    const encoded = encoder.encode(kept, frameNumber, budgetBytes, latencyTest);
+    this.#used(encoder, 'unorganised');
+    return encoded;
+  }
+
+  #used(encoder: PacketSource & { header: Uint8Array | null }, format: CodedFormat): void {
     this.#last = encoder;
     const { header } = encoder;
-    if (header !== null && header !== this.#stream?.header) {
-      this.#stream = { format: encoded.format as CodedFormat, header };
-    }
-    return encoded;
+    if (header !== null && header !== this.#stream?.header) this.#stream = { format, header };
   }
 
   copyPackets(into: Uint8Array, packets: number): void {

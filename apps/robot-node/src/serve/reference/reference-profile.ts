@@ -18,7 +18,7 @@ import {
 import { answerMisfit, MessageLine } from '@farpoint/reference-profile';
 import type { Logger } from '@farpoint/service';
 import type { Budgets } from '../../send/budgets/budgets.ts';
-import type { FrameTarget } from '../../send/clouds/frame-fan-out.ts';
+import type { FrameTarget } from '../../send/clouds/pipeline.ts';
 import type { PacketLog } from '../../send/transport/packet-log.ts';
 import type { SendLoop } from '../../send/transport/send-loop.ts';
 import { type ReferenceHost, ReferenceOperator } from './reference-operator.ts';
@@ -109,7 +109,7 @@ export class ReferenceProfile {
     return this.#current;
   }
 
-  /** The targets for the fan-out: none or one. */
+  /** The targets of clouds: none or one. */
   get targets(): readonly FrameTarget[] {
     return this.#current === null ? [] : [this.#current];
   }

@@ -7,9 +7,7 @@ import {
   decodeStreamSwitch,
   type EndSession,
   encodeJson,
-  isZeroTwist,
   type LatencyMeasured,
-  NO_LEASE,
   type OperatorSessionMessage,
   operatorControlCodec,
   operatorSessionCodec,
@@ -20,9 +18,10 @@ import {
   robotSessionCodec,
   sequenceDelta32,
 } from '@farpoint/protocol';
-import { type CommandVerdict, type RejectedCommand, RejectionReporter } from '@farpoint/safety';
+import type { CommandVerdict, RejectedCommand } from '@farpoint/safety';
 import { type Access, mayDrive, openAccess, supervises } from '../../admit/access/access.ts';
 import type { DriveStation } from '../../motion/drive/drive-station.ts';
+import { CommandPipeline, NOT_PERMITTED } from './command-pipeline.ts';
 import { EstopRequests } from './estop-requests.ts';
 import { MessageRates, type RatedMessage } from './message-rates.ts';
 import { OperatorWishes } from './operator-wishes.ts';
@@ -62,14 +61,6 @@ export interface SessionHost {
   driverName?(): string | undefined;
 }
 
-/** How much of a malformed command's text goes into the report. */
-const MAX_DETAIL = 200;
-const NOT_PERMITTED: RejectedCommand = {
-  accepted: false,
-  reason: 'not-permitted',
-  detail: 'your grant lets you watch this robot, not drive it',
-};
-
 export class OperatorMessages {
   readonly id: string;
   /** What the operator may do. */
@@ -84,7 +75,7 @@ export class OperatorMessages {
   onEndSession: ((request: EndSession) => void) | null = null;
   readonly #host: SessionHost;
   readonly #link: SessionLink;
-  readonly #rejections = new RejectionReporter();
+  readonly #commands: CommandPipeline;
   readonly #estop: EstopRequests;
   readonly #rates = new MessageRates((kind, tell) => {
     this.#host.messageLimited?.(kind);
@@ -98,6 +89,16 @@ export class OperatorMessages {
     this.#host = host;
     this.#link = link;
     this.heardMs = host.now();
+    this.#commands = new CommandPipeline(id, {
+      drive: host.drive,
+      now: () => host.now(),
+      mayDrive: () => mayDrive(this.access),
+      judged: (command, verdict) => host.commandJudged?.(this, command, verdict),
+      accepted: () => host.commandAccepted(),
+      rejected: (verdict) => host.commandRejected(verdict),
+      latencyTestRequested: (test, commandMs) => host.latencyTestRequested(this, test, commandMs),
+      report: (rejected) => this.send(rejected),
+    });
     this.#estop = new EstopRequests(this, {
       drive: host.drive,
       now: () => host.now(),
@@ -128,7 +129,7 @@ export class OperatorMessages {
 
   /** Sends rejection reports that were held back to limit their rate. Call a few times a second. */
   flushRejections(): void {
-    for (const report of this.#rejections.due(this.#host.now())) this.send(report);
+    this.#commands.flushRejections();
   }
 
   onMessage(channel: 'session' | 'control' | 'bandwidth', data: string | Uint8Array): void {
@@ -141,8 +142,7 @@ export class OperatorMessages {
     } catch (error) {
       if (!(error instanceof ProtocolError)) throw error;
       this.#host.messageRefused(channel, error);
-      // A malformed control message counts as a malformed command.
-      if (channel === 'control') this.#onMalformed(error);
+      if (channel === 'control') this.#commands.onMalformed(error, this.heardMs);
       else this.send({ type: 'fault', message: error.message.slice(0, 512) });
     }
   }
@@ -158,7 +158,7 @@ export class OperatorMessages {
     const message = decodeJson(operatorControlCodec, data);
     switch (message.type) {
       case 'command':
-        this.#onCommand(message, now);
+        this.#commands.onCommand(message, now);
         break;
       case 'clockProbe': {
         if (this.#rates.over('probe', now)) break;
@@ -180,37 +180,6 @@ export class OperatorMessages {
         this.#link.sendControl(encodeJson(robotControlCodec, { type: 'estopAck', press: message.press }));
         break;
     }
-  }
-
-  #onCommand(command: Command, now: number): void {
-    const { drive } = this.#host;
-    const verdict = mayDrive(this.access) ? drive.guard.onCommand(this.id, command, now) : NOT_PERMITTED;
-    // It only says that its hand is open.
-    if (command.lease === NO_LEASE && isZeroTwist(command.twist)) return;
-    this.#host.commandJudged?.(this, command, verdict);
-    // Also after a rejection: releasing the grip stops the robot.
-    drive.apply();
-    if (!verdict.accepted) {
-      this.#reject(verdict, command.sequence);
-      return;
-    }
-    this.#host.commandAccepted();
-    if (command.latencyTest !== undefined) this.#host.latencyTestRequested(this, command.latencyTest, now);
-  }
-
-  #onMalformed(error: ProtocolError): void {
-    const verdict = this.#host.drive.guard.onMalformed(
-      this.id,
-      error.message.slice(0, MAX_DETAIL),
-      this.heardMs,
-    );
-    this.#reject(verdict, undefined);
-  }
-
-  #reject(verdict: RejectedCommand, sequence: number | undefined): void {
-    this.#host.commandRejected(verdict);
-    const report = this.#rejections.add(verdict, sequence, this.#host.now());
-    if (report !== null) this.send(report);
   }
 
   #onSession(data: string | Uint8Array): void {

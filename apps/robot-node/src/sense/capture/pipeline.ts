@@ -1,10 +1,20 @@
+/**
+ * The way of a cloud on the capture thread, from its source to a buffer of packets:
+ *
+ * 1. take it from the source (sources/frame-source.ts),
+ * 2. let the obstacle guard judge it (obstacles/sensor-guard.ts),
+ * 3. plan, sample, encode and packetise it (encode/frame-formats.ts),
+ * 4. announce the header of a new coded stream,
+ * 5. send the packets to the main thread, where send/clouds/pipeline.ts goes on,
+ * 6. offer its colour picture, and record it.
+ */
 import { nextSequence32, packetCountOf } from '@farpoint/protocol';
 import type { CloudTap } from '@farpoint/recording';
 import { EvenPace } from '@farpoint/timing';
 import type { Codec } from '@farpoint/wasm-codec';
 import type { CaptureBudget } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
-import { type FormattedFrame, FrameFormats } from '../encode/frame-formats.ts';
+import { type FormattedFrame, type FormattedFrames, FrameFormats } from '../encode/frame-formats.ts';
 import { SLOT_BYTES } from '../encode/packetiser.ts';
 import { FramePlanner } from '../encode/plan.ts';
 import type { SensorGuard } from '../obstacles/sensor-guard.ts';
@@ -31,7 +41,7 @@ export interface CaptureClocks {
 }
 
 /** Takes one cloud at a time from the source, encodes it to the budget, and sends its packets in a pooled buffer. */
-export class FrameCapture {
+export class CapturePipeline {
   readonly #source: FrameSource;
   readonly #sensor: number;
   readonly #clocks: CaptureClocks;
@@ -119,41 +129,64 @@ export class FrameCapture {
    * @returns the time until the next one, ms; `null` if there was no cloud or no buffer
    */
   capture(budget: CaptureBudget, measuredFramesPerSecond: number | null): number | null {
-    const buffer = this.#pool.take();
-    if (buffer === null) return null;
-    this.#pool.release(buffer);
-    const { now, threadCpu } = this.#clocks;
-    const beganMs = now();
-    const cpuBefore = threadCpu();
+    if (!this.#pool.admits()) return null;
+    const began = this.#clockTimes();
     const room = this.#formats.room(budget.coded.length > 0);
-    const frame = this.#source.capture(beganMs, this.wishes(budget), room);
+    const frame = this.#source.capture(began.wallMs, this.wishes(budget), room);
     if (frame === null) return null;
-    this.#judge(frame, beganMs);
-    const taken = { captureMs: now() - beganMs, captureCpuMs: threadCpu() - cpuBefore };
+    this.#judge(frame, began.wallMs);
+    const taken = this.#since(began);
     const latencyTest = this.#latencyTest && frame.latencyTest !== false;
-    const frameNumber = this.#frameNumber;
-    const probeBytes = this.#probeBytes(budget);
-    const workMs = this.#workMs;
-    const request = { frameNumber, budget, probeBytes, workMs, measuredFramesPerSecond, latencyTest };
-    const encoded = this.#formats.encode(frame, request);
-    this.#frameNumber = nextSequence32(frameNumber);
+    const encoded = this.#encode(frame, budget, measuredFramesPerSecond, latencyTest);
     this.#announceStream();
-    const { intervalMs, usefulBitsPerSecond } = encoded;
+    const sent = budget.unsent ? [] : encoded.frames;
     const facts = {
-      usefulBitsPerSecond,
-      intervalMs,
+      usefulBitsPerSecond: encoded.usefulBitsPerSecond,
+      intervalMs: encoded.intervalMs,
       latencyTest,
       capturedAtMs: frame.capturedAtMs,
-      ...taken,
+      captureMs: taken.wallMs,
+      captureCpuMs: taken.cpuMs,
     };
-    if (!budget.unsent) for (const formatted of encoded.frames) this.#sendFrame(formatted, facts);
+    for (const formatted of sent) this.#sendFrame(formatted, facts);
     if (frame.form === 'images') this.#pictures.offer(frame);
-    this.#record(frame, budget.unsent ? [] : encoded.frames);
-    this.#guard?.lookDown(now(), this.#guarding);
+    this.#record(frame, sent);
+    this.#guard?.lookDown(this.#clocks.now(), this.#guarding);
     if (latencyTest) this.#latencyTest = false;
-    const work = workOf(now() - beganMs, threadCpu() - cpuBefore, this.#anyRate);
-    this.#workMs += (work - workMs) * (workMs === 0 ? 1 : SMOOTHING);
-    return intervalMs;
+    this.#addWork(this.#since(began));
+    return encoded.intervalMs;
+  }
+
+  #clockTimes(): ClockTimes {
+    return { wallMs: this.#clocks.now(), cpuMs: this.#clocks.threadCpu() };
+  }
+
+  #since(began: ClockTimes): ClockTimes {
+    const { wallMs, cpuMs } = this.#clockTimes();
+    return { wallMs: wallMs - began.wallMs, cpuMs: cpuMs - began.cpuMs };
+  }
+
+  #encode(
+    frame: SourceFrame,
+    budget: CaptureBudget,
+    measuredFramesPerSecond: number | null,
+    latencyTest: boolean,
+  ): FormattedFrames {
+    const frameNumber = this.#frameNumber;
+    this.#frameNumber = nextSequence32(frameNumber);
+    return this.#formats.encode(frame, {
+      frameNumber,
+      budget,
+      probeBytes: this.#probeBytes(budget),
+      workMs: this.#workMs,
+      measuredFramesPerSecond,
+      latencyTest,
+    });
+  }
+
+  #addWork({ wallMs, cpuMs }: ClockTimes): void {
+    const work = workOf(wallMs, cpuMs, this.#anyRate);
+    this.#workMs += (work - this.#workMs) * (this.#workMs === 0 ? 1 : SMOOTHING);
   }
 
   /** Whether the obstacle guard needs every cloud, and some that are not sent. */
@@ -230,6 +263,12 @@ export class FrameCapture {
       });
     }
   }
+}
+
+/** Of the wall clock and of this thread's processor time. */
+interface ClockTimes {
+  wallMs: number;
+  cpuMs: number;
 }
 
 /** The part of a frame's report that does not come from encoding it. */

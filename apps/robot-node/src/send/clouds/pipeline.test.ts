@@ -4,7 +4,7 @@ import { StageTimer } from '../../ground/stage-timer.ts';
 import type { ReadyFrame } from '../../sense/capture/capture-messages.ts';
 import type { FrameAudience } from '../../sense/encode/frame-formats.ts';
 import type { CodedFormat } from '../../sense/encode/plan.ts';
-import { FrameFanOut, type FrameTarget } from './frame-fan-out.ts';
+import { type FrameTarget, SendPipeline } from './pipeline.ts';
 
 /** An operator. @param wanted the number of the sensor whose clouds it wants */
 function viewer(id: string, formats: readonly CodedFormat[], wanted = 0) {
@@ -27,7 +27,7 @@ function setUp(viewers: readonly ReturnType<typeof viewer>[]) {
     requestLatencyTest: () => undefined,
   };
   const counters = new RobotCounters();
-  const fanOut = new FrameFanOut({
+  const pipeline = new SendPipeline({
     sensor: 0,
     lane: 0,
     capture,
@@ -48,7 +48,7 @@ function setUp(viewers: readonly ReturnType<typeof viewer>[]) {
     } as unknown as ReadyFrame);
     return viewers.filter(({ got }, i) => got.frames > (before[i] as number)).map(({ target }) => target.id);
   };
-  return { fanOut, capture, counters, frame };
+  return { pipeline, capture, counters, frame };
 }
 
 it('a frame goes to those who want its sensor, and read its format', () => {
@@ -72,10 +72,10 @@ it('a frame that is too old goes to nobody, and is counted', () => {
 
 it('announces a stream to those who read its format, also to who comes later', () => {
   const viewers = [viewer('a', ['organised']), viewer('b', ['unorganised'])];
-  const { capture, fanOut } = setUp(viewers);
+  const { capture, pipeline } = setUp(viewers);
   capture.onStream?.({ format: 'organised', header: new Uint8Array(1) });
   expect(viewers.map(({ got }) => got.headers)).toEqual([['organised'], []]);
   const late = viewer('late', ['organised']);
-  fanOut.announceTo(late.target);
+  pipeline.announceTo(late.target);
   expect(late.got.headers).toEqual(['organised']);
 });

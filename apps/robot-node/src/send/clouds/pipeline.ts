@@ -1,3 +1,13 @@
+/**
+ * The way of a cloud on the main thread, from the capture thread (sense/capture/pipeline.ts) to the wire:
+ *
+ * 1. count it, and drop it if it is stale,
+ * 2. share its packets among all who want them and read their format (transport/shared-frame.ts, frame-receiver.ts),
+ * 3. queue them in each receiver's pacer (transport/stream-sender.ts, packages/congestion),
+ * 4. send what is due (transport/send-loop.ts), sealed and numbered for each path (transport/srtp-transport.ts).
+ *
+ * On the operator's side, packages/operator/src/cloud/pipeline.ts goes on.
+ */
 import type { RobotCounters } from '../../ground/robot-counters.ts';
 import type { StageTimer } from '../../ground/stage-timer.ts';
 import type { Capture } from '../../sense/capture/capture.ts';
@@ -19,7 +29,7 @@ export interface FrameTarget extends BudgetTarget {
   announce?(stream: CodedStream, sensor: number): void;
 }
 
-export interface FanOutOptions {
+export interface SendPipelineOptions {
   /** The sensor's number. */
   sensor: number;
   /** The pacer's lane: packets in a lower lane leave first. */
@@ -37,11 +47,11 @@ export interface FanOutOptions {
 }
 
 /** Hands each frame, which is encoded once for all operators, to everyone who wants it and reads its format. */
-export class FrameFanOut {
-  readonly #options: FanOutOptions;
+export class SendPipeline {
+  readonly #options: SendPipelineOptions;
   #stream: CodedStream | null = null;
 
-  constructor(options: FanOutOptions) {
+  constructor(options: SendPipelineOptions) {
     this.#options = options;
     options.capture.onFrame = (frame) => this.#onFrame(frame);
     options.capture.onStream = (stream) => {

@@ -1,7 +1,7 @@
 import { emptyPlacement, writePlacement, writePointPacketHeader } from '@farpoint/protocol';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { describe, expect, test } from 'vitest';
-import { BATCHES_AHEAD, BatchAssembler, FLUSH_AFTER_MS } from './batch-assembler.ts';
+import { BATCHES_AHEAD, FLUSH_AFTER_MS, ReceivePipeline } from './pipeline.ts';
 import type { FromCloudWorker } from './worker-messages.ts';
 
 const codec = await loadCodecFromDisk();
@@ -11,7 +11,7 @@ class Bench {
   nowMs = 1000;
   readonly told: FromCloudWorker[] = [];
   #timer: { act: () => void; dueMs: number } | null = null;
-  readonly assembler = new BatchAssembler({
+  readonly assembler = new ReceivePipeline({
     post: (message) => this.told.push(message),
     nowMs: () => this.nowMs,
     timeOriginMs: 5_000_000,
@@ -53,7 +53,7 @@ function bench(): Bench {
   return made;
 }
 
-describe('BatchAssembler', () => {
+describe('ReceivePipeline', () => {
   test('hands a frame over with its last packet', () => {
     const { assembler, batches, told } = bench();
     assembler.take(packet(1, 0, 2), 0, 1000);

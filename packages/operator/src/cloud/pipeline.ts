@@ -1,6 +1,13 @@
 /**
- * The logic of the cloud worker, without the worker: takes RTP payloads, decodes them, fills batches and hands them
- * over. The clock and the timer are arguments.
+ * The way of a cloud on the operator's side, from the RTP payloads that the robot's send/clouds/pipeline.ts sends to
+ * batches of points for the GPU:
+ *
+ * 1. take a payload in: check it, and count what is missing (packet-intake.ts),
+ * 2. drop it if the decoder is behind (decoder-backlog.ts),
+ * 3. decode it with its sensor's and its format's decoder (packet-decoder.ts) into a batch from the pool (batch.ts),
+ * 4. hand the batch over when a frame ends, or a few milliseconds later (cloud-receiver.ts, then packages/cloud-view).
+ *
+ * It is the logic of the cloud worker without the worker: the clock and the timer are arguments.
  */
 import { type CloudFormat, MAX_SENSORS, PLACEMENT_BYTES } from '@farpoint/protocol';
 import type { Codec } from '@farpoint/wasm-codec';
@@ -21,7 +28,7 @@ export const BATCHES_AHEAD = 6;
 const MAX_BATCHES = 48;
 const HEADER_BYTES = 16;
 
-export interface BatchAssemblerPort {
+export interface ReceivePipelinePort {
   post(message: FromCloudWorker, transfer: Transferable[]): void;
   /** The worker's `performance.now()`; `timeOriginMs` is its zero in ms since the epoch. */
   nowMs(): number;
@@ -34,14 +41,14 @@ export interface BatchAssemblerPort {
 /** One sensor's decoders: always `points64`, coded formats once their stream header has arrived. */
 type Decoders = Partial<Record<CloudFormat, PacketDecoder & Partial<Disposable>>>;
 
-export class BatchAssembler implements BatchWriter {
+export class ReceivePipeline implements BatchWriter {
   readonly pool = new BatchPool(MAX_BATCHES);
   /** Number of the session; −1 before the first. */
   generation = -1;
   every = 1;
   everySample = 1;
   surface = false;
-  readonly #port: BatchAssemblerPort;
+  readonly #port: ReceivePipelinePort;
   readonly #backlog = new DecoderBacklog();
   #intake = new PacketIntake();
   /** Indexed by sensor number. */
@@ -55,7 +62,7 @@ export class BatchAssembler implements BatchWriter {
   #busyPackets = 0;
   #reportedPackets = -1;
 
-  constructor(port: BatchAssemblerPort) {
+  constructor(port: ReceivePipelinePort) {
     this.#port = port;
   }
 
