@@ -1,6 +1,6 @@
 import { defineConfig } from 'vitest/config';
 
-const ROOMS = '{packages,apps,wasm-codec,bench,scripts}';
+const ROOMS = '{packages,apps,tools,wasm-codec,bench,scripts}';
 const STACK = `${ROOMS}/**/*.stack.test.ts`;
 /**
  * Beside other work, the two implementations of DDS lose each other's packets for minutes, and an operator's commands

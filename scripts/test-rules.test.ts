@@ -25,3 +25,11 @@ test('no test breaks a rule of its layer', () => {
   );
   expect(broken).toEqual([]);
 });
+
+test('vitest is told of every folder that has tests', () => {
+  const [, rooms = ''] = /const ROOMS = '\{(.*)\}'/.exec(read('vitest.config.ts')) ?? [];
+  const told = new Set(rooms.split(','));
+  expect(
+    files.filter((file) => file.endsWith('.test.ts') && !told.has(file.split('/')[0] as string)),
+  ).toEqual([]);
+});
