@@ -8,6 +8,8 @@ import { allowedFolders, parseRooms } from './lib/rooms.ts';
 import { workspaceFiles as files, readWorkspaceFile as read } from './lib/workspace-files.ts';
 
 const MAX_LINES = 400;
+/** What is shorter stands beside its user. */
+const LEAST_LINES = 15;
 const DEVELOPERS = /\.test\.ts$|\/(?:testing|deploy|vectors)\/|(?:\.config|\/build)\.ts$/;
 
 const rooms = parseRooms(read('docs/architecture.md')).filter(({ folder }) => !folder.includes('/src/'));
@@ -98,6 +100,26 @@ describe('sources', () => {
       ]),
     );
     expect(cycles(graph)).toEqual([]);
+  });
+
+  test('no file has under 15 lines, unless it is an entry: an index, an export of its package, or what no file imports', () => {
+    const exported = new Set(
+      manifests.flatMap((file) =>
+        [...read(file).matchAll(/"\.\/(src\/[\w/-]+\.ts)"/g)].map(([, path]) => `${dirname(file)}/${path}`),
+      ),
+    );
+    const imported = new Set([...sources].flatMap(([file, text]) => [...importedFiles(file, text)]));
+    const dust = [...sources]
+      .filter(
+        ([file]) =>
+          imported.has(file) &&
+          !exported.has(file) &&
+          !/\/index\.ts$|^e2e\//.test(file) &&
+          !DEVELOPERS.test(file),
+      )
+      .filter(([, text]) => text.split('\n').length - 1 < LEAST_LINES)
+      .map(([file]) => file);
+    expect(dust).toEqual([]);
   });
 
   test('no literal is spread where it could stand: no line begins with `...{` or `...([`', () => {

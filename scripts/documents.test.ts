@@ -29,7 +29,7 @@ test('each command is in the table, and each in the table is in a document', () 
 });
 
 test('programs are started through their scripts, so that Node 18 or newer is enough', () => {
-  const direct = found.filter(({ text }) => /\bnode (apps|packages|scripts|bench)\/\S+\.ts/.test(text));
+  const direct = found.filter(({ text }) => /\bnode (apps|packages|tools|scripts|bench)\/\S+\.ts/.test(text));
   const allowed = direct.filter(({ text }) => text.includes('pnpm@12 exec node '));
   expect(direct.map(({ text }) => text)).toEqual(allowed.map(({ text }) => text));
 });
@@ -38,7 +38,10 @@ describe('files and scripts that commands name exist', () => {
   test.each(known)('$text', ({ text }) => {
     const words = shellWords(text);
     for (const word of words) {
-      if (/^(apps|docs|examples|packages|scripts|wasm-codec)\/\S+$/.test(word) && !word.includes('/dist'))
+      if (
+        /^(apps|docs|examples|packages|scripts|tools|wasm-codec)\/\S+$/.test(word) &&
+        !word.includes('/dist')
+      )
         expect(existsSync(join(root, word)), word).toBe(true);
     }
     const script = scriptOf(words);

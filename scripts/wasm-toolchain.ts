@@ -3,7 +3,7 @@ import { spawnSync } from 'node:child_process';
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { join } from 'node:path';
-import { rootCommand } from './lib/root-command.ts';
+import { rootCommand } from './lib/run.ts';
 
 export const WASM_TARGET = 'wasm32-unknown-unknown';
 

@@ -1,4 +1,4 @@
-import { spawn } from 'node:child_process';
+import { spawn, spawnSync } from 'node:child_process';
 import { delimiter, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -47,4 +47,14 @@ export function run(program: string, args: string[], options: RunOptions = {}): 
     child.once('error', (error) => resolve({ code: 127, output: `${output}${error.message}\n` }));
     child.once('close', (code, signal) => resolve({ code: code ?? (signal === null ? 1 : 137), output }));
   });
+}
+
+/**
+ * Prefix for a command that needs root: `[]` as root, `['sudo', '-n']` if sudo asks for no password, otherwise
+ * `null`.
+ */
+export function rootCommand(): string[] | null {
+  if (process.getuid?.() === 0) return [];
+  const asked = spawnSync('sudo', ['-n', 'true'], { stdio: 'ignore', timeout: 20_000 });
+  return asked.status === 0 ? ['sudo', '-n'] : null;
 }

@@ -3,7 +3,7 @@ import { chmodSync, existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { testFolder } from '@farpoint/service/testing/folder';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
-import { rootCommand } from '../lib/root-command.ts';
+import { rootCommand } from '../lib/run.ts';
 import type { Need } from './needs.ts';
 import { provision } from './provision.ts';
 

@@ -1,8 +1,7 @@
 /** Installs what the tests need and is missing: in one round of apt and one of pip, tried three times. */
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
-import { rootCommand } from '../lib/root-command.ts';
-import { run } from '../lib/run.ts';
+import { rootCommand, run } from '../lib/run.ts';
 import type { Need } from './needs.ts';
 
 const TRIES = 3;

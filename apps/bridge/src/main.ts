@@ -1,7 +1,6 @@
 #!/usr/bin/env node
 import { fileFault, JsonLinesFile, runProgram, setNiceness } from '@farpoint/service';
-import { Bridge } from './bridge.ts';
-import { monotonicMs } from './clock.ts';
+import { Bridge, monotonicMs } from './bridge.ts';
 import { registerBridgeMetrics } from './metrics.ts';
 import { program, toBridgeOptions } from './options.ts';
 

@@ -1,7 +1,7 @@
 import { EventEmitter, once } from 'node:events';
 import type { ReferenceClientToService, ReferenceRobot } from '@farpoint/protocol';
 import { expect, it, onTestFinished } from 'vitest';
-import { monotonicMs } from './clock.ts';
+import { monotonicMs } from './bridge.ts';
 import { RobotRoster } from './robot-roster.ts';
 
 function roster() {

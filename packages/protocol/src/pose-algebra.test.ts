@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { bodyYaw, compose, inverse, rotate } from './pose-algebra.ts';
+import { bodyYaw, compose, inverse, rotate, shortestTurn } from './pose-algebra.ts';
 
 const component = fc.double({ min: -5, max: 5, noNaN: true });
 const pose = fc
@@ -36,5 +36,17 @@ describe('pose algebra', () => {
       { seed: 11 },
     );
     expect(bodyYaw({ x: 0, y: 0, z: Math.SQRT1_2, w: Math.SQRT1_2 })).toBeCloseTo(Math.PI / 2, 12);
+  });
+
+  it('the shortest turn is at most half a circle, and leads to the same direction', () => {
+    fc.assert(
+      fc.property(fc.double({ min: -100, max: 100, noNaN: true }), (angle) => {
+        const turn = shortestTurn(angle);
+        expect(Math.abs(turn)).toBeLessThanOrEqual(Math.PI + 1e-9);
+        expect(Math.cos(turn)).toBeCloseTo(Math.cos(angle), 6);
+        expect(Math.sin(turn)).toBeCloseTo(Math.sin(angle), 6);
+      }),
+      { seed: 2 },
+    );
   });
 });

@@ -72,3 +72,8 @@ export function inverse(pose: Pose): Pose {
   const back = rotate(orientation, pose.position);
   return { position: { x: -back.x, y: -back.y, z: -back.z }, orientation };
 }
+
+/** The same direction as a turn of at most half a circle. @param angle radians, such as a difference of two headings */
+export function shortestTurn(angle: number): number {
+  return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
+}

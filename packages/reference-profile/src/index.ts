@@ -1,4 +1,3 @@
-export * from './channels.ts';
 export * from './message-line.ts';
 export * from './peer-connection.ts';
 export * from './sdp-answer.ts';

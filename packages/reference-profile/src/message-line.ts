@@ -6,6 +6,16 @@ import { decodeJson, encodeJson, type JsonCodec, ProtocolError } from '@farpoint
 import { Reconnect } from '@farpoint/timing';
 import { WebSocket } from 'ws';
 
+/** The data channels of the reference profile. Two of them have the same label: who opened them distinguishes them. */
+export const referenceChannels = {
+  /** Operator → robot: a bare twist, UTF-8 JSON as a binary message. Opened by the robot. */
+  control: { label: 'controltrack', ordered: true },
+  /** Operator → robot: int32 bit/s, once for each received frame. Opened by the operator. */
+  bandwidth: { label: 'bandwidth', ordered: true },
+  /** Operator → robot: `start` and `stop`. Opened by the operator. */
+  words: { label: 'controltrack', ordered: true, maxRetransmits: 30 },
+} as const;
+
 const MAX_BACKLOG_BYTES = 1_048_576;
 /** A connection on which nothing is heard for this long despite a ping is dead, ms. */
 const HEARTBEAT_MS = 5000;

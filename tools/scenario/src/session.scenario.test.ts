@@ -1,7 +1,7 @@
 /** What an operator and a robot make of a link that goes and comes back: sessions, leases, STOP. */
 import { describe, expect, test } from 'vitest';
 import { linkOf } from './faults/run-fault.ts';
-import { SEEDS } from './faults/seeds.ts';
+import { SEEDS } from './faults/scenario-rig.ts';
 import type { ScenarioOperator } from './operator.ts';
 import { Scenario } from './scenario.ts';
 

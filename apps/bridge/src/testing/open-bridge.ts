@@ -1,6 +1,5 @@
 import { type Logger, silentLogger } from '@farpoint/service';
-import { Bridge, type BridgeOptions } from '../bridge.ts';
-import { monotonicMs } from '../clock.ts';
+import { Bridge, type BridgeOptions, monotonicMs } from '../bridge.ts';
 
 /** A bridge on free ports of this machine, for tests. @param signaling the service's port for clients */
 export function openBridge(

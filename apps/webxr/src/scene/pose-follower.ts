@@ -1,3 +1,5 @@
+import { shortestTurn } from '@farpoint/protocol';
+
 /** Follows a position and a heading smoothly, for the rig that carries the operator's head. Allocates nothing. */
 export class PoseFollower {
   x = 0;
@@ -53,8 +55,3 @@ export class PoseFollower {
 }
 
 const JUMP_M = 2;
-
-/** −π … π. */
-export function shortestTurn(angle: number): number {
-  return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
-}

@@ -1,14 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import {
-  type AxisModel,
-  coast,
-  shortestTurn,
-  standingAt,
-  stepAxis,
-  stepBase,
-  usualBase,
-} from './base-model.ts';
+import { type AxisModel, coast, standingAt, stepAxis, stepBase, usualBase } from './base-model.ts';
 
 const axis: AxisModel = { gain: 1, lagS: 0.2, rise: 100, fall: 100 };
 
@@ -70,8 +62,4 @@ test('coasting back undoes coasting on', () => {
   coast(motion, 0.7, -0.4, 0.1);
   coast(motion, 0.7, -0.4, -0.1);
   expect([motion.x, motion.y, motion.yaw].map((value) => Math.round(value * 1e9) / 1e9)).toEqual([1, 2, 3]);
-});
-
-test('the short way round', () => {
-  expect(shortestTurn(3 * Math.PI + 0.1)).toBeCloseTo(-Math.PI + 0.1, 9);
 });

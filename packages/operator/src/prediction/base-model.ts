@@ -109,8 +109,3 @@ export function copyMotion(from: Readonly<BaseMotion>, into: BaseMotion): void {
 export function standingAt(x = 0, y = 0, yaw = 0): BaseMotion {
   return { x, y, yaw, linear: 0, angular: 0 };
 }
-
-/** The angle between −π and π, radians. */
-export function shortestTurn(angle: number): number {
-  return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
-}

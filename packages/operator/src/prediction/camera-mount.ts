@@ -2,7 +2,7 @@
  * Where a camera sits on the robot: found from the poses of the clouds and of the body, compared at the same instant of the
  * robot's clock. A view at the predicted body then stands where that camera will be. Bounded memory.
  */
-import { shortestTurn } from './base-model.ts';
+import { shortestTurn } from '@farpoint/protocol';
 
 /** At 20 reports a second, 3 s. */
 const CAPACITY = 64;

@@ -3,6 +3,7 @@
  * then and has not answered for yet. The base's model is identified meanwhile. Pure: times are arguments. The operator's
  * clock and the robot's need not be synchronised.
  */
+import { shortestTurn } from '@farpoint/protocol';
 import { WindowedMinimum } from '@farpoint/timing';
 import {
   type BaseModel,
@@ -10,7 +11,6 @@ import {
   coast,
   copyMotion,
   STEP_MS,
-  shortestTurn,
   standingAt,
   stepBase,
   usualBase,

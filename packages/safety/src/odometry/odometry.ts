@@ -1,4 +1,5 @@
 import type { Twist } from '@farpoint/protocol';
+import { shortestTurn } from '@farpoint/protocol';
 import type { FloorPose } from '../obstacles/sensor-grid.ts';
 
 /** What the robot can do: m/s and rad/s. */
@@ -134,7 +135,7 @@ export class Odometry {
     if (seconds * 1000 > MOST_GAP_MS) return hasMoved(pose, to);
     const { maxLinear, maxAngular } = this.#limits;
     const gone = Math.hypot(to.x - pose.x, to.y - pose.y);
-    const turned = Math.abs(turnBetween(pose.yaw, to.yaw));
+    const turned = Math.abs(shortestTurn(to.yaw - pose.yaw));
     return gone > maxLinear * FASTER * seconds + JUMP_M || turned > maxAngular * FASTER * seconds + JUMP_RAD;
   }
 
@@ -142,7 +143,7 @@ export class Odometry {
     const before = this.#samples.findLast(({ measuredMs }) => atMs - measuredMs >= LEAST_BASELINE_MS);
     if (before === undefined || atMs - before.measuredMs > MOST_BASELINE_MS) return null;
     const seconds = (atMs - before.measuredMs) / 1000;
-    const turn = turnBetween(before.pose.yaw, pose.yaw);
+    const turn = shortestTurn(pose.yaw - before.pose.yaw);
     const [dx, dy] = [(pose.x - before.pose.x) / seconds, (pose.y - before.pose.y) / seconds];
     const heading = before.pose.yaw + turn / 2;
     const [cos, sin] = [Math.cos(heading), Math.sin(heading)];
@@ -177,11 +178,8 @@ function pace({ linear, angular }: Readonly<Twist>): number {
 }
 
 function hasMoved(from: Readonly<FloorPose>, to: Readonly<FloorPose>): boolean {
-  const turned = Math.abs(turnBetween(from.yaw, to.yaw));
+  const turned = Math.abs(shortestTurn(to.yaw - from.yaw));
   return Math.hypot(to.x - from.x, to.y - from.y) >= MOVED_M || turned >= MOVED_RAD;
 }
 
 /** The short way round. */
-function turnBetween(from: number, to: number): number {
-  return Math.atan2(Math.sin(to - from), Math.cos(to - from));
-}

@@ -2,6 +2,7 @@ import {
   isZeroTwist,
   type ReturnEnd,
   type ReturnState,
+  shortestTurn,
   type ToldReturnPhase,
   type Twist,
   zeroTwist,
@@ -11,7 +12,6 @@ import type { FloorPose } from '../obstacles/sensor-grid.ts';
 import { ODOMETRY_SILENT_MS, type ReturnOptions } from './return-options.ts';
 import { Track, type TrackOptions } from './track.ts';
 import { TrackFollower } from './track-follower.ts';
-import { turnBetween } from './turn.ts';
 
 /** The robot's eyes, as far as a way back needs them. */
 export interface Lookout {
@@ -241,7 +241,7 @@ export class ReturnDrive implements UnattendedDrive {
     const [mark, { pose }] = [this.#mark, this.#track];
     if (mark === null || pose === null) return false;
     if (Math.hypot(pose.x - mark.x, pose.y - mark.y) >= metres) return true;
-    return Math.abs(turnBetween(mark.yaw, pose.yaw)) >= turn;
+    return Math.abs(shortestTurn(pose.yaw - mark.yaw)) >= turn;
   }
 
   #finish(end: ReturnEnd, nowMs: number): null {

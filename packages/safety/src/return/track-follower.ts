@@ -1,7 +1,6 @@
-import { type Twist, zeroTwist } from '@farpoint/protocol';
+import { shortestTurn, type Twist, zeroTwist } from '@farpoint/protocol';
 import type { FloorPose } from '../obstacles/sensor-grid.ts';
 import type { Crumb, Track } from './track.ts';
-import { turnBetween } from './turn.ts';
 
 export interface FollowerLimits {
   /** m/s and rad/s. */
@@ -72,7 +71,7 @@ export class TrackFollower {
   }
 
   #turn({ to }: Leg, { yaw }: Readonly<FloorPose>): Twist {
-    return this.#turnBy(turnBetween(yaw, to.yaw));
+    return this.#turnBy(shortestTurn(to.yaw - yaw));
   }
 
   #turnBy(angle: number): Twist {
@@ -131,7 +130,7 @@ export class TrackFollower {
 function legBetween(from: Crumb, to: Crumb): Leg {
   const [dx, dy] = [to.x - from.x, to.y - from.y];
   const length = Math.hypot(dx, dy);
-  const turn = turnBetween(from.yaw, to.yaw);
+  const turn = shortestTurn(to.yaw - from.yaw);
   if (length < SPOT_M && Math.abs(turn) > SPOT_RAD) return { from, to, length, direction: 0 };
   const heading = from.yaw + turn / 2;
   const isAhead = dx * Math.cos(heading) + dy * Math.sin(heading) > 0;
@@ -145,7 +144,7 @@ function alongOf({ from, to, length }: Leg, { x, y }: Readonly<FloorPose>): numb
 }
 
 function isDone(leg: Leg, pose: Readonly<FloorPose>): boolean {
-  if (leg.direction === 0) return Math.abs(turnBetween(pose.yaw, leg.to.yaw)) < THERE_RAD;
+  if (leg.direction === 0) return Math.abs(shortestTurn(leg.to.yaw - pose.yaw)) < THERE_RAD;
   return alongOf(leg, pose) >= leg.length - THERE_M;
 }
 

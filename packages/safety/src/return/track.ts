@@ -1,5 +1,5 @@
+import { shortestTurn } from '@farpoint/protocol';
 import type { FloorPose } from '../obstacles/sensor-grid.ts';
-import { turnBetween } from './turn.ts';
 
 /** Where the robot was on its way, in odometry's frame. */
 export interface Crumb extends Readonly<FloorPose> {
@@ -128,16 +128,16 @@ export class Track {
     const { x, y, yaw } = this.#pose as FloorPose;
     const { mostMps, mostRadps } = this.#options;
     if (Math.hypot(x - before.x, y - before.y) > mostMps * seconds + SLACK_M) return true;
-    return Math.abs(turnBetween(before.yaw, yaw)) > mostRadps * seconds + SLACK_RAD;
+    return Math.abs(shortestTurn(yaw - before.yaw)) > mostRadps * seconds + SLACK_RAD;
   }
 }
 
 function isStep(crumb: Readonly<FloorPose>, { x, y, yaw }: Readonly<FloorPose>): boolean {
   if (Math.hypot(x - crumb.x, y - crumb.y) >= STEP_M) return true;
-  return Math.abs(turnBetween(crumb.yaw, yaw)) >= STEP_RAD;
+  return Math.abs(shortestTurn(yaw - crumb.yaw)) >= STEP_RAD;
 }
 
 function isSame(crumb: Readonly<FloorPose>, { x, y, yaw }: Readonly<FloorPose>): boolean {
   if (Math.hypot(x - crumb.x, y - crumb.y) >= SAME_M) return false;
-  return Math.abs(turnBetween(crumb.yaw, yaw)) < SAME_RAD;
+  return Math.abs(shortestTurn(yaw - crumb.yaw)) < SAME_RAD;
 }

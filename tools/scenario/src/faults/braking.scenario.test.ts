@@ -3,7 +3,7 @@ import { BRAKES_MS, brakingFaults } from '@farpoint/robot-node/testing/faults';
 import { describe, expect, test } from 'vitest';
 import { BRAKES_AFTER_MS } from './braking-times.ts';
 import { longestWayMs, runFault, SPEED } from './run-fault.ts';
-import { SEEDS } from './seeds.ts';
+import { SEEDS } from './scenario-rig.ts';
 
 /** As its wheels are told: without a command for so long the robot stands. */
 const WATCHDOG_MS = 150;

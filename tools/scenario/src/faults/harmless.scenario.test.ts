@@ -2,7 +2,7 @@
 import { harmlessFaults, returningFaults } from '@farpoint/robot-node/testing/faults';
 import { describe, expect, test } from 'vitest';
 import { runFault, runReturn, SPEED } from './run-fault.ts';
-import { SEEDS } from './seeds.ts';
+import { SEEDS } from './scenario-rig.ts';
 
 describe.each(harmlessFaults)('$name', (fault) => {
   test('the robot goes on as fast as before', async () => {

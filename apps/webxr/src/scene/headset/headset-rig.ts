@@ -1,8 +1,9 @@
 /** Places what carries the operator's head in the robot's world, by view, recentring and turning. Allocates nothing. */
+
+import { shortestTurn } from '@farpoint/protocol';
 import { type Signal, signal } from '@preact/signals-core';
 import { Group, type Object3D } from 'three';
 import type { HeadsetSettings, HeadsetView } from '../../ground/headset-settings.ts';
-import { shortestTurn } from '../pose-follower.ts';
 import { headYaw, OperatorOrigin } from './operator-origin.ts';
 import { OperatorTurn } from './operator-turn.ts';
 import { ABOVE_M, RigPose, type WorldPlace } from './rig-pose.ts';

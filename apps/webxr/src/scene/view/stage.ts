@@ -2,12 +2,13 @@
 
 import { bodyYaw, type CloudView, opticalYaw, RobotWorld } from '@farpoint/cloud-view';
 import type { RobotBody } from '@farpoint/protocol';
+import { shortestTurn } from '@farpoint/protocol';
 import { type Camera, Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
 import { DEFAULT_HEADSET, type HeadsetSettings } from '../../ground/headset-settings.ts';
 import { FrontPointer } from '../headset/front-pointer.ts';
 import { HeadsetRig } from '../headset/headset-rig.ts';
 import { Vignette } from '../headset/vignette.ts';
-import { PoseFollower, shortestTurn } from '../pose-follower.ts';
+import { PoseFollower } from '../pose-follower.ts';
 import { RobotFigures } from '../robot-model/robot-figures.ts';
 import { bearingOnScreen } from './blocked-edge.ts';
 import { DrivePath } from './drive-path.ts';

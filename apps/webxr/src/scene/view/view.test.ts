@@ -2,7 +2,7 @@ import { bodyYaw, opticalYaw, worldToThree } from '@farpoint/cloud-view';
 import fc from 'fast-check';
 import { Quaternion, Vector3 } from 'three';
 import { describe, expect, test } from 'vitest';
-import { PoseFollower, shortestTurn } from '../pose-follower.ts';
+import { PoseFollower } from '../pose-follower.ts';
 import {
   DEFAULT_DISTANCE,
   DEFAULT_FOV,
@@ -76,17 +76,6 @@ describe('PoseFollower', () => {
     expect(follower.z).toBeCloseTo(1.0632, 4);
     follower.follow(3.1, 2, 1.1, 0.7, 100);
     expect(follower.x).toBeCloseTo(3.0632, 4);
-  });
-
-  test('shortestTurn stays within half a turn', () => {
-    fc.assert(
-      fc.property(fc.double({ min: -100, max: 100, noNaN: true }), (angle) => {
-        const turn = shortestTurn(angle);
-        expect(Math.abs(turn)).toBeLessThanOrEqual(Math.PI + 1e-9);
-        expect(Math.cos(turn)).toBeCloseTo(Math.cos(angle), 6);
-      }),
-      { seed: 2 },
-    );
   });
 });
 
