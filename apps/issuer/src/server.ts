@@ -29,72 +29,12 @@ export interface RunningServer {
   close(): Promise<void>;
 }
 
+type Refusal = { status: number; text: string };
+
 /** @throws {Error} if it cannot listen on the address, for example EADDRINUSE */
 export async function startServer(desk: SignInDesk, options: ServerOptions): Promise<RunningServer> {
-  const { host, port, url, trustProxy, now, onError } = options;
-  const base = new URL(url).pathname.replace(/\/$/, '');
-  const isHttps = url.startsWith('https:');
-  const cookie = new BrowserCookie(isHttps);
-  const headers = securityHeaders(isHttps);
-  const proxies = new TrustedProxies(trustProxy);
-
-  async function handle(
-    request: IncomingMessage,
-  ): Promise<Reply | typeof NOTHING | { status: 403 | 405 | 413; text: string }> {
-    // The host does not matter here: addresses of ours are made from the public one.
-    const address = URL.parse(request.url ?? '', 'http://issuer');
-    const path = address?.pathname.startsWith(`${base}/`) ? address.pathname.slice(base.length) : null;
-    if (address === null || path === null || !Object.hasOwn(METHODS, path)) return NOTHING;
-    const method = METHODS[path as keyof typeof METHODS];
-    if (request.method !== method) return { status: 405, text: `Only ${method}.` };
-    const caller = {
-      address: peerAddress(request, proxies),
-      browser: cookie.read(request.headers.cookie),
-    };
-    if (path === '/consent') {
-      // Browsers say from which page a form comes. One of another site's would answer in the person's place.
-      const { origin } = request.headers;
-      if (origin !== undefined && origin !== new URL(url).origin)
-        return { status: 403, text: 'This answer comes from another page.' };
-      const form = await readForm(request);
-      return form === null ? { status: 413, text: 'Too long.' } : await desk.answer(form, caller, now());
-    }
-    return path === '/sign-in'
-      ? await desk.begin(address.searchParams, caller, now())
-      : await desk.finish(address.searchParams, caller, now());
-  }
-
-  function answer(response: ServerResponse, reply: Awaited<ReturnType<typeof handle>>): void {
-    if ('redirect' in reply) {
-      const owned = reply.browser === undefined ? {} : { 'set-cookie': cookie.write(reply.browser) };
-      response.writeHead(303, { ...headers, ...owned, location: reply.redirect }).end();
-      return;
-    }
-    if ('consent' in reply) {
-      const { consent, browser } = reply;
-      const page = consentPage(consent, `${base}/consent`);
-      const own = {
-        'content-security-policy': consentPolicy(consent.page),
-        // With none at all, browsers do not say either from which page the answer comes.
-        'referrer-policy': 'same-origin',
-        // The cookie ends no earlier than the question.
-        'set-cookie': cookie.write(browser),
-        'content-type': 'text/html; charset=utf-8',
-        'content-length': Buffer.byteLength(page),
-      };
-      response.writeHead(200, { ...headers, ...own }).end(page);
-      return;
-    }
-    const body = `${reply.text}\n`;
-    const { status } = reply;
-    const more = {
-      ...(status === 405 ? { allow: reply.text.includes('POST') ? 'POST' : 'GET' } : {}),
-      ...(status === 429 ? { 'retry-after': '60' } : {}),
-    };
-    const length = { 'content-type': 'text/plain; charset=utf-8', 'content-length': Buffer.byteLength(body) };
-    response.writeHead(status, { ...headers, ...more, ...length }).end(body);
-  }
-
+  const { host, port, onError } = options;
+  const office = new SignInOffice(desk, options);
   const server = createServer(
     {
       headersTimeout: 10_000,
@@ -103,9 +43,10 @@ export async function startServer(desk: SignInDesk, options: ServerOptions): Pro
       connectionsCheckingInterval: 2000,
     },
     (request, response) => {
-      handle(request)
+      office
+        .handle(request)
         .finally(() => request.resume())
-        .then((reply) => answer(response, reply))
+        .then((reply) => office.answer(response, reply))
         .catch((error: unknown) => {
           onError(error);
           response.destroy();
@@ -122,6 +63,87 @@ export async function startServer(desk: SignInDesk, options: ServerOptions): Pro
         server.closeAllConnections();
       }),
   };
+}
+
+/** Puts requests to the desk, and its replies into HTTP. */
+class SignInOffice {
+  readonly #desk: SignInDesk;
+  readonly #options: ServerOptions;
+  readonly #base: string;
+  readonly #cookie: BrowserCookie;
+  readonly #headers: Readonly<Record<string, string>>;
+  readonly #proxies: TrustedProxies;
+
+  constructor(desk: SignInDesk, options: ServerOptions) {
+    const { url, trustProxy } = options;
+    const isHttps = url.startsWith('https:');
+    this.#desk = desk;
+    this.#options = options;
+    this.#base = new URL(url).pathname.replace(/\/$/, '');
+    this.#cookie = new BrowserCookie(isHttps);
+    this.#headers = securityHeaders(isHttps);
+    this.#proxies = new TrustedProxies(trustProxy);
+  }
+
+  async handle(request: IncomingMessage): Promise<Reply | Refusal> {
+    const { now, url } = this.#options;
+    const base = this.#base;
+    // The host does not matter here: addresses of ours are made from the public one.
+    const address = URL.parse(request.url ?? '', 'http://issuer');
+    const path = address?.pathname.startsWith(`${base}/`) ? address.pathname.slice(base.length) : null;
+    if (address === null || path === null || !Object.hasOwn(METHODS, path)) return NOTHING;
+    const method = METHODS[path as keyof typeof METHODS];
+    if (request.method !== method) return { status: 405, text: `Only ${method}.` };
+    const caller = {
+      address: peerAddress(request, this.#proxies),
+      browser: this.#cookie.read(request.headers.cookie),
+    };
+    if (path === '/consent') {
+      // Browsers say from which page a form comes. One of another site's would answer in the person's place.
+      const { origin } = request.headers;
+      if (origin !== undefined && origin !== new URL(url).origin)
+        return { status: 403, text: 'This answer comes from another page.' };
+      const form = await readForm(request);
+      return form === null
+        ? { status: 413, text: 'Too long.' }
+        : await this.#desk.answer(form, caller, now());
+    }
+    return path === '/sign-in'
+      ? await this.#desk.begin(address.searchParams, caller, now())
+      : await this.#desk.finish(address.searchParams, caller, now());
+  }
+
+  answer(response: ServerResponse, reply: Reply | Refusal): void {
+    const headers = this.#headers;
+    if ('redirect' in reply) {
+      const owned = reply.browser === undefined ? {} : { 'set-cookie': this.#cookie.write(reply.browser) };
+      response.writeHead(303, { ...headers, ...owned, location: reply.redirect }).end();
+      return;
+    }
+    if ('consent' in reply) {
+      const { consent, browser } = reply;
+      const page = consentPage(consent, `${this.#base}/consent`);
+      const own = {
+        'content-security-policy': consentPolicy(consent.page),
+        // With none at all, browsers do not say either from which page the answer comes.
+        'referrer-policy': 'same-origin',
+        // The cookie ends no earlier than the question.
+        'set-cookie': this.#cookie.write(browser),
+        'content-type': 'text/html; charset=utf-8',
+        'content-length': Buffer.byteLength(page),
+      };
+      response.writeHead(200, { ...headers, ...own }).end(page);
+      return;
+    }
+    const body = `${reply.text}\n`;
+    const { status } = reply;
+    const more = {
+      ...(status === 405 ? { allow: reply.text.includes('POST') ? 'POST' : 'GET' } : {}),
+      ...(status === 429 ? { 'retry-after': '60' } : {}),
+    };
+    const length = { 'content-type': 'text/plain; charset=utf-8', 'content-length': Buffer.byteLength(body) };
+    response.writeHead(status, { ...headers, ...more, ...length }).end(body);
+  }
 }
 
 function securityHeaders(isHttps: boolean): Readonly<Record<string, string>> {

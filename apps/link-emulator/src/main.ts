@@ -1,6 +1,6 @@
 #!/usr/bin/env node
 import { directions, monotonicMs, SignalingInterposer, UdpLink } from '@farpoint/link-emulator';
-import { fileFault, JsonLinesFile, runProgram, setNiceness } from '@farpoint/service';
+import { fileFault, JsonLinesFile, type ProgramContext, runProgram, setNiceness } from '@farpoint/service';
 import { control } from './control.ts';
 import { directionOf } from './directions.ts';
 import { registerLinkMetrics } from './metrics.ts';
@@ -8,24 +8,12 @@ import { program } from './options.ts';
 
 const RIM_INTERVAL_MS = 1000;
 
-await runProgram(program, async ({ options, log, health, metrics, shutdown, serveAdmin }) => {
-  try {
-    setNiceness(options.niceness);
-  } catch (error) {
-    log.info(
-      { niceness: options.niceness, reason: (error as Error).message },
-      'the system keeps the priority: a busy processor makes packets late',
-    );
-  }
-  const file =
-    options.stats === null
-      ? null
-      : new JsonLinesFile(options.stats, (error) =>
-          log.error(
-            { remedy: 'set --stats to a file that can be written' },
-            `statistics are not written: ${fileFault(error) ?? error.message}`,
-          ),
-        );
+type Context = ProgramContext<typeof program.options>;
+
+await runProgram(program, async (context) => {
+  const { options, log, health, metrics, shutdown, serveAdmin } = context;
+  keepPriority(context);
+  const file = openStatistics(context);
   const counters = registerLinkMetrics(metrics, () => link);
   const link = new UdpLink({
     up: directionOf(options, 'up'),
@@ -47,11 +35,54 @@ await runProgram(program, async ({ options, log, health, metrics, shutdown, serv
     timeMs: link.startMs,
     ...Object.fromEntries(directions.map((direction) => [direction, link.models[direction].profile])),
   });
+  await openFronts(context, link, (fault) => counters.fault(fault));
+  const initial = { up: link.models.up.profile, down: link.models.down.profile };
+  process.on('message', (data) => {
+    try {
+      log.info(control(link, data, initial), 'told');
+    } catch (error) {
+      log.error({ err: error }, 'a message from the parent process cannot be executed');
+    }
+  });
+  const cpu = process.cpuUsage();
+  const rim = setInterval(() => file?.write(rimStatistics(link, cpu)), RIM_INTERVAL_MS);
+  shutdown.onClose('rim statistics', () => clearInterval(rim));
+  health.add('link', () => ({ ok: true, detail: { standIns: link.ports, packets: link.packets } }));
+  await serveAdmin({ host: options.adminHost, port: options.adminPort, names: options.adminNames });
+});
 
+function keepPriority({ options: { niceness }, log }: Context): void {
+  try {
+    setNiceness(niceness);
+  } catch (error) {
+    log.info(
+      { niceness, reason: (error as Error).message },
+      'the system keeps the priority: a busy processor makes packets late',
+    );
+  }
+}
+
+/** @returns `null` if no statistics are wanted */
+function openStatistics({ options, log }: Context): JsonLinesFile | null {
+  if (options.stats === null) return null;
+  return new JsonLinesFile(options.stats, (error) =>
+    log.error(
+      { remedy: 'set --stats to a file that can be written' },
+      `statistics are not written: ${fileFault(error) ?? error.message}`,
+    ),
+  );
+}
+
+/** Opens a signaling service of our own in front of each configured one, so that its peers' packets take the link. */
+async function openFronts(
+  { options, log, shutdown }: Context,
+  link: UdpLink,
+  count: (fault: string) => void,
+): Promise<void> {
   const events = {
     onPeer: (side: string, path: string) => log.info({ side, path }, 'peer'),
     onFault: (side: string, fault: string) => {
-      counters.fault(fault);
+      count(fault);
       log.debug({ side, fault }, 'candidate left out');
     },
     onError: (error: Error) => log.warn({ err: error }, 'signaling'),
@@ -62,51 +93,32 @@ await runProgram(program, async ({ options, log, health, metrics, shutdown, serv
     { peers: 'reference-robots', upstream: options.referenceRobots, port: port === 0 ? 0 : port + 1 },
     { peers: 'reference-clients', upstream: options.referenceClients, port: port === 0 ? 0 : port + 2 },
   ] as const;
-  for (const front of fronts) {
-    if (front.upstream === null) continue;
-    const { peers, upstream } = front;
-    const interposer = await SignalingInterposer.open({
-      link,
-      upstream,
-      host,
-      port: front.port,
-      peers,
-      events,
-    });
+  for (const { peers, upstream, port: own } of fronts) {
+    if (upstream === null) continue;
+    const interposer = await SignalingInterposer.open({ link, upstream, host, port: own, peers, events });
     shutdown.onClose(peers, () => interposer.close());
     const url = `ws://${host.includes(':') ? `[${host}]` : host}:${interposer.port}`;
     log.info({ peers, url, upstream }, `point ${peers === 'farpoint' ? 'the robot' : peers} at ${url}`);
   }
+}
 
-  const initial = { up: link.models.up.profile, down: link.models.down.profile };
-  process.on('message', (data) => {
-    try {
-      log.info(control(link, data, initial), 'told');
-    } catch (error) {
-      log.error({ err: error }, 'a message from the parent process cannot be executed');
-    }
-  });
-  const cpu = process.cpuUsage();
-  const rim = setInterval(() => {
-    const { lateness } = link;
-    const { user, system } = process.cpuUsage(cpu);
-    file?.write({
-      type: 'rim',
-      timeMs: monotonicMs(),
-      packets: link.packets,
-      ports: link.ports,
-      cpuMs: (user + system) / 1000,
-      late: {
-        packets: lateness.count,
-        p50Ms: lateness.quantile(0.5),
-        p99Ms: lateness.quantile(0.99),
-        maxMs: lateness.maxMs,
-      },
-    });
-    lateness.clear();
-  }, RIM_INTERVAL_MS);
-  shutdown.onClose('rim statistics', () => clearInterval(rim));
-
-  health.add('link', () => ({ ok: true, detail: { standIns: link.ports, packets: link.packets } }));
-  await serveAdmin({ host: options.adminHost, port: options.adminPort, names: options.adminNames });
-});
+/** How late the link itself was since the last time, and what it cost. @param cpu when the program began */
+function rimStatistics(link: UdpLink, cpu: NodeJS.CpuUsage) {
+  const { lateness } = link;
+  const { user, system } = process.cpuUsage(cpu);
+  const statistics = {
+    type: 'rim',
+    timeMs: monotonicMs(),
+    packets: link.packets,
+    ports: link.ports,
+    cpuMs: (user + system) / 1000,
+    late: {
+      packets: lateness.count,
+      p50Ms: lateness.quantile(0.5),
+      p99Ms: lateness.quantile(0.99),
+      maxMs: lateness.maxMs,
+    },
+  };
+  lateness.clear();
+  return statistics;
+}

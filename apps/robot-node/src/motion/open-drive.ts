@@ -116,7 +116,6 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
   const odometry = new BaseOdometry(limits, base !== null);
   const fence =
     options.fence == null ? null : openGeofence(options.fence, () => odometry.believed, base !== null);
-  const letGo = afterGap === 'let-go';
   const guard = new DriveGuard({
     limits,
     takePolicy,
@@ -130,23 +129,16 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
   const returns =
     options.returns === undefined
       ? null
-      : new ReturnStation(options.returns, {
-          limits,
-          lookout: obstacles,
-          audit,
-          log,
-        });
+      : new ReturnStation(options.returns, { limits, lookout: obstacles, audit, log });
   const supervisor = new MotionSupervisor(guard, {
     ramps,
     guards: [...obstacles.guards, ...(fence === null ? [] : [fence.geofence])],
-    driverGuards: [
-      ...(view === null ? [] : [new ViewAge(guard.view, view)]),
-      ...(blindTravel === null ? [] : [blindTravel]),
-    ],
+    driverGuards: view === null || blindTravel === null ? [] : [new ViewAge(guard.view, view), blindTravel],
     unattended: returns?.drive ?? null,
-    ...(letGo
-      ? { letGoAfter: { 'view-lost': { why: 'what you saw was too old', lastsMs: resumeWithinMs } } }
-      : {}),
+    letGoAfter:
+      afterGap === 'let-go'
+        ? { 'view-lost': { why: 'what you saw was too old', lastsMs: resumeWithinMs } }
+        : {},
   });
   const report = new InterventionReport(log, count);
   supervisor.onIntervention = (reason, nowMs) => report.begins(reason, nowMs);

@@ -128,6 +128,64 @@ function lamps(): Panel[] {
   return panels;
 }
 
+const MOVERS: WorldDescription['movers'] = [
+  {
+    name: 'visitor',
+    kind: 'person',
+    path: [
+      { x: 10.6, y: 8.2 },
+      { x: 17.6, y: 8.2 },
+      { x: 17.6, y: 10.2 },
+      { x: 10.6, y: 10.2 },
+    ],
+    speed: 0.9,
+    offset: 2.5,
+    colour: 0xd24d3e,
+    second: 0x2c3e58,
+  },
+  {
+    name: 'technician',
+    kind: 'person',
+    path: [
+      { x: 9.75, y: 5 },
+      { x: 9.75, y: 4.2 },
+      { x: 9.0, y: 2.2 },
+      { x: 11.2, y: 2.2 },
+      { x: 10.15, y: 4.2 },
+      { x: 10.15, y: 5 },
+    ],
+    speed: 0.8,
+    colour: 0x2f8f6b,
+    second: 0x4a4038,
+  },
+  {
+    name: 'colleague',
+    kind: 'person',
+    path: [
+      { x: 16.2, y: 10.9 },
+      { x: 16.1, y: 11.3 },
+      { x: 16.5, y: 11.2 },
+    ],
+    speed: 0,
+    colour: 0x3a66b0,
+    second: 0x26282c,
+  },
+  {
+    name: 'cart',
+    kind: 'cart',
+    path: [
+      { x: 1.4, y: 5.55 },
+      { x: 18.4, y: 5.55 },
+      { x: 18.4, y: 6.45 },
+      { x: 1.4, y: 6.45 },
+    ],
+    speed: 0.6,
+    offset: 9,
+    colour: 0xe0a020,
+    second: 0xb98d5b,
+  },
+];
+
 /** The floor of an office building: six rooms, three people and a cart. */
 export function officeWorld(): WorldDescription {
   return {
@@ -146,62 +204,6 @@ export function officeWorld(): WorldDescription {
       ...OFFICE_PIECES.flatMap((piece) => piece.panels),
     ],
     ellipsoids: OFFICE_PIECES.flatMap((piece) => piece.ellipsoids),
-    movers: [
-      {
-        name: 'visitor',
-        kind: 'person',
-        path: [
-          { x: 10.6, y: 8.2 },
-          { x: 17.6, y: 8.2 },
-          { x: 17.6, y: 10.2 },
-          { x: 10.6, y: 10.2 },
-        ],
-        speed: 0.9,
-        offset: 2.5,
-        colour: 0xd24d3e,
-        second: 0x2c3e58,
-      },
-      {
-        name: 'technician',
-        kind: 'person',
-        path: [
-          { x: 9.75, y: 5 },
-          { x: 9.75, y: 4.2 },
-          { x: 9.0, y: 2.2 },
-          { x: 11.2, y: 2.2 },
-          { x: 10.15, y: 4.2 },
-          { x: 10.15, y: 5 },
-        ],
-        speed: 0.8,
-        colour: 0x2f8f6b,
-        second: 0x4a4038,
-      },
-      {
-        name: 'colleague',
-        kind: 'person',
-        path: [
-          { x: 16.2, y: 10.9 },
-          { x: 16.1, y: 11.3 },
-          { x: 16.5, y: 11.2 },
-        ],
-        speed: 0,
-        colour: 0x3a66b0,
-        second: 0x26282c,
-      },
-      {
-        name: 'cart',
-        kind: 'cart',
-        path: [
-          { x: 1.4, y: 5.55 },
-          { x: 18.4, y: 5.55 },
-          { x: 18.4, y: 6.45 },
-          { x: 1.4, y: 6.45 },
-        ],
-        speed: 0.6,
-        offset: 9,
-        colour: 0xe0a020,
-        second: 0xb98d5b,
-      },
-    ],
+    movers: MOVERS,
   };
 }

@@ -13,6 +13,7 @@ import {
 import type { Logger, Secret } from '@farpoint/service';
 import { Reconnect } from '@farpoint/timing';
 import { WebSocket } from 'ws';
+import { Liveness } from './liveness.ts';
 
 export interface SignalingOptions {
   /** `ws://` or `wss://` and host. The client appends `/robot`. */
@@ -29,14 +30,6 @@ export interface SignalingOptions {
 /** The service refused a robot.hello or another message. */
 export type SignalingRefusal = Extract<ServiceToRobot, { type: 'error' }>;
 
-const HEARTBEAT_MS = 10_000;
-/**
- * A ping that checks a doubtful connection must be answered within this time, ms; otherwise the connection is given
- * up.
- */
-const CHECK_TIMEOUT_MS = 2000;
-/** Shortest interval between such pings, ms. The service disconnects clients that ping without limit. */
-const CHECK_INTERVAL_MS = 500;
 /** With more unsent bytes than this, the service counts as gone. */
 const MAX_BACKLOG_BYTES = 1_048_576;
 
@@ -60,7 +53,6 @@ export class SignalingClient {
   readonly #reconnect = new Reconnect(Math.random);
   #socket: WebSocket | null = null;
   #retry: NodeJS.Timeout | null = null;
-  #heartbeat: NodeJS.Timeout | null = null;
   #closed = false;
   /** Whether the loss of the service has been logged. */
   #missed = false;
@@ -119,72 +111,55 @@ export class SignalingClient {
       ...(ca === null ? {} : { ca }),
     });
     this.#socket = socket;
+    const liveness = new Liveness(socket);
     let detail = '';
-    let alive = true;
-    let checking: NodeJS.Timeout | null = null;
-    let checkedMs = -CHECK_INTERVAL_MS;
-    const heard = () => {
-      alive = true;
-      if (checking !== null) clearTimeout(checking);
-      checking = null;
-    };
     socket.on('open', () => {
-      this.#check = () => {
-        if (checking !== null || performance.now() - checkedMs < CHECK_INTERVAL_MS) return;
-        checkedMs = performance.now();
-        checking = setTimeout(() => {
-          detail = 'no answer to a ping';
-          socket.terminate();
-        }, CHECK_TIMEOUT_MS);
-        socket.ping();
-      };
+      this.#check = () => liveness.check();
       // The welcome may be lost if the network is.
-      this.#check();
-      const { id, name, key, token } = this.#options;
-      const hello: RobotToService = {
-        type: 'robot.hello',
-        protocol: PROTOCOL_VERSION,
-        id,
-        name,
-        key: key.reveal(),
-        ...(token === null ? {} : { token: token.reveal() }),
-      };
-      socket.send(encodeJson(robotToServiceCodec, hello));
-      this.#heartbeat = setInterval(() => {
-        if (!alive) {
-          detail = 'no answer to a ping';
-          socket.terminate();
-          return;
-        }
-        alive = false;
-        socket.ping();
-      }, HEARTBEAT_MS);
+      liveness.check();
+      this.#sayHello(socket);
+      liveness.start();
     });
-    socket.on('pong', heard);
+    socket.on('pong', () => liveness.heard());
     socket.on('message', (data: Buffer, binary: boolean) => {
-      heard();
+      liveness.heard();
       this.#receive(binary ? data : data.toString('utf8'));
     });
     socket.on('error', (error) => {
       detail = error.message;
     });
     socket.on('close', (code, reason) => {
-      if (this.#heartbeat !== null) clearInterval(this.#heartbeat);
-      this.#heartbeat = null;
-      if (checking !== null) clearTimeout(checking);
+      liveness.stop();
       this.#check = null;
       this.#socket = null;
       this.registered = false;
       if (this.#closed) return;
-      this.disconnects++;
-      const waitMs = this.#reconnect.nextMs();
-      const facts = { url, code, detail: detail || reason.toString('utf8'), retryMs: Math.round(waitMs) };
-      // Warn once until the robot is registered again: it may have only the reference system's signaling.
-      if (this.#missed) this.#log.debug(facts, 'still no connection to signaling');
-      else this.#log.warn(facts, 'no connection to signaling; will keep trying silently');
-      this.#missed = true;
-      this.#retry = setTimeout(() => this.#connect(), waitMs);
+      this.#reconnectLater(code, liveness.fault || detail || reason.toString('utf8'));
     });
+  }
+
+  #sayHello(socket: WebSocket): void {
+    const { id, name, key, token } = this.#options;
+    const hello: RobotToService = {
+      type: 'robot.hello',
+      protocol: PROTOCOL_VERSION,
+      id,
+      name,
+      key: key.reveal(),
+      ...(token === null ? {} : { token: token.reveal() }),
+    };
+    socket.send(encodeJson(robotToServiceCodec, hello));
+  }
+
+  #reconnectLater(code: number, detail: string): void {
+    this.disconnects++;
+    const waitMs = this.#reconnect.nextMs();
+    const facts = { url: this.#options.url, code, detail, retryMs: Math.round(waitMs) };
+    // Warn once until the robot is registered again: it may have only the reference system's signaling.
+    if (this.#missed) this.#log.debug(facts, 'still no connection to signaling');
+    else this.#log.warn(facts, 'no connection to signaling; will keep trying silently');
+    this.#missed = true;
+    this.#retry = setTimeout(() => this.#connect(), waitMs);
   }
 
   #receive(data: string | Uint8Array): void {

@@ -68,20 +68,39 @@ export function configurationCheck({ results }: Configuration): Check {
   return { name: 'configuration', withinMs: SLACK_MS, run: () => results };
 }
 
+/** What earlier checks have found and later ones use. */
+interface Found {
+  running: RunningRobot;
+  serviceServers: readonly IceServer[];
+  time: ServerTime | null;
+}
+
 /** Checks of a configured robot. They run in this order, because later ones use the results of earlier ones. */
 export function robotChecks(robot: RobotOptions, values: RobotOptionValues, times = TIMES): Check[] {
-  const { answerMs } = times;
-  let running: RunningRobot = { state: 'stands' };
-  let serviceServers: readonly IceServer[] = [];
-  let time: ServerTime | null = null;
-  const { adminHost, adminPort } = values;
+  const found: Found = { running: { state: 'stands' }, serviceServers: [], time: null };
+  return [
+    ...serviceChecks(robot, values, found, times),
+    ...networkChecks(robot, found, times),
+    ...partChecks(robot, values, found, times),
+    ...sourceChecks(robot, found, times),
+    ...fileChecks(robot, found),
+  ];
+}
+
+/** Whether the robot runs already, and what the signaling service says. */
+function serviceChecks(
+  robot: RobotOptions,
+  { adminHost, adminPort }: RobotOptionValues,
+  found: Found,
+  { answerMs }: DoctorTimes,
+): Check[] {
   return [
     {
       name: 'robot',
       withinMs: answerMs + SLACK_MS,
       run: async () => {
-        running = await findRunningRobot(adminHost, adminPort, answerMs);
-        return judgeRunning(running, adminHost, adminPort);
+        found.running = await findRunningRobot(adminHost, adminPort, answerMs);
+        return judgeRunning(found.running, adminHost, adminPort);
       },
     },
     {
@@ -90,18 +109,23 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues, time
       run: async () => {
         const target = { id: robot.id, name: robot.name, ...robot.signaling };
         const answer = await probeSignaling(target, answerMs, now);
-        if (answer.outcome === 'welcome') serviceServers = answer.iceServers;
+        if (answer.outcome === 'welcome') found.serviceServers = answer.iceServers;
         if (answer.outcome === 'welcome' || answer.outcome === 'refused')
-          time = await askTime(target, answerMs, Date.now);
-        return judgeSignaling(target.url, robot.id, answer, running.state === 'runs', Date.now());
+          found.time = await askTime(target, answerMs, Date.now);
+        return judgeSignaling(target.url, robot.id, answer, found.running.state === 'runs', Date.now());
       },
     },
-    { name: 'clock', withinMs: SLACK_MS, run: () => checkTimeOfDay(time) },
+    { name: 'clock', withinMs: SLACK_MS, run: () => checkTimeOfDay(found.time) },
+  ];
+}
+
+function networkChecks(robot: RobotOptions, found: Found, { answerMs }: DoctorTimes): Check[] {
+  return [
     {
       name: 'STUN and TURN',
       withinMs: 2 * answerMs + SLACK_MS,
       run: async () => {
-        const targets = iceTargets([...serviceServers, ...robot.iceServers]);
+        const targets = iceTargets([...found.serviceServers, ...robot.iceServers]);
         const probed = await Promise.all(
           targets.map(async (target) => ({ target, answer: await probeIce(target, answerMs, now) })),
         );
@@ -112,22 +136,32 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues, time
       name: 'network',
       withinMs: SLACK_MS,
       run: () =>
-        running.state === 'runs' ? [] : checkUdpPorts(robot.portRange ?? null, mostSessions(robot)),
+        found.running.state === 'runs' ? [] : checkUdpPorts(robot.portRange ?? null, mostSessions(robot)),
     },
+  ];
+}
+
+/** What else runs on this machine: other programs, the ROS graph, stops, the service manager. */
+function partChecks(
+  robot: RobotOptions,
+  { topics }: RobotOptionValues,
+  found: Found,
+  { answerMs }: DoctorTimes,
+): Check[] {
+  const runs = () => found.running.state === 'runs';
+  return [
     {
       name: 'shared memory',
       withinMs: SLACK_MS,
       run: () =>
-        robot.sensors.flatMap(({ capture }) =>
-          checkSharedMemory(capture.source, robot.sink, running.state === 'runs'),
-        ),
+        robot.sensors.flatMap(({ capture }) => checkSharedMemory(capture.source, robot.sink, runs())),
     },
     {
       name: 'ROS',
       withinMs: 4 * answerMs + SLACK_MS,
       run: async () => {
-        const own = running.state === 'runs' && robot.sink.kind === 'ros' ? 1 : 0;
-        const graphs = graphsOf(robot, values.topics);
+        const own = runs() && robot.sink.kind === 'ros' ? 1 : 0;
+        const graphs = graphsOf(robot, topics);
         return (
           await Promise.all(graphs.map(({ graph, table }) => checkRos(graph, table, own, answerMs)))
         ).flat();
@@ -137,7 +171,7 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues, time
       name: 'stops',
       withinMs: answerMs + 10_000,
       run: () =>
-        checkStops(robot.stops, running.state === 'runs', {
+        checkStops(robot.stops, runs(), {
           isTerminal: process.stdin.isTTY === true,
           wait: (ms) => new Promise((resolve) => setTimeout(resolve, ms)),
         }),
@@ -150,10 +184,16 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues, time
         return devices.length === 0 ? [] : judgeUnitDevices(devices, await serviceUnit(answerMs));
       },
     },
+  ];
+}
+
+function sourceChecks(robot: RobotOptions, found: Found, times: DoctorTimes): Check[] {
+  const runs = () => found.running.state === 'runs';
+  return [
     ...robot.sensors.map(({ name, capture }, i) => ({
       name: i === 0 ? 'source' : `source (${name})`,
       withinMs: 20_000,
-      run: () => checkSource(capture, robot, running.state === 'runs', times),
+      run: () => checkSource(capture, robot, runs(), times),
     })),
     {
       name: 'video',
@@ -163,12 +203,17 @@ export function robotChecks(robot: RobotOptions, values: RobotOptionValues, time
     {
       name: 'sound',
       withinMs: 20_000,
-      run: async () => judgeSound(await trySound(robot.sound), running.state === 'runs'),
+      run: async () => judgeSound(await trySound(robot.sound), runs()),
     },
+  ];
+}
+
+function fileChecks(robot: RobotOptions, found: Found): Check[] {
+  return [
     {
       name: 'recording',
       withinMs: SLACK_MS,
-      run: () => (running.state === 'runs' ? [] : checkRecording(robot.record?.path)),
+      run: () => (found.running.state === 'runs' ? [] : checkRecording(robot.record?.path)),
     },
     { name: 'state', withinMs: SLACK_MS, run: () => checkState(robot) },
     { name: 'audit log', withinMs: 20_000, run: () => checkAudit(robot.audit?.path) },

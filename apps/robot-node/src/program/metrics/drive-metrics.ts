@@ -89,6 +89,12 @@ export function addGuardMetrics(
       return reason === null ? [] : [[reason, 1]];
     },
   );
+  addGuardTopicMetrics(metrics, obstacles);
+}
+
+/** Metrics of the topics that the obstacle guard hears. None if it hears none. */
+function addGuardTopicMetrics(metrics: PulledMetrics, obstacles: MeasuredRobot['obstacles']): void {
+  const report = () => obstacles.report(monotonicMs());
   if (obstacles.topics === null) return;
   metrics.sum(
     'guard_topics_restarts',

@@ -4,23 +4,24 @@ import { datagramsSent } from '@farpoint/webrtc';
 import type { StreamSender } from '../../send/transport/stream-sender.ts';
 import type { MeasuredRobot } from './measured-robot.ts';
 
+type Senders = () => readonly StreamSender[];
+
 /** Metrics of the paths to the connected operators: what they carry, and what was sent, resent and dropped. */
 export function addPathMetrics(
   metrics: PulledMetrics,
   { operators }: Pick<MeasuredRobot, 'operators'>,
 ): void {
   const senders = () => [...operators.values()].flatMap(({ sender }) => (sender === null ? [] : [sender]));
+  addSentMetrics(metrics, senders);
+  addRateMetrics(metrics, senders);
+}
+
+/** Metrics of what was sent, resent and dropped. */
+function addSentMetrics(metrics: PulledMetrics, senders: Senders): void {
   const total = (read: (sender: StreamSender) => number) => () =>
     senders().reduce((sum, sender) => sum + read(sender), 0);
   const byReason = (read: (sender: StreamSender) => Readonly<Record<string, number>>) => () =>
     senders().flatMap((sender) => Object.entries(read(sender)));
-  /** A value of the path that carries least. With one operator, that is the operator's path. */
-  const narrowest = (read: (sender: StreamSender) => number) => () => {
-    const values = senders().map(read);
-    return values.length === 0 ? Number.NaN : Math.min(...values);
-  };
-  const rate = (read: (snapshot: RateSnapshot) => number) => narrowest((sender) => read(sender.rate));
-
   metrics.gauge(
     'packets_sent',
     'Packets to operators connected now',
@@ -59,6 +60,16 @@ export function addPathMetrics(
     'Frames not sent because a newer one replaced them, for operators connected now',
     total(({ droppedFrames }) => droppedFrames.superseded + droppedFrames.overdue),
   );
+}
+
+/** Metrics of the rate control. */
+function addRateMetrics(metrics: PulledMetrics, senders: Senders): void {
+  /** A value of the path that carries least. With one operator, that is the operator's path. */
+  const narrowest = (read: (sender: StreamSender) => number) => () => {
+    const values = senders().map(read);
+    return values.length === 0 ? Number.NaN : Math.min(...values);
+  };
+  const rate = (read: (snapshot: RateSnapshot) => number) => narrowest((sender) => read(sender.rate));
   metrics.gauge(
     'rate_estimate_bits_per_second',
     'Estimated rate of the narrowest path',

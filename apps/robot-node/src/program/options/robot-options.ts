@@ -58,7 +58,28 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   const returns = toReturn(values, refuse, (kind) => toGraph(values, kind));
   const folder = toStateFolder(values, process.env, refuse);
   if (mistakes.length > 0) throw new OptionsError(mistakes);
-  const recorded = (kind: 'captured' | 'sent') => [kind, 'both'].includes(values.recordClouds);
+  return {
+    ...toIdentity(values, folder, ca),
+    ...toLimits(values),
+    ...toStreams(values),
+    ...toConnections(values),
+    ...toFiles(values),
+    sensors: toSensors(values, topics),
+    base: toBase(values),
+    sink: toSink(values),
+    motion,
+    obstacleGuard,
+    quantities,
+    alarms,
+    fence,
+    returns,
+    model,
+    stops: toStops(values, (kind) => toGraph(values, kind)),
+    broadcast,
+  };
+}
+
+function toIdentity(values: RobotOptionValues, folder: string, ca: RobotOptions['signaling']['ca']) {
   return {
     id: values.id,
     name: values.name,
@@ -72,38 +93,47 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     robotKey: values.robotKey ?? join(folder, `${values.id}.key.json`),
     revocations: values.revocations,
     audit: toAudit(values),
-    sensors: toSensors(values, topics),
-    base:
-      values.source === 'sim'
-        ? {
-            watchdogMs: values.watchdogMs,
-            charge: values.simCharge / 100,
-            origin: values.simOrigin,
-            things: values.simThings ?? [],
-            navigation: { map: values.simMap, planTo: values.simPlanTo },
-          }
-        : null,
-    sink: toSink(values),
+    stateFolder: folder,
+  } satisfies Partial<RobotOptions>;
+}
+
+function toBase(values: RobotOptionValues): RobotOptions['base'] {
+  if (values.source !== 'sim') return null;
+  return {
+    watchdogMs: values.watchdogMs,
+    charge: values.simCharge / 100,
+    origin: values.simOrigin,
+    things: values.simThings ?? [],
+    navigation: { map: values.simMap, planTo: values.simPlanTo },
+  };
+}
+
+/** How fast the robot may be, and who may drive it for how long. */
+function toLimits(values: RobotOptionValues) {
+  return {
     limits: {
       maxLinear: values.maxLinear,
       maxAngular: values.maxAngular,
       watchdogMs: values.watchdogMs,
       maxCommandsPerSecond: values.maxCommandsPerSecond,
     },
-    motion,
-    obstacleGuard,
-    quantities,
-    alarms,
     takePolicy: values.takePolicy,
     estopRelease: values.estopRelease,
     afterGap: values.afterGap,
     resumeWithinMs: values.afterGap === 'resume' ? MOST_RESUME_MS : values.resumeWithinMs,
-    fence,
-    returns,
-    model,
-    stops: toStops(values, (kind) => toGraph(values, kind)),
-    stateFolder: folder,
-    referenceSignaling: values.referenceSignaling ?? undefined,
+    places: {
+      most: values.maxOperators,
+      perSubject: values.maxPerSubject,
+      keepMs: values.keepPlaceS * 1000,
+    },
+    silenceMs: values.silenceS * 1000,
+    leaseSilenceMs: values.leaseSilenceS * 1000,
+  } satisfies Partial<RobotOptions>;
+}
+
+/** What goes over the link. */
+function toStreams(values: RobotOptionValues) {
+  return {
     bitsPerSecond: BitRate.fromMbps(values.bitrateMbps),
     mode: values.mode,
     rateControl: values.rateControl,
@@ -117,45 +147,54 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     videos: toVideos(values),
     playedVideosBitsPerSecond: values.playVideosKbitPerS * 1000,
     sound: values.sound,
-    broadcast,
-    places: {
-      most: values.maxOperators,
-      perSubject: values.maxPerSubject,
-      keepMs: values.keepPlaceS * 1000,
-    },
-    silenceMs: values.silenceS * 1000,
-    leaseSilenceMs: values.leaseSilenceS * 1000,
+  } satisfies Partial<RobotOptions>;
+}
+
+function toConnections(values: RobotOptionValues) {
+  return {
+    referenceSignaling: values.referenceSignaling ?? undefined,
     connectTimeoutMs: 20_000,
     iceServers: values.iceServers,
     icePolicy: values.icePolicy,
     portRange: values.udpPorts ?? undefined,
+    foxglove: toFoxglove(values),
+  } satisfies Partial<RobotOptions>;
+}
+
+/** What is written while the robot runs. */
+function toFiles(values: RobotOptionValues) {
+  return {
     packetLog: values.packetLog ?? undefined,
     frameLog: values.frameLog ?? undefined,
     commandLog: values.commandLog ?? undefined,
     statisticsFile: values.stats ?? undefined,
-    foxglove:
-      values.foxglovePort === null
-        ? undefined
-        : {
-            port: values.foxglovePort,
-            reach: values.foxgloveReach,
-            allowedOrigins: values.foxgloveOrigins,
-            ownNames: [...ownNames(values.adminNames)],
-            cloudsPerSecond: values.foxgloveFps,
-          },
-    record:
-      values.record === null
-        ? undefined
-        : {
-            path: values.record,
-            compression: values.recordCompression,
-            clouds: {
-              captured: recorded('captured') ? values.recordCapturedFps : 0,
-              sent: recorded('sent') ? values.recordSentFps : 0,
-            },
-            videos: values.recordVideos,
-            mostBytes: values.recordMax,
-          },
+    record: toRecording(values),
+  } satisfies Partial<RobotOptions>;
+}
+
+function toFoxglove(values: RobotOptionValues): RobotOptions['foxglove'] {
+  if (values.foxglovePort === null) return undefined;
+  return {
+    port: values.foxglovePort,
+    reach: values.foxgloveReach,
+    allowedOrigins: values.foxgloveOrigins,
+    ownNames: [...ownNames(values.adminNames)],
+    cloudsPerSecond: values.foxgloveFps,
+  };
+}
+
+function toRecording(values: RobotOptionValues): RobotOptions['record'] {
+  if (values.record === null) return undefined;
+  const recorded = (kind: 'captured' | 'sent') => [kind, 'both'].includes(values.recordClouds);
+  return {
+    path: values.record,
+    compression: values.recordCompression,
+    clouds: {
+      captured: recorded('captured') ? values.recordCapturedFps : 0,
+      sent: recorded('sent') ? values.recordSentFps : 0,
+    },
+    videos: values.recordVideos,
+    mostBytes: values.recordMax,
   };
 }
 

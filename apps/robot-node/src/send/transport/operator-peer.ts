@@ -83,25 +83,38 @@ export class OperatorPeer {
     });
     this.#videos = new OfferedVideos(connection, options.videos ?? []);
     this.#sound = options.sound === true ? new OfferedSound(connection) : null;
-    const { session, telemetry, pictures } = channels;
+    const { session, telemetry } = channels;
     this.#session = connection.createDataChannel(session.label, { ordered: session.ordered });
     this.#telemetry = connection.createDataChannel(telemetry.label, {
       ordered: telemetry.ordered,
       maxPacketLifeTime: telemetry.maxPacketLifeTime,
     });
-    if (options.pictures === true) {
-      this.#pictures = connection.createDataChannel(pictures.label, {
-        ordered: pictures.ordered,
-        maxPacketLifeTime: pictures.maxPacketLifeTime,
+    if (options.pictures === true) this.#pictures = this.#openPictures();
+    this.#listen();
+    this.#connectTimer = setTimeout(
+      () => this.#end('not-connected', `no connection within ${options.connectTimeoutMs / 1000} s`),
+      options.connectTimeoutMs,
+    );
+  }
+
+  #openPictures(): RTCDataChannel {
+    const { pictures } = channels;
+    const channel = this.#connection.createDataChannel(pictures.label, {
+      ordered: pictures.ordered,
+      maxPacketLifeTime: pictures.maxPacketLifeTime,
+    });
+    channel.bufferedAmountLowThreshold = MAX_PICTURE_CHUNK_BYTES;
+    channel.bufferedAmountLow.subscribe(() => {
+      // werift emits this in the middle of its own sending.
+      setImmediate(() => {
+        if (!this.#ended) this.#events.onPicturesLow?.();
       });
-      this.#pictures.bufferedAmountLowThreshold = MAX_PICTURE_CHUNK_BYTES;
-      this.#pictures.bufferedAmountLow.subscribe(() => {
-        // werift emits this in the middle of its own sending.
-        setImmediate(() => {
-          if (!this.#ended) events.onPicturesLow?.();
-        });
-      });
-    }
+    });
+    return channel;
+  }
+
+  #listen(): void {
+    const connection = this.#connection;
     this.#session.onMessage.subscribe((data) => this.#events.onMessage('session', data));
     this.#session.stateChanged.subscribe((state) => {
       if (state === 'open') this.#checkConnected();
@@ -112,7 +125,7 @@ export class OperatorPeer {
       if (candidate === undefined || this.#ended) return;
       prepareSockets(connection);
       this.#checkPairs();
-      events.onCandidate(candidateOf(candidate));
+      this.#events.onCandidate(candidateOf(candidate));
     });
     connection.connectionStateChange.subscribe((state) => {
       if (state === 'connected') this.#checkConnected();
@@ -121,10 +134,6 @@ export class OperatorPeer {
       }
       // After connecting, failed means that consent has expired (RFC 7675). An ICE restart can repair that.
     });
-    this.#connectTimer = setTimeout(
-      () => this.#end('not-connected', `no connection within ${options.connectTimeoutMs / 1000} s`),
-      options.connectTimeoutMs,
-    );
   }
 
   get connected(): boolean {

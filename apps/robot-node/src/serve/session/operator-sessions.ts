@@ -187,32 +187,45 @@ export class OperatorSessions {
   }
 
   async #open(session: string, operatorName: string): Promise<void> {
-    const { places, peer, pictureShare, makeController, claims, budgets, sendLoop, packetLog } =
-      this.#options;
-    const { host, signaling, counters } = this.#options;
     if (this.operators.has(session)) {
       // To reconnect to an open session, an operator must use session.resume.
       this.#options.log.warn({ session: shown(session) }, 'an open session was requested again');
       return;
     }
     const now = monotonicMs();
+    if (!this.#hasPlace(session, operatorName, now)) return;
+    const log = this.#options.log.child({ session: shown(session), operator: operatorName });
+    const operator = this.#makeSession(session, operatorName, log);
+    this.operators.set(session, operator);
+    this.#waiting.requested(session, now);
+    this.#options.counters.sessionsOpened++;
+    log.info('session requested');
+    await this.#offer(operator, log);
+  }
+
+  /** Refuses the session if the robot is full. A connection that takes too long makes room. */
+  #hasPlace(session: string, operatorName: string, now: number): boolean {
+    const { places, counters, signaling } = this.#options;
     const most = this.#places?.mostSessions ?? places.most;
     if (this.operators.size >= most) {
       const overdue = this.operators.get(this.#waiting.overdue(now) ?? '');
       overdue?.peer.close('not-connected', 'somebody else asked for a place before the connection was there');
     }
-    if (this.operators.size >= most) {
-      counters.sessionsRefused++;
-      this.#options.audit.refused('session', 'robot-full', { id: session, access: openAccess(operatorName) });
-      this.#options.log.warn(
-        { session: shown(session), operators: this.operators.size },
-        'session refused: the robot is full',
-      );
-      signaling.send({ type: 'session.close', session, reason: 'robot-full', maxOperators: places.most });
-      return;
-    }
-    const log = this.#options.log.child({ session: shown(session), operator: operatorName });
-    const operator = new OperatorSession(
+    if (this.operators.size < most) return true;
+    counters.sessionsRefused++;
+    this.#options.audit.refused('session', 'robot-full', { id: session, access: openAccess(operatorName) });
+    this.#options.log.warn(
+      { session: shown(session), operators: this.operators.size },
+      'session refused: the robot is full',
+    );
+    signaling.send({ type: 'session.close', session, reason: 'robot-full', maxOperators: places.most });
+    return false;
+  }
+
+  #makeSession(session: string, operatorName: string, log: Logger): OperatorSession {
+    const { host, signaling, counters, peer, pictureShare, makeController } = this.#options;
+    const { claims, budgets, sendLoop, packetLog } = this.#options;
+    const operator: OperatorSession = new OperatorSession(
       {
         session,
         operatorName,
@@ -246,13 +259,14 @@ export class OperatorSessions {
     );
     operator.messages.onEndSession = (request) =>
       this.#access?.endSession(operator, request, this.operators.values());
-    this.operators.set(session, operator);
-    this.#waiting.requested(session, now);
-    counters.sessionsOpened++;
-    log.info('session requested');
+    return operator;
+  }
+
+  async #offer(operator: OperatorSession, log: Logger): Promise<void> {
+    const { robotKey, id: robot, signaling } = this.#options;
+    const { id: session } = operator;
     try {
       const sdp = await operator.peer.offer();
-      const { robotKey, id: robot } = this.#options;
       const identity = await robotKey?.identify({ robot, session, offer: sdp }, Date.now() / 1000);
       if (this.operators.get(session) !== operator) return;
       this.#access?.offered(operator, sdp);

@@ -58,7 +58,10 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
       pointScale.value = clampScale(loadStored().pointScale);
       return;
     }
-    const at = service();
+    save(service());
+  });
+
+  function save(at: ReturnType<typeof service>): void {
     const { tokens = new Map() } = loadStored();
     store({
       signaling: field('signaling').value,
@@ -76,7 +79,7 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
     const address = new URL(location.href);
     for (const name of ['signaling', 'token', 'name', 'sync', 'cues']) address.searchParams.delete(name);
     location.replace(address);
-  });
+  }
 }
 
 const CHOICES = ['turn', 'posture', 'driveHand'] as const;
