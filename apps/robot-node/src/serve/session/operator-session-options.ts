@@ -4,14 +4,17 @@ import type { IceCandidate, VideoCodec } from '@farpoint/protocol';
 import type { CandidateRefusal } from '@farpoint/webrtc';
 import type { Budgets } from '../../send/budgets/budgets.ts';
 import type { CloudClaim } from '../../send/budgets/cloud-shares.ts';
+import type { OperatorPeer } from '../../send/transport/operator-peer.ts';
 import type { PacketLog } from '../../send/transport/packet-log.ts';
-import type { OperatorPeerOptions, PeerEnd } from '../../send/transport/peer-events.ts';
+import type { OperatorPeerEvents, OperatorPeerOptions, PeerEnd } from '../../send/transport/peer-events.ts';
 
 export interface OperatorSessionOptions {
   /** The session's handle, by which the guard also knows the operator. */
   session: string;
   operatorName: string;
   peer: OperatorPeerOptions;
+  /** Makes the connection; default: over WebRTC. */
+  openPeer?: ((options: OperatorPeerOptions, events: OperatorPeerEvents) => OperatorPeer) | undefined;
   /** @param transportFeedback whether the operator sends transport-wide feedback */
   makeController: (transportFeedback: boolean) => RateController;
   packetLog?: PacketLog | undefined;

@@ -62,7 +62,8 @@ export class OperatorSession extends FrameReceiver {
     this.#makeController = options.makeController;
     this.#packetLog = options.packetLog;
     this.#budgets = options.budgets;
-    this.peer = new OperatorPeer(options.peer, {
+    const { openPeer = (...given) => new OperatorPeer(...given) } = options;
+    this.peer = openPeer(options.peer, {
       onCandidate: (candidate) => events.onCandidate(candidate),
       onCandidateRefused: (reason, detail) => events.onCandidateRefused(reason, detail),
       onConnected: (transport, videos, sound) => this.#onConnected(transport, videos, sound),
