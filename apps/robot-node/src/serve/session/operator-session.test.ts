@@ -138,6 +138,8 @@ describe('a session with an operator', () => {
     connect();
     session.quiet = true;
     offer();
+    wait(50);
+    expect(transport.sent).toEqual([]);
     session.quiet = false;
     update.mockClear();
     say({ type: 'stream', running: false });
