@@ -116,7 +116,8 @@ function declare(spec: BrowserPackage, dist: string): void {
     tsBuildInfoFile: null,
     paths: Object.fromEntries([...bundled].map(([name, file]) => [name, [file]])),
   };
-  const include = ['../src/index.ts'];
+  // Bundled packages are roots as well: what the compiler reaches first through an external package, it declares not at all.
+  const include = ['../src/index.ts', ...bundled.values()];
   writeFileSync(config, JSON.stringify({ extends: '../tsconfig.json', compilerOptions, include }));
   compile(folder, ['-p', config]);
   unlinkSync(config);

@@ -124,7 +124,7 @@ export {
 export { LatencyError, type LatencyProbe, type LatencyReport } from './latency/latency-probe.ts';
 export type { LatencyFailure, LatencyResult } from './latency/latency-test.ts';
 export { type Distribution, SampleWindow } from './latency/sample-window.ts';
-export type { RobotLink, RobotLinkEvents } from './link/robot-link.ts';
+export type { RobotLink, RobotLinkEvents, SignalingState } from './link/robot-link.ts';
 export { MEMORY_LAYOUT } from './memory/memory-layout.ts';
 export type { MemoryStats } from './memory/memory-messages.ts';
 export type { MemoryPages } from './memory/memory-pages.ts';
@@ -143,7 +143,6 @@ export { RobotModel } from './session/robot-model.ts';
 export type { RobotSession } from './session/robot-session.ts';
 export type { SessionPhase } from './session/session-keeper.ts';
 export { finalLosses, lossOf, type SessionLoss } from './session/session-loss.ts';
-export type { SignalingState } from './signaling/operator-signaling.ts';
 export { isPrivateAddress, parseSignalingUrl, type SignalingAddress } from './signaling/signaling-url.ts';
 export type { PlayedSound, RobotSound, VoiceStatus } from './sound/robot-sound.ts';
 export type { VoiceFailure, VoiceFailureReason } from './sound/voice-failure.ts';

@@ -1,11 +1,10 @@
 /** The page's link through a bridge: combines the bridge's sockets and {@link BridgeSession}. */
 import type { Command, OperatorSessionMessage, RobotListing } from '@farpoint/protocol';
 import type { ToCloudWorker } from '../cloud/worker-messages.ts';
-import type { RobotLink, RobotLinkEvents } from '../link/robot-link.ts';
+import type { RobotLink, RobotLinkEvents, SignalingState } from '../link/robot-link.ts';
 import { RobotSession } from '../session/robot-session.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
-import type { SignalingState } from '../signaling/operator-signaling.ts';
 import { BridgeSession, type BridgeSessionActions } from './bridge-session.ts';
 import type { BridgeAddress } from './bridge-settings.ts';
 import { BridgeSocket } from './bridge-socket.ts';

@@ -14,8 +14,7 @@ import type { IntakeReport } from '../cloud/worker-messages.ts';
 import { type RobotChannel, RobotSession } from '../session/robot-session.ts';
 import { SessionKeeper, type SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
-import type { SignalingState } from '../signaling/operator-signaling.ts';
-import type { RobotLink, RobotLinkEvents } from './robot-link.ts';
+import type { RobotLink, RobotLinkEvents, SignalingState } from './robot-link.ts';
 
 const [TICK_MS, PROBE_MS] = [250, 500];
 

@@ -10,9 +10,19 @@ import type { IntakeReport } from '../cloud/worker-messages.ts';
 import type { RobotSession, RobotSessionEvents } from '../session/robot-session.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
-import type { SignalingState } from '../signaling/operator-signaling.ts';
 import type { SoundLine } from '../sound/sound-line.ts';
 import type { VideoTrack } from '../video/video-track.ts';
+
+/** The state of the connection to the signaling service. */
+export type SignalingState =
+  | 'connecting'
+  /** Welcomed: sessions can be opened. */
+  | 'ready'
+  /** Unreachable; reconnects automatically. */
+  | 'waiting'
+  /** The token is wrong or missing. Tries again slowly, in case the service's configuration is wrong. */
+  | 'refused'
+  | 'stopped';
 
 /** What a {@link RobotLink} reports, besides what the robot sends. */
 export interface RobotLinkEvents extends RobotSessionEvents {

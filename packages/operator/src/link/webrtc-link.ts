@@ -10,13 +10,12 @@ import {
 } from '@farpoint/protocol';
 import type { StrangeRobotError } from '../access/session-admission.ts';
 import type { IntakeReport } from '../cloud/worker-messages.ts';
-import type { SignalingState } from '../signaling/operator-signaling.ts';
 import { OperatorSignaling, type SessionSignal } from '../signaling/operator-signaling.ts';
 import { WebSocketPort } from '../signaling/web-socket-port.ts';
 import { IntroducedPeer } from './introduced-peer.ts';
 import { KeptLink } from './kept-link.ts';
 import { watchPageLifecycle } from './page-lifecycle.ts';
-import type { RobotLinkEvents } from './robot-link.ts';
+import type { RobotLinkEvents, SignalingState } from './robot-link.ts';
 import type { WebRtcLinkOptions } from './webrtc-link-options.ts';
 
 export class WebRtcLink extends KeptLink {

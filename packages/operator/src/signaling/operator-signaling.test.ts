@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import type { SignalingState } from './operator-signaling.ts';
+import type { SignalingState } from '../link/robot-link.ts';
 import { OperatorSignaling, type SessionSignal } from './operator-signaling.ts';
 
 class Bench {

@@ -18,17 +18,7 @@ import {
   serviceToOperatorCodec,
 } from '@farpoint/protocol';
 import { Reconnect } from '@farpoint/timing';
-
-/** The state of the connection to the signaling service. */
-export type SignalingState =
-  | 'connecting'
-  /** Welcomed: sessions can be opened. */
-  | 'ready'
-  /** Unreachable; reconnects automatically. */
-  | 'waiting'
-  /** The token is wrong or missing. Tries again slowly, in case the service's configuration is wrong. */
-  | 'refused'
-  | 'stopped';
+import type { SignalingState } from '../link/robot-link.ts';
 
 /** The socket and the timer. */
 export interface SignalingPort {

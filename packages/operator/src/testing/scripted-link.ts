@@ -20,10 +20,9 @@ import {
 } from '@farpoint/protocol';
 import type { ChangedRobotKey } from '../access/session-admission.ts';
 import { KeptLink } from '../link/kept-link.ts';
-import type { RobotLinkEvents } from '../link/robot-link.ts';
+import type { RobotLinkEvents, SignalingState } from '../link/robot-link.ts';
 import type { RobotChannel } from '../session/robot-session.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
-import type { SignalingState } from '../signaling/operator-signaling.ts';
 import type { VideoTrack } from '../video/video-track.ts';
 import type { CloudWorkerHere } from './cloud-worker-here.ts';
 
