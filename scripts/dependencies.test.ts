@@ -41,7 +41,6 @@ const EXAMPLES = [
   'scripts/lib/file-imports.test.ts',
   'scripts/lib/import-graph.test.ts',
   'scripts/published-packages.stack.test.ts',
-  'scripts/own-page.stack.test.ts',
 ];
 const sources = files.filter(
   (file) => SOURCE.test(file) && !/(^|\/)(?:pkg|dist)\//.test(file) && !EXAMPLES.includes(file),

@@ -1,9 +1,15 @@
-/** What `pnpm pack` puts in the tarballs: whatever is missing there, users miss. Nothing is fetched. */
+/**
+ * What `pnpm pack` puts in the tarballs: whatever is missing there, users miss. And a third party's page in a real browser
+ * that is made of them. Nothing is fetched. In one file, because packing a package empties its `dist`.
+ */
 import { existsSync, globSync, mkdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { useFolder } from '@farpoint/service/testing/folder';
-import { beforeAll, describe, expect, test } from 'vitest';
+import { CHROMIUM_REMEDY, findChromium, LocalStack, launchChromium } from '@farpoint/local-stack';
+import { eventually } from '@farpoint/service/testing/eventually';
+import { testFolder, useFolder } from '@farpoint/service/testing/folder';
+import { beforeAll, describe, expect, onTestFinished, test } from 'vitest';
 import * as z from 'zod';
+import { installOwnPage, serveFolder, typeFaults } from './lib/own-page.ts';
 import { packPackage, publishedPackages } from './lib/published-packages.ts';
 import { root, run } from './lib/run.ts';
 
@@ -24,6 +30,8 @@ const manifestSchema = z.object({
 const names = publishedPackages.map(({ name }) => name);
 const folder = useFolder();
 const installed = (name: string) => join(folder, 'node_modules', name);
+/** By name: paths of files. */
+const tarballs = new Map<string, string>();
 const manifests = new Map<string, z.infer<typeof manifestSchema>>();
 const manifestOf = (name: string) => manifests.get(name)!;
 
@@ -31,6 +39,7 @@ beforeAll(async () => {
   for (const each of publishedPackages) {
     const tarball = join(folder, `${each.folder.replace('/', '-')}.tgz`);
     await packPackage(each, tarball);
+    tarballs.set(each.name, tarball);
     const place = installed(each.name);
     mkdirSync(place, { recursive: true });
     const { code, output } = await run('tar', ['xzf', tarball, '--strip-components=1', '-C', place]);
@@ -134,4 +143,105 @@ test.each([
   };
   writeFileSync(join(project, 'tsconfig.json'), JSON.stringify(config));
   expect((await run('tsc', ['-p', project])).output).toBe('');
+});
+
+const MOST_MS = 120_000;
+const ROBOT = {
+  id: 'own-1',
+  name: 'Own robot',
+  args: ['--sim-seed', '1', '--mode', 'points64', '--max-points', '6000'],
+};
+
+/** What the example's page exposes for this test. */
+interface OwnPage {
+  robot: {
+    telemetry: {
+      pose: { position: { x: number; y: number } };
+      drive: string;
+      twist: { linear: { x: number } };
+    } | null;
+    link: { session: { estop: { latched: boolean } } };
+  };
+  view: { drawn: number; frames: number };
+}
+
+/** Uses the packages' types as a TypeScript page would. */
+const TYPED = `
+import { CloudView, RobotWorld } from '@farpoint/cloud-view';
+import { type ConnectError, connect, type RobotClient } from '@farpoint/operator';
+import { Scene, WebGLRenderer } from 'three';
+
+const robot: RobotClient = connect({ signaling: 'wss://robots.example.org', robot: 'rover-1' });
+const view = new CloudView(new WebGLRenderer(), robot);
+new Scene().add(new RobotWorld().add(view));
+robot.on('telemetry', ({ pose }): number => pose.position.x);
+robot.on('robots', ([first]) => first !== undefined && robot.choose(first.id));
+export const reason = (error: ConnectError): 'bad-token' | null => (error.reason === 'bad-token' ? error.reason : null);
+// @ts-expect-error: there is no such event
+robot.on('weather', () => undefined);
+// @ts-expect-error: a robot's id is text
+robot.choose(1);
+// @ts-expect-error: events are not any
+robot.on('telemetry', (telemetry): string => telemetry);
+`;
+
+describe.skipIf(findChromium() === null)(`needs Chromium: ${CHROMIUM_REMEDY}`, () => {
+  test(
+    'a page of somebody else’s shows a robot’s world, drives it and stops it',
+    async () => {
+      const folder = testFolder();
+      await installOwnPage(folder, tarballs);
+      expect(await typeFaults(folder, TYPED)).toBe('');
+      const server = await serveFolder(folder);
+      onTestFinished(() => server.close());
+      const stack = await LocalStack.start({ robots: [ROBOT] });
+      onTestFinished(() => stack.stop());
+      const browser = await launchChromium();
+      onTestFinished(() => browser.close());
+      const page = await browser.newPage({ viewport: { width: 480, height: 270 } });
+      const faults: string[] = [];
+      page.on('pageerror', (error) => faults.push(String(error)));
+      const address = new URL(server.url);
+      address.searchParams.set('signaling', stack.signalingUrl);
+      address.searchParams.set('robot', ROBOT.id);
+      await page.goto(address.href);
+
+      const view = () =>
+        page.evaluate(() => {
+          const { drawn, frames } = (globalThis as unknown as OwnPage).view;
+          return { drawn, frames };
+        });
+      await eventually(async () => (await view()).drawn > 1000);
+      const { frames } = await view();
+      await eventually(async () => (await view()).frames > frames);
+
+      const telemetry = () =>
+        page.evaluate(() => {
+          const { telemetry: newest } = (globalThis as unknown as OwnPage).robot;
+          if (newest === null) return null;
+          return { ...newest.pose.position, speed: newest.twist.linear.x, drive: newest.drive };
+        });
+      const start = await eventually(telemetry);
+      await page.keyboard.down('KeyW');
+      await eventually(async () => {
+        const now = await telemetry();
+        // After a gap, as a busy machine makes them, the robot waits for the hand to let go.
+        if (now?.drive === 'watchdog') {
+          await page.keyboard.up('KeyW');
+          await eventually(async () => (await telemetry())?.drive !== 'watchdog');
+          await page.keyboard.down('KeyW');
+        }
+        return Math.hypot((now?.x ?? 0) - start.x, (now?.y ?? 0) - start.y) > 0.2;
+      });
+      await page.keyboard.up('KeyW');
+      await eventually(async () => (await telemetry())?.speed === 0);
+
+      await page.locator('#stop').click();
+      await eventually(() =>
+        page.evaluate(() => (globalThis as unknown as OwnPage).robot.link.session.estop.latched),
+      );
+      expect(faults).toEqual([]);
+    },
+    MOST_MS,
+  );
 });

@@ -4,21 +4,19 @@ import { createServer } from 'node:http';
 import type { AddressInfo } from 'node:net';
 import { extname, join, normalize } from 'node:path';
 import { repositoryRoot } from '@farpoint/local-stack';
-import { packPackage, publishedPackages } from './published-packages.ts';
 import { run } from './run.ts';
 
 /**
- * Builds and packs both packages, and installs them into a copy of the example. Nothing is downloaded: three.js comes
- * from this workspace.
+ * Installs packed packages into a copy of the example. Nothing is downloaded: three.js comes from this workspace.
  *
  * @param folder destination of the copy
+ * @param tarballs paths by the packages' names
  */
-export async function installOwnPage(folder: string): Promise<void> {
+export async function installOwnPage(folder: string, tarballs: ReadonlyMap<string, string>): Promise<void> {
   mkdirSync(folder, { recursive: true });
   cpSync(join(repositoryRoot, 'examples/own-page'), folder, { recursive: true });
-  for (const each of publishedPackages) {
-    await packPackage(each, join(folder, `${each.name.replace(/^@/, '').replace('/', '-')}.tgz`));
-  }
+  for (const [name, tarball] of tarballs)
+    cpSync(tarball, join(folder, `${name.replace(/^@/, '').replace('/', '-')}.tgz`));
   const overrides = Object.fromEntries(
     ['three', '@types/three'].map((name) => [
       name,
