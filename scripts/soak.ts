@@ -163,7 +163,13 @@ function readEarlier(): SoakRecord {
   const nothing: SoakRecord = { commit, seed: readSeed(), results: [] };
   if (!values.resume) return nothing;
   const earlier = readRecord(existsSync(recordFile) ? readFileSync(recordFile, 'utf8') : null, commit);
-  if (typeof earlier !== 'string') return earlier;
+  if (typeof earlier !== 'string') {
+    if (values.seed === undefined || earlier.seed === readSeed()) return earlier;
+    console.error(
+      `--seed: the soak that goes on has the seed ${earlier.seed}; leave out --seed, or --resume`,
+    );
+    process.exit(2);
+  }
   console.log(`Everything runs from the beginning: ${earlier}.`);
   return nothing;
 }
