@@ -22,6 +22,15 @@ export interface IntroducedPeerEvents
   onStranger(error: StrangeRobotError): void;
 }
 
+/** What {@link WebRtcLink} does with a peer. */
+export type LinkPeer = Pick<
+  IntroducedPeer,
+  'offer' | 'candidate' | 'useIceServers' | 'sendSession' | 'sendControl' | 'sendBandwidth' | 'close'
+>;
+
+/** Makes the peer of a session. */
+export type OpenPeer = (options: IntroducedPeerOptions, events: IntroducedPeerEvents) => LinkPeer;
+
 export class IntroducedPeer extends RobotPeer {
   readonly #introduction: Introduction;
 

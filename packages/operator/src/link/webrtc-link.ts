@@ -12,7 +12,7 @@ import type { StrangeRobotError } from '../access/session-admission.ts';
 import type { IntakeReport } from '../cloud/worker-messages.ts';
 import { OperatorSignaling, type SessionSignal } from '../signaling/operator-signaling.ts';
 import { WebSocketPort } from '../signaling/web-socket-port.ts';
-import { IntroducedPeer } from './introduced-peer.ts';
+import { IntroducedPeer, type LinkPeer, type OpenPeer } from './introduced-peer.ts';
 import { KeptLink } from './kept-link.ts';
 import { watchPageLifecycle } from './page-lifecycle.ts';
 import type { RobotLinkEvents, SignalingState } from './robot-link.ts';
@@ -21,15 +21,22 @@ import type { WebRtcLinkOptions } from './webrtc-link-options.ts';
 export class WebRtcLink extends KeptLink {
   readonly #options: WebRtcLinkOptions;
   readonly #signaling: OperatorSignaling;
-  #peer: IntroducedPeer | null = null;
+  readonly #makePeer: OpenPeer;
+  #peer: LinkPeer | null = null;
   readonly #closed = new AbortController();
   #reportSequence = 0;
   /** The robot to reconnect to when the page is restored from the browser's cache. */
   #left: string | null = null;
 
-  constructor(options: WebRtcLinkOptions, events: RobotLinkEvents) {
+  /** @param openPeer default: over the browser's WebRTC */
+  constructor(
+    options: WebRtcLinkOptions,
+    events: RobotLinkEvents,
+    openPeer: OpenPeer = (...given) => new IntroducedPeer(...given),
+  ) {
     super(events, Math.random);
     this.#options = options;
+    this.#makePeer = openPeer;
     this.#signaling = new OperatorSignaling(
       options,
       new WebSocketPort(options.signalingUrl, () => this.#signaling),
@@ -164,7 +171,7 @@ export class WebRtcLink extends KeptLink {
     this.dropPeer();
     this.#reportSequence = 0;
     this.beginSession();
-    const peer: IntroducedPeer = new IntroducedPeer(
+    const peer: LinkPeer = this.#makePeer(
       {
         session,
         robotId: this.keeper.robotId ?? '',
