@@ -2,12 +2,14 @@
 import { dirname } from 'node:path';
 import { describe, expect, test } from 'vitest';
 import { cycles } from './lib/cycles.ts';
-import { importedFiles } from './lib/file-imports.ts';
+import { importedFiles, startedFiles } from './lib/file-imports.ts';
 import { importedPackages } from './lib/package-imports.ts';
 import { allowedFolders, parseRooms } from './lib/rooms.ts';
 import { workspaceFiles as files, readWorkspaceFile as read } from './lib/workspace-files.ts';
 
 const MAX_LINES = 400;
+/** Tests of what reads imports have imports as their input. */
+const NAMES_WHAT_IS_NOT = /^scripts\/lib\/(?:file-imports|import-graph)\.test\.ts$/;
 /** What is shorter stands beside its user. */
 const LEAST_LINES = 15;
 const DEVELOPERS = /\.test\.ts$|\/(?:testing|deploy|vectors)\/|(?:\.config|\/build)\.ts$/;
@@ -100,6 +102,17 @@ describe('sources', () => {
       ]),
     );
     expect(cycles(graph)).toEqual([]);
+  });
+
+  test('every thread and program that a file starts by its address exists', () => {
+    const missing = [...sources]
+      .filter(([file]) => !NAMES_WHAT_IS_NOT.test(file))
+      .flatMap(([file, text]) =>
+        [...startedFiles(file, text)]
+          .filter((target) => !sources.has(target))
+          .map((target) => `${file}: ${target}`),
+      );
+    expect(missing).toEqual([]);
   });
 
   test('no file has under 15 lines, unless it is an entry: an index, an export of its package, or what no file imports', () => {

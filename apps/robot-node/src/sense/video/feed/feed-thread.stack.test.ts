@@ -13,6 +13,9 @@ import { hasVideo, WatchedCamera } from '../../../testing/watched-camera.ts';
 import type { FeedSource, RosVideoSource, SimVideoSource } from './feed-source.ts';
 import { FeedThread } from './feed-thread.ts';
 
+const HANGING = new URL('../../../testing/hanging-feed-worker.ts', import.meta.url);
+const FAILING = new URL('../../../testing/failing-feed-worker.ts', import.meta.url);
+
 const { forward, left, up, pitch, fieldOfView } = DEFAULT_CAMERA;
 
 function simulated(yaw: number, framesPerS = 20): SimVideoSource {
@@ -110,10 +113,9 @@ describe.skipIf(!hasVideo)(
     });
 
     it.each([
-      ['hangs', 'hanging', { life: SOON }],
-      ['is dead', 'failing', { retry: { firstMs: 60_000, mostMs: 60_000 } }],
-    ])('close although the thread %s, and may be closed again', async (_, worker, options) => {
-      const script = new URL(`../../testing/${worker}-feed-worker.ts`, import.meta.url);
+      ['hangs', HANGING, { life: SOON }],
+      ['is dead', FAILING, { retry: { firstMs: 60_000, mostMs: 60_000 } }],
+    ])('close although the thread %s, and may be closed again', async (_, script, options) => {
       const thread = new FeedThread(silentLogger(), { script, ...options });
       const front = watch(thread, 'Front', simulated(0));
       await front.until(() => front.pictures.length >= 1);
