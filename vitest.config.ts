@@ -30,7 +30,7 @@ export default defineConfig({
           isolate: false,
           // A process of its own, because a thread takes no options of the engine: fewer and larger collections of what is new.
           pool: 'forks',
-          execArgv: ['--max-semi-space-size=32'],
+          execArgv: ['--max-semi-space-size=64'],
           // Vitest's default leaves one core idle: of two, that is half.
           maxWorkers: '100%',
         },

@@ -52,12 +52,25 @@ export interface Separation {
 
 /** Writes the separation of (x, y) from `obstacle` into `into`. */
 export function separation(obstacle: Obstacle, x: number, y: number, into: Separation): Separation {
+  return separationWithin(obstacle, x, y, Number.POSITIVE_INFINITY, into) as Separation;
+}
+
+/** The same, unless it is `limit` metres or more: then `null`, with less work, and `into` as it was. */
+function separationWithin(
+  obstacle: Obstacle,
+  x: number,
+  y: number,
+  limit: number,
+  into: Separation,
+): Separation | null {
   const dx = x - obstacle.x;
   const dy = y - obstacle.y;
   const along = dx * obstacle.cos + dy * obstacle.sin;
   const across = dy * obstacle.cos - dx * obstacle.sin;
   const outAlong = Math.abs(along) - obstacle.halfLength;
   const outAcross = Math.abs(across) - obstacle.halfWidth;
+  // No point of a box is nearer than its farther side.
+  if (Math.max(outAlong, outAcross) - obstacle.margin >= limit) return null;
   let nAlong: number;
   let nAcross: number;
   if (outAlong > 0 && outAcross > 0) {
@@ -131,16 +144,20 @@ export class CollisionWorld {
   #find(x: number, y: number): Separation {
     const nearest = this.#nearest;
     nearest.distance = Number.POSITIVE_INFINITY;
-    for (const group of [this.fixed, this.moving]) {
-      for (const obstacle of group) {
-        const { distance, normalX, normalY } = separation(obstacle, x, y, this.#scratch);
-        if (distance < nearest.distance) {
-          nearest.distance = distance;
-          nearest.normalX = normalX;
-          nearest.normalY = normalY;
-        }
-      }
-    }
+    this.#findIn(this.fixed, x, y);
+    this.#findIn(this.moving, x, y);
     return nearest;
+  }
+
+  /** Keeps in `#nearest` what is nearer than what is there. */
+  #findIn(group: readonly Obstacle[], x: number, y: number): void {
+    const nearest = this.#nearest;
+    for (const obstacle of group) {
+      const found = separationWithin(obstacle, x, y, nearest.distance, this.#scratch);
+      if (found === null || found.distance >= nearest.distance) continue;
+      nearest.distance = found.distance;
+      nearest.normalX = found.normalX;
+      nearest.normalY = found.normalY;
+    }
   }
 }

@@ -58,6 +58,7 @@ export class PointCamera implements StageCamera {
       const u = (r0 * x + r1 * y + r2 * z + position.x) * scale + centre;
       const v = (r3 * x + r4 * y + r5 * z + position.y) * scale + centre;
       const half = (cubeM * scale) / 2;
+      if (u + half < 0 || v + half < 0 || u - half > size || v - half > size) continue;
       const [left, right] = [Math.max(0, Math.round(u - half)), Math.min(size - 1, Math.round(u + half))];
       const [top, bottom] = [Math.max(0, Math.round(v - half)), Math.min(size - 1, Math.round(v + half))];
       for (let row = top; row <= bottom; row++) {

@@ -3,7 +3,7 @@
  * it from elsewhere is drawn from its points. What the recording did not see is not there, neither for the camera nor for
  * the count of contacts.
  */
-import { type Pose, rotate } from '@farpoint/protocol';
+import { type Pose, rotationMatrix } from '@farpoint/protocol';
 import { DEFAULT_LIMITS, SimulatedBase, type WorldDescription } from '@farpoint/sim';
 import type { Codec } from '@farpoint/wasm-codec';
 import { opticalMount } from '../sense/sources/sensor-mount.ts';
@@ -32,6 +32,7 @@ const CELL_M = 0.05;
 const LEAST_POINTS = 4;
 /** One point in each cube of this size is drawn. */
 const CUBE_M = 0.01;
+const CUBES = 65_536;
 /** The camera sits as far ahead of base_link as the simulated robot's. */
 const FORWARD_M = 0.12;
 const SIZE = 160;
@@ -150,20 +151,37 @@ function nearest(places: Float64Array, x: number, y: number): number {
 }
 
 /** The points in the world, one of each cube. */
-function placed(points: Float32Array, { position, orientation }: Pose): Float32Array {
+function placed(points: Float32Array, mount: Pose): Float32Array {
   const kept: number[] = [];
-  const cubes = new Set<string>();
+  const cubes = new Set<number>();
+  const toWorld = transformOf(mount);
+  const world = new Float64Array(3);
   for (let i = 0; i < points.length; i += 4) {
     const [x, y, z] = [points[i] as number, points[i + 1] as number, points[i + 2] as number];
     if (!(z > 0 && Number.isFinite(x + y + z))) continue;
-    const at = rotate(orientation, { x, y, z });
-    const world = [at.x + position.x, at.y + position.y, at.z + position.z];
-    const cube = world.map((metres) => Math.floor(metres / CUBE_M)).join();
+    toWorld(x, y, z, world, 0);
+    const [atX, atY, atZ] = world as unknown as [number, number, number];
+    const cube = (cubeOf(atX) * CUBES + cubeOf(atY)) * CUBES + cubeOf(atZ);
     if (cubes.has(cube)) continue;
     cubes.add(cube);
-    kept.push(...world);
+    kept.push(atX, atY, atZ);
   }
   return Float32Array.from(kept);
+}
+
+/** From 0, along an axis on which no recording reaches farther than half of all of them from where it was made. */
+function cubeOf(metres: number): number {
+  return Math.floor(metres / CUBE_M) + CUBES / 2;
+}
+
+/** Writes where points of one frame are in another, whose pose they are given in, without making an object for each. */
+export function transformOf({ position, orientation }: Pose) {
+  const [r0, r1, r2, r3, r4, r5, r6, r7, r8] = rotationMatrix(orientation);
+  return (x: number, y: number, z: number, into: Float32Array | Float64Array, at: number): void => {
+    into[at] = r0 * x + r1 * y + r2 * z + position.x;
+    into[at + 1] = r3 * x + r4 * y + r5 * z + position.y;
+    into[at + 2] = r6 * x + r7 * y + r8 * z + position.z;
+  };
 }
 
 /** Where something stands: points that the robot would hit, in cells that have several. */

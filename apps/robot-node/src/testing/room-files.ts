@@ -2,8 +2,8 @@
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { decodeDepthPng, decodePcd, parseIntrinsics, parseTrajectoryLog } from '@farpoint/cloud-formats';
-import { compose, inverse, type Pose, rotate } from '@farpoint/protocol';
-import { type RecordedCloud, RecordedRoom } from './recorded-room.ts';
+import { compose, inverse, type Pose } from '@farpoint/protocol';
+import { type RecordedCloud, RecordedRoom, transformOf } from './recorded-room.ts';
 
 /** The Kinect's and the Xtion's focal length at 640 pixels. */
 const FOCAL = 525;
@@ -43,15 +43,14 @@ function readSequence(folder: string): Float32Array {
     const { millimetres } = decodeDepthPng(readFileSync(join(folder, name)));
     const toFirst = compose(inverse(poses[0] as Pose), poses[i] as Pose);
     const points = new Float32Array(millimetres.length * 4).fill(Number.NaN);
-    millimetres.forEach((millimetre, pixel) => {
-      if (millimetre === 0) return;
-      const z = millimetre / 1000;
-      const [u, v] = [pixel % camera.width, Math.floor(pixel / camera.width)];
-      const seen = { x: ((u - camera.cx) / camera.fx) * z, y: ((v - camera.cy) / camera.fy) * z, z };
-      const at = rotate(toFirst.orientation, seen);
-      const { x, y, z: height } = toFirst.position;
-      points.set([at.x + x, at.y + y, at.z + height], pixel * 4);
-    });
+    const toWorld = transformOf(toFirst);
+    for (let pixel = 0; pixel < millimetres.length; pixel++) {
+      const z = (millimetres[pixel] as number) / 1000;
+      if (z === 0) continue;
+      const x = (((pixel % camera.width) - camera.cx) / camera.fx) * z;
+      const y = ((Math.floor(pixel / camera.width) - camera.cy) / camera.fy) * z;
+      toWorld(x, y, z, points, pixel * 4);
+    }
     return points;
   });
   const together = new Float32Array(clouds.reduce((sum, { length }) => sum + length, 0));

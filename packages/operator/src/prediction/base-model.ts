@@ -65,13 +65,24 @@ export function usualBase(delayMs: number, ramps: Readonly<BaseRamps> = {}): Bas
   };
 }
 
-/** The axis' velocity after `dtS` seconds of this target. */
-export function stepAxis(velocity: number, target: number, axis: Readonly<AxisModel>, dtS: number): number {
+/** The axis' velocity after `dtS` seconds of this target. @param share `lagShare` of this time: whoever has it gives it */
+export function stepAxis(
+  velocity: number,
+  target: number,
+  axis: Readonly<AxisModel>,
+  dtS: number,
+  share = lagShare(axis, dtS),
+): number {
   const difference = target - velocity;
   const slower = velocity * target < 0 || Math.abs(target) < Math.abs(velocity);
   const most = (slower ? axis.fall : axis.rise) * dtS;
-  const change = difference * -Math.expm1(-dtS / axis.lagS);
+  const change = difference * share;
   return velocity + Math.min(Math.max(change, -most), most);
+}
+
+/** Which share of its way to the target an axis goes in `dtS` seconds, if nothing but its lag keeps it from it. */
+export function lagShare(axis: Readonly<AxisModel>, dtS: number): number {
+  return -Math.expm1(-dtS / axis.lagS);
 }
 
 /** Lets `dtS` seconds pass, along the chord of the arc. @param linear and angular: what the axes approach */

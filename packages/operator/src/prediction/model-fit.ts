@@ -4,7 +4,7 @@
  *
  * Hooke and Jeeves, “Direct search” solution of numerical and statistical problems, J. ACM 8 (1961).
  */
-import { type AxisModel, type BaseModel, STEP_MS, stepAxis } from './base-model.ts';
+import { type AxisModel, type BaseModel, lagShare, STEP_MS, stepAxis } from './base-model.ts';
 import type { CommandHistory } from './command-history.ts';
 import type { TravelWindow } from './travel-window.ts';
 
@@ -145,6 +145,8 @@ export class ModelFit {
     let velocity = 0;
     let index = -1;
     let untilMs = Number.NaN;
+    let stepS = Number.NaN;
+    let share = 0;
     for (let i = 0; i < window.length; i++) {
       const at = window.at(i);
       const fromMs = window.from[at] as number;
@@ -168,7 +170,10 @@ export class ModelFit {
         const endMs = Math.min(toMs, edgeMs, nowMs + STEP_MS);
         const dtS = (endMs - nowMs) / 1000;
         const command = isLinear ? commands.linear(index) : commands.angular(index);
-        const next = stepAxis(velocity, axis.gain * command, axis, dtS);
+        // Most steps are as long as the one before, and the exponential is most of their work.
+        if (dtS !== stepS) share = lagShare(axis, dtS);
+        stepS = dtS;
+        const next = stepAxis(velocity, axis.gain * command, axis, dtS, share);
         travelled += ((velocity + next) / 2) * dtS;
         velocity = next;
         nowMs = endMs;

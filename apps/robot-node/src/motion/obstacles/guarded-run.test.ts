@@ -1,12 +1,12 @@
 /** Full speed ahead among walls, furniture, people and holes: a few runs. `pnpm bench guard-runs` makes a thousand. */
-import { casesOf, shareInEachRun } from '@farpoint/network-sim/cases';
+import { casesOf, shareInEachRun, someOf } from '@farpoint/network-sim/cases';
 import { defaultObstacleGuardOptions } from '@farpoint/safety';
 import { dockWorld } from '@farpoint/sim';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { expect, it } from 'vitest';
 import { type GuardedRun, guardedRun, RUN_WORLDS, type RunSensors } from '../../testing/guarded-run.ts';
 
-it.each(RUN_WORLDS.map((world) => [world().name, world] as const))(
+it.each(someOf(RUN_WORLDS, 0, shareInEachRun(1 / 2)).map((world) => [world().name, world] as const))(
   'drives into nothing, and stops for nothing: %s',
   async (_, world) => {
     const codec = await loadCodecFromDisk();
@@ -30,7 +30,7 @@ it.each(RUN_WORLDS.map((world) => [world().name, world] as const))(
 it('drives into nothing that sensors anywhere on it have seen, and into nothing faster than unseen space allows', async () => {
   const codec = await loadCodecFromDisk();
   const runs: GuardedRun[] = [];
-  for (let seed = 1; seed <= casesOf(12, shareInEachRun(1 / 6)); seed++) {
+  for (let seed = 1; seed <= casesOf(12, shareInEachRun(1 / 12)); seed++) {
     const world = RUN_WORLDS[seed % RUN_WORLDS.length] as (typeof RUN_WORLDS)[number];
     runs.push(await guardedRun(codec, world, seed, { seconds: 8, sensors: 'drawn' }));
   }

@@ -1,5 +1,5 @@
 /** One truth about where a sensor sits: each source, each mount, at a wall whose place is known exactly. */
-import { someOf } from '@farpoint/network-sim/cases';
+import { shareInEachRun, someOf } from '@farpoint/network-sim/cases';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { describe, expect, it } from 'vitest';
 import type { SensorMount } from '../../sense/sources/sensor-mount.ts';
@@ -83,24 +83,27 @@ describe.each(GRAPHS)('ROS with %s', async (name, topics, say) => {
   // Each mount with another source, until all are tried with all.
   const from = GRAPHS.findIndex(([each]) => each === name);
 
-  it.each(someOf(MOUNTS, from))('a sensor that is %s stops the robot before the wall', async (_, mount) => {
-    // Forwards, or backwards with the one that looks back.
-    const speed = Math.abs(mount.yaw) > 2 ? -0.6 : 0.6;
-    const wall = await rosWall([CLOUD_TOPIC, ...topics], mount);
-    const { source, graph, setNow } = wall;
-    const { gapM, contactMps, fastestMps } = driveAtWall(codec, {
-      ...{ mount, source, setNow, speed, odometry: true },
-      feed: (truth) => {
-        say(wall, truth, mount);
-        graph.say('/points', CLOUD, cloudAt(truth.nowMs, truth.points));
-      },
-    });
-    source.close();
-    expect([contactMps, wall.faults]).toEqual([null, []]);
-    expect(gapM).toBeGreaterThan(0.03);
-    expect(gapM).toBeLessThan(0.35);
-    expect(fastestMps).toBeGreaterThan(0.5);
-  });
+  it.each(someOf(MOUNTS, from, shareInEachRun(1 / 7)))(
+    'a sensor that is %s stops the robot before the wall',
+    async (_, mount) => {
+      // Forwards, or backwards with the one that looks back.
+      const speed = Math.abs(mount.yaw) > 2 ? -0.6 : 0.6;
+      const wall = await rosWall([CLOUD_TOPIC, ...topics], mount);
+      const { source, graph, setNow } = wall;
+      const { gapM, contactMps, fastestMps } = driveAtWall(codec, {
+        ...{ mount, source, setNow, speed, odometry: true },
+        feed: (truth) => {
+          say(wall, truth, mount);
+          graph.say('/points', CLOUD, cloudAt(truth.nowMs, truth.points));
+        },
+      });
+      source.close();
+      expect([contactMps, wall.faults]).toEqual([null, []]);
+      expect(gapM).toBeGreaterThan(0.03);
+      expect(gapM).toBeLessThan(0.35);
+      expect(fastestMps).toBeGreaterThan(0.5);
+    },
+  );
 });
 
 describe('a mount that tf contradicts', async () => {
