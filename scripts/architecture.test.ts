@@ -115,6 +115,22 @@ describe('sources', () => {
     expect(missing).toEqual([]);
   });
 
+  test('what a program, a tool or a script exports has another user than its own file', () => {
+    const files = new Map<string, number>();
+    for (const text of sources.values()) {
+      for (const word of new Set(text.match(/[A-Za-z_$][\w$]*/g)))
+        files.set(word, (files.get(word) ?? 0) + 1);
+    }
+    const alone = [...sources]
+      .filter(([file]) => /^(?:apps|tools|scripts|bench|e2e)\//.test(file) && !/\.test\.ts$/.test(file))
+      .flatMap(([file, text]) =>
+        [...text.matchAll(/^export (?:async )?(?:function\*?|const|let|class|enum) ([\w$]+)/gm)]
+          .filter(([, name]) => files.get(name as string) === 1)
+          .map(([, name]) => `${file}: ${name}`),
+      );
+    expect(alone).toEqual([]);
+  });
+
   test('no file has under 15 lines, unless it is an entry: an index, an export of its package, or what no file imports', () => {
     const exported = new Set(
       manifests.flatMap((file) =>

@@ -128,7 +128,7 @@ interface PageLatency {
 }
 
 /** Reads lines of JSON; ignores a truncated last line. */
-export function readLines<T>(path: string): T[] {
+function readLines<T>(path: string): T[] {
   const text = readFileSync(path, 'utf8');
   return text
     .slice(0, text.lastIndexOf('\n') + 1)

@@ -9,7 +9,7 @@ export interface DrivenBase {
   step(seconds: number): void;
 }
 
-export const baseKinds = [
+const baseKinds = [
   'sim', // the simulator's base, whose acceleration is limited
   'sluggish', // a base with a long lag, a dead zone, and less speed than it is told
 ] as const;

@@ -130,7 +130,7 @@ interface InFlight {
 }
 
 /** Simulates one drive, at 2 ms steps, and measures the stop. */
-export function stoppingRun(settings: StoppingSettings, ramps: RampLimits = RAMPS): Stop {
+function stoppingRun(settings: StoppingSettings, ramps: RampLimits = RAMPS): Stop {
   const { cause, askedMps, latencyMs, intervalMs, phase, bounded } = settings;
   const robot = new DrivenRobot(askedMps, bounded, bounded ? ramps : NO_RAMPS);
   const halfMs = latencyMs / 2;

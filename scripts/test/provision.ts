@@ -32,7 +32,7 @@ async function missingOf(needs: readonly Need[]): Promise<Need[]> {
 }
 
 /** All at once or, where that fails, one by one, so that a package that is not to be had keeps no other away. */
-export async function aptInstall(names: readonly string[], say: (line: string) => void): Promise<void> {
+async function aptInstall(names: readonly string[], say: (line: string) => void): Promise<void> {
   const asRoot = rootCommand();
   if (names.length === 0 || asRoot === null || (await run('apt-get', ['--version'])).code !== 0) return;
   const [program = 'apt-get', ...before] = [...asRoot, 'apt-get'];

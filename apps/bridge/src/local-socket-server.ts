@@ -28,7 +28,7 @@ const MAX_SHOWN_ORIGIN = 200;
 const LOCAL_HOSTS = new Set(['localhost', '127.0.0.1', '[::1]']);
 
 /** Browsers always send the page's origin; programs on this machine need not. */
-export function originAllowed(origin: string | undefined, allowed: readonly string[]): boolean {
+function originAllowed(origin: string | undefined, allowed: readonly string[]): boolean {
   if (origin === undefined || allowed.includes(origin)) return true;
   try {
     const { protocol, hostname } = new URL(origin);
@@ -39,7 +39,7 @@ export function originAllowed(origin: string | undefined, allowed: readonly stri
 }
 
 /** Says how to allow the page, for the log and the body of the refusal. */
-export function originRefusal(origin: string): string {
+function originRefusal(origin: string): string {
   return `pages of ${origin} may not connect: start the bridge with --allowed-origins ${origin} to allow them\n`;
 }
 

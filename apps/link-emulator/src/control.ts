@@ -6,7 +6,7 @@ import * as z from 'zod';
 const direction = z.enum(['up', 'down', 'both']);
 
 /** Every member that is present replaces the profile's value. Times in milliseconds. */
-export const controlSchema = z.discriminatedUnion('type', [
+const controlSchema = z.discriminatedUnion('type', [
   z.strictObject({
     type: z.literal('set'),
     direction,

@@ -1,6 +1,12 @@
 #!/usr/bin/env node
 import { directions, monotonicMs, SignalingInterposer, UdpLink } from '@farpoint/link-emulator';
-import { fileFault, JsonLinesFile, type ProgramContext, runProgram, setNiceness } from '@farpoint/service';
+import {
+  fileFault,
+  JsonLinesFile,
+  type ProgramContext,
+  runProgram,
+  setNicenessIfPermitted,
+} from '@farpoint/service';
 import { control } from './control.ts';
 import { directionOf } from './directions.ts';
 import { registerLinkMetrics } from './metrics.ts';
@@ -12,7 +18,7 @@ type Context = ProgramContext<typeof program.options>;
 
 await runProgram(program, async (context) => {
   const { options, log, health, metrics, shutdown, serveAdmin } = context;
-  keepPriority(context);
+  setNicenessIfPermitted(options.niceness, log, ': a busy processor makes packets late');
   const file = openStatistics(context);
   const counters = registerLinkMetrics(metrics, () => link);
   const link = new UdpLink({
@@ -50,17 +56,6 @@ await runProgram(program, async (context) => {
   health.add('link', () => ({ ok: true, detail: { standIns: link.ports, packets: link.packets } }));
   await serveAdmin({ host: options.adminHost, port: options.adminPort, names: options.adminNames });
 });
-
-function keepPriority({ options: { niceness }, log }: Context): void {
-  try {
-    setNiceness(niceness);
-  } catch (error) {
-    log.info(
-      { niceness, reason: (error as Error).message },
-      'the system keeps the priority: a busy processor makes packets late',
-    );
-  }
-}
 
 /** @returns `null` if no statistics are wanted */
 function openStatistics({ options, log }: Context): JsonLinesFile | null {

@@ -1,4 +1,4 @@
-import { type ProgramContext, runProgram, setNiceness } from '@farpoint/service';
+import { type ProgramContext, runProgram, setNicenessIfPermitted } from '@farpoint/service';
 import { Notifier, notifyOrder } from '@farpoint/systemd';
 import { type OpenRobotAudit, openRobotAudit } from './admit/audit/open-robot-audit.ts';
 import { registerRobotMetrics } from './program/metrics/robot-metrics.ts';
@@ -20,7 +20,7 @@ type Context = ProgramContext<typeof robotProgram.options>;
 export async function run(): Promise<void> {
   await runProgram(robotProgram, async (context) => {
     const { options, where, log, health, metrics, shutdown } = context;
-    keepPriority(context);
+    setNicenessIfPermitted(context.options.niceness, context.log);
     const order = notifyOrder(process.env, process.pid);
     const systemd = order === null ? null : new Notifier(order);
     systemd?.starting(Math.max(options.shmWaitS, options.rosWaitS) * 1000 + START_MS);
@@ -61,14 +61,6 @@ export async function run(): Promise<void> {
         `${robot.operators.size} operators; ${robot.signaling.registered ? 'registered' : 'not registered'}`,
     );
   });
-}
-
-function keepPriority({ options: { niceness }, log }: Context): void {
-  try {
-    setNiceness(niceness);
-  } catch (error) {
-    log.info({ niceness, reason: (error as Error).message }, 'the system keeps the priority');
-  }
 }
 
 /** SIGHUP reads the keys for grants again, or ends a robot that asks for no grants. @param audit `null`: for no grants */

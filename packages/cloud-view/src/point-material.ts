@@ -168,6 +168,6 @@ export function spacingPerMetre(points: number, imageExtent: number, cover: numb
 }
 
 /** The ring table (ring-table.ts) for the shader: one row of bytes R, G, B, A, never interpolated. */
-export function ringTexture(): DataTexture {
+function ringTexture(): DataTexture {
   return new DataTexture(new Uint8Array(RING_TEXELS * 4), RING_TEXELS, 1);
 }

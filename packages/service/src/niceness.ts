@@ -1,5 +1,6 @@
 import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { setPriority } from 'node:os';
+import type { Logger } from './logger.ts';
 
 /**
  * Sets the niceness of this process, with all its threads: on Linux each thread has its own, which a thread that it
@@ -28,6 +29,15 @@ export function setNiceness(niceness: number): void {
   } catch (error) {
     // On a kernel without autogroups there is nothing to set.
     if ((error as NodeJS.ErrnoException).code !== 'ENOENT') throw error;
+  }
+}
+
+/** Sets it if the system permits it, and says so if not. @param cost what that costs: the end of a sentence */
+export function setNicenessIfPermitted(niceness: number, log: Logger, cost = ''): void {
+  try {
+    setNiceness(niceness);
+  } catch (error) {
+    log.info({ niceness, reason: (error as Error).message }, `the system keeps the priority${cost}`);
   }
 }
 

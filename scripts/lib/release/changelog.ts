@@ -1,7 +1,7 @@
 /** CHANGELOG.md: what is not released yet, and how a release is dated. Pure. */
 
 /** Sections of a release, in their order (Keep a Changelog, with breaking changes apart and first). */
-export const CHANGE_KINDS = [
+const CHANGE_KINDS = [
   'Breaking changes',
   'Added',
   'Changed',

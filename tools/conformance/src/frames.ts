@@ -8,10 +8,7 @@ import {
 } from '@farpoint/protocol';
 
 /** The point at position `place` of frame `frame`. */
-export function knownPoint(
-  frame: number,
-  place: number,
-): { x: number; y: number; z: number; colour: number } {
+function knownPoint(frame: number, place: number): { x: number; y: number; z: number; colour: number } {
   return { x: frame & 0x7fff, y: place & 0x7fff, z: place >> 15, colour: (place * 31 + frame * 7) & 0xffff };
 }
 

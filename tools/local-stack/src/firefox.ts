@@ -2,7 +2,7 @@ import { existsSync } from 'node:fs';
 import { findProgram } from './chromium.ts';
 
 /** The command that installs a missing browser. */
-export const FIREFOX_REMEDY = 'apt-get install firefox-esr xvfb';
+const FIREFOX_REMEDY = 'apt-get install firefox-esr xvfb';
 
 const OTHER_PLACES = [
   '/Applications/Firefox.app/Contents/MacOS/firefox',

@@ -21,7 +21,7 @@ export interface JanusConfigurationOptions {
 }
 
 /** A session whose peer sends nothing for this long is over, s. */
-export const JANUS_SESSION_TIMEOUT_S = 20;
+const JANUS_SESSION_TIMEOUT_S = 20;
 
 /** @returns text by file name */
 export function janusConfiguration(options: JanusConfigurationOptions): Map<string, string> {

@@ -199,7 +199,7 @@ function openJournal(
 }
 
 /** Logs and counts what bounds the robot's motion. A driver can bring it about without end, but not fill the log. */
-export class InterventionReport {
+class InterventionReport {
   readonly #log: Logger;
   readonly #count: (reason: Intervention) => void;
   readonly #lines = new LimitedLines();

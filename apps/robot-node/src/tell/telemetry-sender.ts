@@ -137,7 +137,7 @@ export class TelemetrySender {
 const REPEAT_MS = 500;
 
 /** Leaves out what operators already know. */
-export class NearFieldRepeats {
+class NearFieldRepeats {
   #told = '';
   #toldMs = Number.NEGATIVE_INFINITY;
 

@@ -82,7 +82,7 @@ export interface Settings {
 }
 
 /** Port of the signaling service if something else serves the page. */
-export const DEFAULT_SIGNALING_PORT = 3000;
+const DEFAULT_SIGNALING_PORT = 3000;
 const MAX_CANVAS = 8192;
 
 /** The page's own signaling service: the one that serves the page, or the one beside a development server. */

@@ -15,7 +15,7 @@ const TELEMETRY_MS = 50;
 const ADMISSION_MS = 20;
 /** The robot's clock is ahead of the page's by this, ms. */
 const AHEAD_MS = 5000;
-export const LEASE = 'lease-1';
+const LEASE = 'lease-1';
 
 export class ScriptedRobot implements LinkScript {
   id = 'stage-1';

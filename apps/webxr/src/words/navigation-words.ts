@@ -24,14 +24,14 @@ export function readingsWithNavigation(
 }
 
 /** @param text what the robot says of it */
-export function pathWords(text: string, view: PathView | null): Words | null {
+function pathWords(text: string, view: PathView | null): Words | null {
   if (view === null) return null;
   if (!view.stale) return { text, tone: 'neutral' };
   return { text: `${text}, ${durationWords(view.ageMs)} old: not drawn`, tone: 'warning' };
 }
 
 /** @param text what the robot says of it */
-export function mapWords(text: string, view: MapView | null): Words | null {
+function mapWords(text: string, view: MapView | null): Words | null {
   if (view === null) return null;
   if (!view.stale) return { text: `${text}, ${durationWords(view.ageMs)} old`, tone: 'neutral' };
   return { text: `${text}, not heard for ${durationWords(view.silentMs)}: not drawn`, tone: 'warning' };

@@ -71,7 +71,7 @@ export const gripLossWords: Record<GripLoss, string> = {
   'let-go': 'The robot was let go of. Let go of the grip, too, before you drive again.',
 };
 
-export const signalingWords: Record<SignalingState, Words> = {
+const signalingWords: Record<SignalingState, Words> = {
   connecting: { text: 'Connecting to the signaling service…', tone: 'neutral' },
   ready: { text: 'Signaling connected', tone: 'good' },
   waiting: { text: 'Cannot reach the signaling service. Trying again…', tone: 'warning' },

@@ -209,7 +209,7 @@ export class WebRtcLink extends KeptLink {
 }
 
 /** Reports, until `signal` is aborted, when the browser's network changes or is lost. */
-export function watchNetwork(onChange: (online: boolean) => void, signal: AbortSignal): void {
+function watchNetwork(onChange: (online: boolean) => void, signal: AbortSignal): void {
   const changed = () => onChange(navigator.onLine);
   window.addEventListener('online', changed, { signal });
   window.addEventListener('offline', changed, { signal });

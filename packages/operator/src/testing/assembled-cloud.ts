@@ -9,14 +9,14 @@ export class AssembledCloud {
   readonly latency = { wantsTime: false };
   pointsAtMs = Number.NEGATIVE_INFINITY;
   readonly #codec: Codec;
-  readonly #assembler: ReceivePipeline;
+  readonly #pipeline: ReceivePipeline;
   readonly #listeners: ((batch: Batch) => void)[] = [];
   #sequence = 0;
   #flush: (() => void) | null = null;
 
   constructor(codec: Codec) {
     this.#codec = codec;
-    this.#assembler = new ReceivePipeline({
+    this.#pipeline = new ReceivePipeline({
       post: (message) => {
         if (message.type !== 'batch') return;
         const batch = new Batch(message.buffer, message.packets, message.points, message.sensor);
@@ -32,22 +32,22 @@ export class AssembledCloud {
         this.#flush = null;
       },
     });
-    this.#assembler.begin(1, codec);
+    this.#pipeline.begin(1, codec);
   }
 
   /** Begins a coded stream. */
   beginStream(format: Exclude<CloudFormat, 'points64'>, header: Uint8Array): void {
-    this.#assembler.beginStream(this.#codec, format, header);
+    this.#pipeline.beginStream(this.#codec, format, header);
   }
 
   /** As of `RobotClient`. */
   drawSurface(wanted: boolean): void {
-    this.#assembler.drawSurface(wanted);
+    this.#pipeline.drawSurface(wanted);
   }
 
   /** Takes packets, and hands on everything that they hold. */
   take(payloads: readonly ArrayBuffer[]): void {
-    for (const payload of payloads) this.#assembler.take(payload, this.#sequence++ & 0xffff, Number.NaN);
+    for (const payload of payloads) this.#pipeline.take(payload, this.#sequence++ & 0xffff, Number.NaN);
     const flush = this.#flush;
     this.#flush = null;
     flush?.();
@@ -61,7 +61,7 @@ export class AssembledCloud {
   }
 
   release({ buffer }: Batch): void {
-    this.#assembler.giveBack(buffer);
+    this.#pipeline.giveBack(buffer);
   }
 
   noteUploaded(): void {}

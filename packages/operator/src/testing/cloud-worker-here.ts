@@ -10,12 +10,12 @@ export class CloudWorkerHere {
   onmessage: ((event: { data: FromCloudWorker }) => void) | null = null;
   onerror: ((event: { message: string }) => void) | null = null;
   readonly #codec: Codec;
-  readonly #assembler: ReceivePipeline;
+  readonly #pipeline: ReceivePipeline;
   readonly #timer: ReturnType<typeof setInterval>;
 
   private constructor(codec: Codec) {
     this.#codec = codec;
-    this.#assembler = new ReceivePipeline({
+    this.#pipeline = new ReceivePipeline({
       // A copy, as between threads: who keeps a buffer that it has handed over finds it detached.
       post: (message, transfer) => this.onmessage?.({ data: structuredClone(message, { transfer }) }),
       nowMs: () => performance.now(),
@@ -23,7 +23,7 @@ export class CloudWorkerHere {
       setTimer: (act, afterMs) => setTimeout(act, afterMs) as unknown as number,
       clearTimer: (timer) => clearTimeout(timer),
     });
-    this.#timer = setInterval(() => this.#assembler.report(), REPORT_EVERY_MS);
+    this.#timer = setInterval(() => this.#pipeline.report(), REPORT_EVERY_MS);
   }
 
   static async open(): Promise<CloudWorkerHere> {
@@ -34,17 +34,17 @@ export class CloudWorkerHere {
     const told = structuredClone(message, { transfer });
     switch (told.type) {
       case 'return':
-        this.#assembler.giveBack(told.buffer);
+        this.#pipeline.giveBack(told.buffer);
         return;
       case 'cloudStream':
         this.begin(told.generation);
-        this.#assembler.beginStream(this.#codec, told.format, told.header, told.sensor);
+        this.#pipeline.beginStream(this.#codec, told.format, told.header, told.sensor);
         return;
       case 'drawEvery':
-        this.#assembler.drawEvery(told.every, told.everySample);
+        this.#pipeline.drawEvery(told.every, told.everySample);
         return;
       case 'drawSurface':
-        this.#assembler.drawSurface(told.wanted);
+        this.#pipeline.drawSurface(told.wanted);
         return;
       case 'stream':
       case 'bridge':
@@ -54,7 +54,7 @@ export class CloudWorkerHere {
 
   /** A session begins. @param generation its number, from 1 on */
   begin(generation: number): void {
-    this.#assembler.begin(generation, this.#codec);
+    this.#pipeline.begin(generation, this.#codec);
   }
 
   /**
@@ -63,7 +63,7 @@ export class CloudWorkerHere {
    * @param sequence the packet's number; a number that never comes is a lost packet
    */
   take(payload: ArrayBuffer, sequence: number): void {
-    this.#assembler.take(payload, sequence & 0xffff, performance.now());
+    this.#pipeline.take(payload, sequence & 0xffff, performance.now());
   }
 
   terminate(): void {

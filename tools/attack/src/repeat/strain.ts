@@ -1,9 +1,9 @@
 /** What packets did to a program's main thread and memory, and whether that is too much. Pure. */
 
 /** Longest pause of the main thread; the driver's commands wait that long. */
-export const MAX_GAP_MS = 150;
+const MAX_GAP_MS = 150;
 /** Processor time of the main thread for each packet: several times that of an ordinary one, with its deciphering. */
-export const MAX_PROCESSOR_US = 500;
+const MAX_PROCESSOR_US = 500;
 export const MAX_GROWTH_BYTES = 50 << 20;
 
 /** A program at one moment. */

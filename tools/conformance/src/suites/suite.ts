@@ -81,7 +81,7 @@ export function isLeftOver({ outcome, defect }: CaseResult): boolean {
 }
 
 /** @throws {UnreachableError} */
-export async function runCase<Target>(
+async function runCase<Target>(
   { name, run, defect, deadly }: ConformanceCase<Target>,
   target: Target,
   level: Level,

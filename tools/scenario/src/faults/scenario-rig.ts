@@ -98,7 +98,7 @@ class RigHand implements FaultyHand {
 }
 
 /** A scenario as the table of faults knows a robot. */
-export class ScenarioRig implements FaultyRobot {
+class ScenarioRig implements FaultyRobot {
   readonly link: FaultLink;
   readonly #scenario: Scenario;
 

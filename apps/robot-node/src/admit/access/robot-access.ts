@@ -18,7 +18,7 @@ import { OperatorRoster } from './operator-roster.ts';
 import { RobotRevocations, type RobotRevocationsOptions } from './robot-revocations.ts';
 
 /** How long before the end of its grant an operator is warned, s. */
-export const WARNING_S = 60;
+const WARNING_S = 60;
 
 /** The parts of an operator's session that {@link RobotAccess} uses. */
 export interface GuardedOperator {

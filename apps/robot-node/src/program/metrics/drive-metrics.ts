@@ -111,7 +111,7 @@ function addGuardTopicMetrics(metrics: PulledMetrics, obstacles: MeasuredRobot['
 }
 
 /** Metrics of a robot that drives back by itself. */
-export function addReturnMetrics(metrics: PulledMetrics, returns: ReturnStation): void {
+function addReturnMetrics(metrics: PulledMetrics, returns: ReturnStation): void {
   const { drive } = returns;
   metrics.gauge('return_active', '1 while the robot says that it drives back, or does, otherwise 0', () =>
     drive.isActive ? 1 : 0,

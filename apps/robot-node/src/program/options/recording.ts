@@ -2,7 +2,7 @@
 import { defineOption, optionGroup, schema } from '@farpoint/service';
 import { RECORDED_VIDEOS } from '../../tell/recording-options.ts';
 
-export const RECORDED_CLOUDS = ['sent', 'captured', 'both', 'none'] as const;
+const RECORDED_CLOUDS = ['sent', 'captured', 'both', 'none'] as const;
 
 /** A file that contains only its topics takes some 20 kB. */
 const LEAST_BYTES = 1_000_000;

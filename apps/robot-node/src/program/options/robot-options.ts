@@ -268,7 +268,7 @@ function toSink(values: RobotOptionValues): SinkOptions {
 }
 
 /** @returns undefined if nothing is recorded */
-export function toAudit(values: RobotOptionValues): RobotAuditOptions | undefined {
+function toAudit(values: RobotOptionValues): RobotAuditOptions | undefined {
   if (values.auditLog === null) return undefined;
   const { options, version } = robotProgram;
   const configuration = publicValues(options, values);
@@ -276,7 +276,7 @@ export function toAudit(values: RobotOptionValues): RobotAuditOptions | undefine
 }
 
 /** @param graph the robot's graph of this kind */
-export function toStops(
+function toStops(
   values: RobotOptionValues,
   graph: (kind: GraphOptions['kind']) => GraphOptions,
 ): RobotStopsOptions {

@@ -15,7 +15,7 @@ export function rosKindOf({ source, sink }: RosKindValues): GraphOptions['kind']
 }
 
 /** Whether the robot is told its pose and its velocity, and when they were measured. */
-export function hasOdometry(source: RosKindValues['source'], topics: readonly TopicEntry[]): boolean {
+export function configuresOdometry(source: RosKindValues['source'], topics: readonly TopicEntry[]): boolean {
   if (source === 'sim') return true;
   const type = topicAs(topics, 'pose')?.type ?? '';
   return (source === 'ros1' || source === 'ros2') && /^nav_msgs\/(msg\/)?Odometry$/.test(type);

@@ -4,7 +4,7 @@ import type { FenceOptions } from '../../motion/geofence/open-geofence.ts';
 import { SIM_FIX } from '../../sense/base/sim-topics.ts';
 import { readText } from './read-text.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
-import { hasOdometry } from './ros-kind.ts';
+import { configuresOdometry } from './ros-kind.ts';
 
 const EVERYWHERE: Fence = { allowed: [], forbidden: [], slow: [], radiusM: null };
 
@@ -37,7 +37,7 @@ export function toFence(
     refuse('fencePosition', 'needs --fence-origin, or a fence with positions on the earth, for fix');
   if (byFix && topic === undefined) refuse('fencePosition', 'needs a topic with `as: fix`, for fix');
   if (byFix && (earth === null || topic === undefined)) return undefined;
-  if (!hasOdometry(values.source, values.topics)) {
+  if (!configuresOdometry(values.source, values.topics)) {
     refuse(
       'fencePosition',
       'needs odometry: the source sim, or ros1 or ros2 with a topic of nav_msgs/Odometry with `as: pose`',

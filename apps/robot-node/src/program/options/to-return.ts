@@ -2,7 +2,7 @@ import { defaultReturnOptions } from '@farpoint/safety';
 import type { GraphOptions } from '../../ground/ros/open-graph.ts';
 import type { ReturnConfiguration } from '../../motion/return/return-announcer.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
-import { hasOdometry, rosKindOf } from './ros-kind.ts';
+import { configuresOdometry, rosKindOf } from './ros-kind.ts';
 
 /** The lease must be free by then, and its holder told. */
 const AFTER_LEASE_S = 1;
@@ -30,7 +30,7 @@ export function toReturn(
   } = values;
   if (obstacleGuard === 'off' || (source !== 'sim' && guardMount === null))
     refuse('return', 'needs the obstacle guard: guard.obstacles not off, and guard.mount');
-  if (!hasOdometry(values.source, values.topics))
+  if (!configuresOdometry(values.source, values.topics))
     refuse(
       'return',
       'needs odometry: the source sim, or ros1 or ros2 with a topic of nav_msgs/Odometry with `as: pose`',

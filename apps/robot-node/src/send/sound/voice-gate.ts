@@ -1,7 +1,7 @@
 import type { VoiceState } from '@farpoint/protocol';
 
 /** Without a packet for so long, the voice is closed, ms. */
-export const VOICE_SILENCE_MS = 200;
+const VOICE_SILENCE_MS = 200;
 /** An operator that has not said for so long that it holds the key does not hold it, ms. */
 const HOLD_MS = 1000;
 

@@ -2,7 +2,7 @@
 import { topicTableSchema } from '@farpoint/ros';
 
 export const MOTORS_TOPIC = '/motors';
-export const DIAGNOSTICS_TOPIC = '/diagnostics';
+const DIAGNOSTICS_TOPIC = '/diagnostics';
 const FIX_TOPIC = '/fix';
 
 const entries = topicTableSchema.parse([

@@ -4,9 +4,9 @@ import type { SoundPacket } from '@farpoint/sound';
 import type { OutgoingFrame } from '../../ground/outgoing-frame.ts';
 
 /** Length of a packet, ms. */
-export const SOUND_PACKET_MS = 20;
+const SOUND_PACKET_MS = 20;
 /** What RTP, its extensions, SRTP, UDP and IP add to each packet, bytes. */
-export const SOUND_OVERHEAD_BYTES = 76;
+const SOUND_OVERHEAD_BYTES = 76;
 /** By which number the sender knows the stream; 0 is for clouds, and videos follow from 1. */
 export const SOUND_STREAM = 1000;
 /** Sound leaves before videos and clouds: its packets are small, and a gap is heard. */

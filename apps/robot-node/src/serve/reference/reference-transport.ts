@@ -12,11 +12,6 @@ import { nextRtpTimestamp, rtpTimestamp } from '@farpoint/rtp';
 import type { RtpTransport } from '../../send/transport/rtp-transport.ts';
 
 /**
- * Size of the RTP header with its extension. The reference system's bridge cuts off this many bytes without checking.
- */
-export const REFERENCE_RTP_HEADER_BYTES = 20;
-
-/**
  * Sends Farpoint's payloads in the form of the reference profile: the same points, without the placement, always 1216
  * bytes, with frames counted from 0 for each connection.
  */

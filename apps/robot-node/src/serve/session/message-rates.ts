@@ -4,7 +4,7 @@ import { TokenBucket, type TokenBucketOptions } from '@farpoint/timing';
  * What an operator may send only so often. `probe` and `lease` are parts of `control` and `session`; `latch` is STOP on
  * `session`, and `stop` is STOP on `control`.
  */
-export const ratedMessages = ['control', 'session', 'bandwidth', 'probe', 'lease', 'latch', 'stop'] as const;
+const ratedMessages = ['control', 'session', 'bandwidth', 'probe', 'lease', 'latch', 'stop'] as const;
 export type RatedMessage = (typeof ratedMessages)[number];
 
 /**

@@ -34,7 +34,7 @@ class RealLink implements FaultLink {
 }
 
 /** An operator of the real robot program. */
-export class RealOperator implements FaultOperator {
+class RealOperator implements FaultOperator {
   readonly client: SignaledOperator['client'];
   readonly #operator: SignaledOperator;
 

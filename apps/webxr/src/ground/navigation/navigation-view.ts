@@ -2,9 +2,9 @@
 import type { MapPlace, NavigatorMap, NavigatorPath } from '@farpoint/operator';
 
 /** Navigators plan anew once a second. A path that is older than this may have been left long ago, ms. */
-export const PATH_HOLDS_MS = 5000;
+const PATH_HOLDS_MS = 5000;
 /** The robot repeats its map tile by tile, at least every 4 s: a longer silence is none of a tile that was lost, ms. */
-export const MAP_HOLDS_MS = 15_000;
+const MAP_HOLDS_MS = 15_000;
 /** From then on, nothing is said of it any more, ms. */
 const GONE_MS = 60_000;
 

@@ -1,7 +1,7 @@
 /** The newest samples of a number, ordered by time, in memory that is bounded and never copied per sample. */
 
 /** At 50 samples a second, 11 minutes. */
-export const RING_CAPACITY = 32_768;
+const RING_CAPACITY = 32_768;
 const FIRST_CAPACITY = 256;
 /** A sample that is overtaken by more others than this is dropped. */
 const MOST_OVERTAKEN = 64;

@@ -1,7 +1,7 @@
 import type { Cue } from './cue-judge.ts';
 
 /** How hard, 0–1, and how long. */
-export const cuePulses: Readonly<Record<Cue, { strength: number; ms: number }>> = {
+const cuePulses: Readonly<Record<Cue, { strength: number; ms: number }>> = {
   slower: { strength: 0.4, ms: 60 },
   held: { strength: 1, ms: 150 },
   stop: { strength: 1, ms: 400 },

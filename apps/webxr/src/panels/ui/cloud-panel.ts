@@ -152,7 +152,7 @@ function element(className: string): HTMLElement {
 }
 
 /** Whether clouds on a camera’s grid are drawn as a surface or as points, and what paints the surface. */
-export function surfaceControls({ surface, drawsSurface, paint }: CloudAppearance): HTMLElement {
+function surfaceControls({ surface, drawsSurface, paint }: CloudAppearance): HTMLElement {
   const button = quietButton('Surfaces', 'Draw clouds of depth cameras as surfaces, or as points', () => {
     surface.value = !drawsSurface.peek();
   });
@@ -177,7 +177,7 @@ export function surfaceControls({ surface, drawsSurface, paint }: CloudAppearanc
 const TITLE = 'By height above the robot’s base alone. What stops the robot, its own obstacle guard decides';
 
 /** What the tints of hazards stand for. @param heights `null`: the robot does not say which heights matter to it */
-export function hazardLegend(heights: BodyHeights | null): HTMLElement {
+function hazardLegend(heights: BodyHeights | null): HTMLElement {
   const words = hazardLegendWords(heights);
   const figure = document.createElement('figure');
   figure.className = 'legend overlay hazards';

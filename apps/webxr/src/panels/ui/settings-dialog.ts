@@ -92,11 +92,11 @@ function fieldOf(form: HTMLFormElement, name: keyof HeadsetSettings): Field {
 }
 
 /** The headset’s part of the settings dialog. */
-export function fillHeadsetFields(form: HTMLFormElement, settings: HeadsetSettings): void {
+function fillHeadsetFields(form: HTMLFormElement, settings: HeadsetSettings): void {
   for (const name of [...CHOICES, ...NUMBERS]) fieldOf(form, name).value = String(settings[name]);
 }
 
-export function readHeadsetFields(form: HTMLFormElement): HeadsetSettings {
+function readHeadsetFields(form: HTMLFormElement): HeadsetSettings {
   const chosen = CHOICES.map((name) => [name, fieldOf(form, name).value] as const);
   const numbers = NUMBERS.map((name) => [name, Number(fieldOf(form, name).value)] as const);
   return parseHeadset(Object.fromEntries([...chosen, ...numbers]));

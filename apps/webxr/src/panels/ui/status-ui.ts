@@ -75,7 +75,7 @@ const rows = new Map<string, { term: HTMLElement; value: HTMLElement }>();
 let shownNames = '';
 
 /** Shows the table of figures over the picture. Its rows are created once; only their texts change. */
-export function showFacts(facts: readonly Fact[]): void {
+function showFacts(facts: readonly Fact[]): void {
   for (const { name, value, tone } of facts) {
     let row = rows.get(name);
     if (row === undefined) {

@@ -10,7 +10,7 @@ export function hasFrameCallbacks(): boolean {
 
 export const openNative: OpenReader = ({ track }, { onFrame }) => new VideoReader(track, onFrame);
 
-export class VideoReader {
+class VideoReader {
   /** Is not part of the page: its frames are drawn elsewhere, when their time has come. */
   readonly #video = document.createElement('video');
   readonly #onFrame: (frame: ReadFrame) => void;
