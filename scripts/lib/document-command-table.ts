@@ -19,7 +19,7 @@ const SYNTHETIC = {
   because: 'runs until it is ended, and every test of it',
 } as const;
 const WHEELS = { because: 'runs until it is ended, and every test of it' } as const;
-const NO_PRODUCER = ['--shm-folder', '/dev/shm/farpoint-without-a-producer', '--shm-wait-s', '0'];
+const NO_PRODUCER = ['--shm-folder', '/dev/shm/farpoint-without-a-producer', '--wait-s', '0'];
 const shm: Treatment = { refused: /^could not start: shm: /, also: [...ALONE, ...NO_PRODUCER] };
 
 export const TREATMENTS: Readonly<Record<string, Treatment>> = {

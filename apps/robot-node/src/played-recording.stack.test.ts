@@ -85,8 +85,8 @@ describe('a robot that plays a recording', { timeout: 30_000 }, () => {
     for (const value of values) expect(known).toContain(value);
   });
 
-  it('leaves that out with --play-telemetry none', async () => {
-    const args = [...PLAYS, '--play-telemetry', 'none'];
+  it('leaves that out with --play-beside videos', async () => {
+    const args = [...PLAYS, '--play-beside', 'videos'];
     await robot.stack.startRobot({ id: 'played-2', name: 'Robot', args });
     const operator = robot.keep(await SignaledOperator.connect(robot.stack.signalingUrl, 'played-2'));
     const { client } = operator;

@@ -24,7 +24,7 @@ robot:
     - { topic: /cmd_vel, as: velocity }
   guard: { mount: "0,0,1,0,0,0" }
   limits: { leaseSilenceS: 1 }
-  return: { enabled: true, afterS: 5, announceS: 1, blockedS: 60, topic: /returning }
+  return: { enabled: true, afterS: 5, announceS: 1, topic: /returning }
 `;
 /** Half the robot, m. */
 const RADIUS = 0.25;

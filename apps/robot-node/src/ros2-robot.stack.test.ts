@@ -23,9 +23,9 @@ const WATCHDOG_MS = 150;
 /** The picture is requested reliably, because a busy machine's sockets lose parts of each large message. */
 const CONFIGURATION = `
 robot:
-  source: { kind: ros2 }
+  source: { kind: ros2, axes: optical }
   sink: { kind: ros2 }
-  ros: { domain: ${testDomain()}, reach: localhost, axes: optical }
+  ros: { domain: ${testDomain()}, reach: localhost }
   topics:
     - { topic: /points, as: cloud }
     - { topic: /front/image_raw, as: picture, label: Front, qos: { reliability: reliable } }

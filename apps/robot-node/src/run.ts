@@ -4,6 +4,7 @@ import { type OpenRobotAudit, openRobotAudit } from './admit/audit/open-robot-au
 import { registerRobotMetrics } from './program/metrics/robot-metrics.ts';
 import { toRobotOptions } from './program/options/robot-options.ts';
 import { robotProgram } from './program/options/robot-program.ts';
+import { waitMsOf } from './program/options/to-sensors.ts';
 import { addRobotHealth } from './program/robot-health.ts';
 import { lockRun } from './program/run-locks.ts';
 import { warnOfFleetingState } from './program/state-place.ts';
@@ -23,7 +24,7 @@ export async function run(): Promise<void> {
     setNicenessIfPermitted(context.options.niceness, context.log);
     const order = notifyOrder(process.env, process.pid);
     const systemd = order === null ? null : new Notifier(order);
-    systemd?.starting(Math.max(options.shmWaitS, options.rosWaitS) * 1000 + START_MS);
+    systemd?.starting(waitMsOf(options) + START_MS);
     const robotOptions = toRobotOptions(options, where);
     warnOfFleetingState(robotOptions, log);
     const locks = lockRun(robotOptions, log);

@@ -144,12 +144,12 @@ describe('a robot that has lost its operators', () => {
   });
 
   test('stays where no sensor sees the way back, unless it is told otherwise', () => {
-    start('--return-blocked-s', '1');
+    start();
     const driver = scenario.connected();
     drive(driver);
     const far = x();
     driver.vanish();
-    scenario.until(() => returns()?.ends.get('unseen') === 1, 30_000);
+    scenario.until(() => returns()?.ends.get('unseen') === 1, 60_000);
     expect([x(), returns()?.metres]).toEqual([far, 0]);
   });
 

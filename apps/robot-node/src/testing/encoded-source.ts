@@ -6,7 +6,7 @@ import { SLOT_BYTES, slotPayload } from '../sense/encode/packetiser.ts';
 import { CODED_FORMATS, FramePlanner } from '../sense/encode/plan.ts';
 import { openSource, type SourceOptions } from '../sense/sources/open-source.ts';
 
-/** As `--lambda`, `--epsilon` and `--priority-distance`, where nothing is nearer than anything else. */
+/** As `--lambda` and `--priority-distance`, where nothing is nearer than anything else. */
 const SAMPLING = { lambda: 0, epsilon: 1e-6, nearDistance: 3.85, sensor: 0 };
 
 export interface EncodeOptions {

@@ -55,7 +55,7 @@ describe('the file that init writes', () => {
 
   it('has every option of its source, each explained', () => {
     const lines = robotTemplate('shm').split('\n');
-    for (const key of ['url', 'token', 'shmWaitS', 'maxLinear', 'iceServers', 'topics', 'port', 'level']) {
+    for (const key of ['url', 'token', 'shmOwner', 'maxLinear', 'iceServers', 'topics', 'port', 'level']) {
       const index = lines.findIndex((line) => new RegExp(`^ +#?${key}:`).test(line));
       expect(lines[index - 1], key).toMatch(/^ +# \S/);
     }

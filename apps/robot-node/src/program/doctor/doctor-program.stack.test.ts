@@ -105,7 +105,7 @@ describe('the doctor', () => {
         [
           'robot:',
           `  signaling: {url: "ws://127.0.0.1:${port}"}`,
-          `  source: {kind: shm, shmFolder: "${folder}", shmWaitS: 600}`,
+          `  source: {kind: shm, shmFolder: "${folder}", waitS: 600}`,
           `  network: {iceServers: ["stun:127.0.0.1:${blackHole.address().port}"], icePolicy: relay}`,
           `  recording: {file: /nowhere/a.mcap}`,
           `  admin: {port: ${port}}`,

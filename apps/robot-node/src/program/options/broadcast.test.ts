@@ -29,7 +29,7 @@ describe('the broadcast', () => {
   test('goes to another machine over wss:// only, unless that is allowed', () => {
     const broadcastJanus = 'ws://janus.example.org:8188';
     expect(read({ broadcastJanus }).refused[0]).toContain('must be a wss:// address');
-    expect(read({ broadcastJanus, broadcastInsecure: true }).refused).toEqual([]);
+    expect(read({ broadcastJanus, plaintextToken: true }).refused).toEqual([]);
     expect(read({ broadcastJanus: 'wss://janus.example.org' }).refused).toEqual([]);
   });
 

@@ -42,13 +42,6 @@ export const broadcastOptions = optionGroup('broadcast', {
     file: 'mbps',
     help: 'most that the broadcast takes of the uplink, 10^6 bit/s on the wire; Janus reports no losses, so choose what the uplink always carries',
   }),
-  broadcastKeyFrameS: defineOption({
-    schema: schema.number({ min: 0.2, max: 60 }),
-    default: 2,
-    argument: 'S',
-    file: 'keyFrameS',
-    help: 'least time between two key frames of a camera that viewers ask for, s: a viewer waits that long at most',
-  }),
   broadcastClouds: defineOption({
     schema: schema.boolean(),
     default: true,
@@ -62,29 +55,26 @@ export const broadcastOptions = optionGroup('broadcast', {
     file: 'host',
     help: 'where Janus takes RTP, if not at the host of its WebSocket',
   }),
-  broadcastInsecure: defineOption({
-    schema: schema.boolean(),
-    default: false,
-    file: 'insecure',
-    help: 'send keys to another machine over ws://, where others may read them',
-  }),
 });
+
+/** Each viewer that asks for a key frame costs all viewers bits; a viewer who joins waits this long at most. */
+const KEY_FRAME_MS = 2000;
 
 type BroadcastKey = keyof typeof broadcastOptions;
 
 /** @param refuse told what is wrong with the options in combination */
 export function toBroadcast(
-  values: OptionValues<typeof broadcastOptions>,
+  values: OptionValues<typeof broadcastOptions> & { plaintextToken: boolean },
   ca: string | null,
   refuse: (key: BroadcastKey, detail: string) => void,
 ): BroadcastOptions | undefined {
   const { broadcastJanus: url } = values;
   if (url === null) return undefined;
   const { protocol, hostname } = new URL(url);
-  if (protocol === 'ws:' && !isLoopback(hostname) && !values.broadcastInsecure) {
+  if (protocol === 'ws:' && !isLoopback(hostname) && !values.plaintextToken) {
     refuse(
       'broadcastJanus',
-      'must be a wss:// address on another machine, because the keys of the streams are sent there (--broadcast-insecure allows ws://)',
+      'must be a wss:// address on another machine, because the keys of the streams are sent there (--plaintext-token allows ws://)',
     );
   }
   return {
@@ -96,6 +86,6 @@ export function toBroadcast(
     mountpoint: values.broadcastMountpoint,
     pin: values.broadcastPin,
     bitsPerSecond: BitRate.fromMbps(values.broadcastMbps),
-    keyFrameMs: values.broadcastKeyFrameS * 1000,
+    keyFrameMs: KEY_FRAME_MS,
   };
 }

@@ -59,27 +59,6 @@ export const fenceOptions = optionGroup('fence', {
     file: 'errorM',
     help: 'how far off the position may be, m; the robot stays that much farther inside',
   }),
-  fenceRobotRadiusM: defineOption({
-    schema: schema.number({ min: 0.05, max: 10 }),
-    default: defaults.radiusM,
-    argument: 'M',
-    file: 'robotRadiusM',
-    help: 'radius around base_link that holds the whole robot, m',
-  }),
-  fenceReactionMs: defineOption({
-    schema: schema.number({ min: 50, max: 2000 }),
-    default: defaults.reactionMs,
-    argument: 'MS',
-    file: 'reactionMs',
-    help: 'from a velocity until the base begins to follow it, ms',
-  }),
-  fenceBrakeMps2: defineOption({
-    schema: schema.number({ min: 0.1, max: 20 }),
-    default: defaults.brakeMps2,
-    argument: 'M/S²',
-    file: 'brakeMps2',
-    help: 'how hard the base brakes when it must, m/s²; rather too little than too much',
-  }),
   fenceMaxAgeMs: defineOption({
     schema: schema.number({ min: 50, max: 10_000 }),
     default: defaults.maxAgeMs,

@@ -71,13 +71,6 @@ export const guardTopicsOptions = optionGroup('guard', {
     file: 'collision.type',
     help: 'bool: std_msgs/Bool, true stops; speed: std_msgs/Float32, the highest speed in m/s, 0 stops',
   }),
-  guardCollisionSilenceMs: defineOption({
-    schema: schema.number({ min: 50, max: 10_000 }),
-    default: 500,
-    argument: 'MS',
-    file: 'collision.silenceMs',
-    help: 'a collision topic is silent after this long without a message; one without a publisher is so at once',
-  }),
   guardCollisionSilent: defineOption({
     schema: schema.choice(['stop', 'slow']),
     default: 'stop',
@@ -91,7 +84,7 @@ export interface GuardTopicsValues extends RosKindValues {
   guardScan: readonly GuardScan[];
   guardCollisionTopic: string | null;
   guardCollisionType: CollisionType;
-  guardCollisionSilenceMs: number;
+  stopSilenceMs: number;
   guardCollisionSilent: 'stop' | 'slow';
   guardClearanceM: number;
   guardHeightM: number;
@@ -125,7 +118,7 @@ export function toGuardTopics(
   const collision =
     topic === null
       ? null
-      : { topic, type: values.guardCollisionType, silentMs: values.guardCollisionSilenceMs, silentMps };
+      : { topic, type: values.guardCollisionType, silentMs: values.stopSilenceMs, silentMps };
   const frames = {
     topics: topics.filter(({ as }) => as === 'tf' || as === 'pose'),
     base: values.rosBaseFrame,

@@ -83,7 +83,7 @@ describe('the options of the obstacle guard', () => {
     expect(optionsIn(ROS, '--guard-collision-topic', '/safety/stop').topics?.collision).toEqual({
       ...{ topic: '/safety/stop', type: 'bool', silentMs: 500, silentMps: 0 },
     });
-    const slow = `${ROS}  guard: { unseenMps: 0.2, collision: { topic: /most, type: speed, silenceMs: 200, silent: slow } }\n`;
+    const slow = `${ROS}  stops: { silenceMs: 200 }\n  guard: { unseenMps: 0.2, collision: { topic: /most, type: speed, silent: slow } }\n`;
     expect(optionsIn(slow).topics?.collision).toEqual({
       ...{ topic: '/most', type: 'speed', silentMs: 200, silentMps: 0.2 },
     });

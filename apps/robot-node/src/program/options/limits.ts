@@ -22,12 +22,6 @@ export const limitsOptions = optionGroup('limits', {
     argument: 'MS',
     help: 'the robot stops after this long without a fresh command',
   }),
-  maxCommandsPerSecond: defineOption({
-    schema: schema.number({ min: 10, max: 1000 }),
-    default: defaultDriveLimits.maxCommandsPerSecond,
-    argument: 'N',
-    help: 'maximum commands a second; more are refused',
-  }),
   takePolicy: defineOption({
     schema: schema.choice(['never', 'idle', 'always']),
     default: 'idle',
@@ -56,19 +50,7 @@ export const limitsOptions = optionGroup('limits', {
     schema: schema.integer({ min: 1, max: 32 }),
     default: 4,
     argument: 'N',
-    help: 'maximum operators at once, including the one who drives',
-  }),
-  maxPerSubject: defineOption({
-    schema: schema.integer({ min: 1, max: 32 }),
-    default: 2,
-    argument: 'N',
-    help: 'maximum operators at once with grants for the same subject; never all of --max-operators, unless that is 1',
-  }),
-  keepPlaceS: defineOption({
-    schema: schema.number({ min: 0, max: 600 }),
-    default: 30,
-    argument: 'SECONDS',
-    help: 'the place of an operator who drove is kept for this long after its connection was lost (with --grant-keys)',
+    help: 'maximum operators at once, including the one who drives; grants for one subject get at most half of the places',
   }),
   silenceS: defineOption({
     schema: schema.number({ min: 1, max: 300 }),

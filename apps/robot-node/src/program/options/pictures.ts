@@ -23,18 +23,4 @@ export const picturesOptions = optionGroup('pictures', {
     file: 'longestSide',
     help: 'longest side of a picture; larger ones are shrunk by a whole factor, and further on a slow link',
   }),
-  picturesQuality: defineOption({
-    schema: schema.integer({ min: 10, max: 95 }),
-    default: 70,
-    argument: 'N',
-    file: 'quality',
-    help: 'JPEG quality: 10 (small files) to 95 (fine pictures)',
-  }),
-  picturesShare: defineOption({
-    schema: schema.number({ min: 0.01, max: 0.5 }),
-    default: 0.15,
-    argument: 'SHARE',
-    file: 'share',
-    help: 'maximum share of the link’s estimated rate for pictures; less below 4 Mbit/s, nothing below 0.5',
-  }),
 });

@@ -8,12 +8,6 @@ export const playbackOptions = optionGroup('source', {
     argument: 'PATH',
     help: 'pcd: a .pcd file or a folder of them; rgbd: a folder in Open3D’s layout; recording: an MCAP file or a ROS 1 bag',
   }),
-  pcdFrame: defineOption({
-    schema: schema.choice(['auto', 'optical', 'body']),
-    default: 'auto',
-    argument: 'FRAME',
-    help: 'pcd: axes of the points: optical (z forward), body (x forward, z up), or auto: optical for clouds on a grid, else body',
-  }),
   topic: defineOption({
     schema: schema.optional(schema.text()),
     default: null,
@@ -32,34 +26,16 @@ export const playbackOptions = optionGroup('source', {
     argument: 'SECONDS',
     help: 'recording: where to start',
   }),
+  playBeside: defineOption({
+    schema: schema.choice(['all', 'videos', 'telemetry', 'none']),
+    default: 'all',
+    argument: 'WHAT',
+    help: 'recording: what is played beside the clouds: its videos, as cameras of this robot; its telemetry (quantities, alarms and diagnostics, marked as recorded); all, or none',
+  }),
   playEnd: defineOption({
     schema: schema.choice(['repeat', 'stop']),
     default: 'repeat',
     argument: 'WHAT',
     help: 'recording: at the end, repeat, or stop at the last cloud',
-  }),
-  playVideos: defineOption({
-    schema: schema.choice(['all', 'none']),
-    default: 'all',
-    argument: 'WHICH',
-    help: 'recording: its videos become cameras of this robot, or none of them does',
-  }),
-  playVideosKbitPerS: defineOption({
-    schema: schema.number({ min: 64, max: 50_000 }),
-    default: 1500,
-    argument: 'RATE',
-    help: 'recording: maximum rate of each of these videos; a slow link gets less',
-  }),
-  playTelemetry: defineOption({
-    schema: schema.choice(['all', 'none']),
-    default: 'all',
-    argument: 'WHICH',
-    help: 'recording: its quantities, alarms and diagnostics appear on the dashboard, marked as recorded, or none of them does',
-  }),
-  playAxes: defineOption({
-    schema: schema.choice(['auto', 'optical', 'body']),
-    default: 'auto',
-    argument: 'AXES',
-    help: 'recording: axes of the clouds’ frame: optical (z forward), body (x forward, z up), or auto: optical if the frame’s name says so',
   }),
 });

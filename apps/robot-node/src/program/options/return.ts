@@ -40,27 +40,6 @@ export const returnOptions = optionGroup('return', {
     file: 'maxLinear',
     help: 'its highest speed on the way back',
   }),
-  returnToleranceM: defineOption({
-    schema: schema.number({ min: 0.1, max: 2 }),
-    default: defaults.toleranceM,
-    argument: 'METRES',
-    file: 'toleranceM',
-    help: 'it gives up farther from its track than this',
-  }),
-  returnBlockedS: defineOption({
-    schema: schema.number({ min: 1, max: 600 }),
-    default: defaults.blockedMs / 1000,
-    argument: 'SECONDS',
-    file: 'blockedS',
-    help: 'it gives up after it has got nowhere for this long',
-  }),
-  returnLongestS: defineOption({
-    schema: schema.number({ min: 5, max: 7200 }),
-    default: defaults.longestMs / 1000,
-    argument: 'SECONDS',
-    file: 'longestS',
-    help: 'it gives up after it has been on its way for this long',
-  }),
   returnUnseen: defineOption({
     schema: schema.choice(['stop', 'slow']),
     default: defaults.unseen,

@@ -31,7 +31,7 @@ describe('robot options', () => {
   });
 
   it('take a recorded source', () => {
-    const argv = ['--source', 'pcd', '--path', 'a.pcd', '--pcd-frame', 'body', '--fps', '10'];
+    const argv = ['--source', 'pcd', '--path', 'a.pcd', '--axes', 'body', '--fps', '10'];
     const [{ capture } = { capture: null }] = robot(...argv).sensors;
     expect(capture).toMatchObject({
       source: { kind: 'pcd', path: 'a.pcd', frame: 'body' },

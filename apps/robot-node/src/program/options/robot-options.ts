@@ -3,6 +3,7 @@ import { randomBytes } from 'node:crypto';
 import { join } from 'node:path';
 import { MOST_RESUME_MS } from '@farpoint/protocol';
 import { RosFault, type TopicEntry, topicAs } from '@farpoint/ros';
+import { defaultDriveLimits } from '@farpoint/safety';
 import { type OptionMistake, OptionsError, ownNames, publicValues, Secret } from '@farpoint/service';
 import { BitRate } from '@farpoint/timing';
 import type { RobotAuditOptions } from '../../admit/audit/open-robot-audit.ts';
@@ -31,6 +32,14 @@ import { toGraph } from './to-graph.ts';
 import { toModel } from './to-model.ts';
 import { toReturn } from './to-return.ts';
 import { toSensors } from './to-sensors.ts';
+
+/** Who has lost a connection while driving comes back within this time, or has gone. */
+const KEEP_PLACE_MS = 30_000;
+/** JPEG's quality, and the pictures' most share of the link's rate: what the clouds can do without (docs/ros.md). */
+const PICTURE_QUALITY = 70;
+const PICTURE_SHARE = 0.15;
+/** As a camera's own default. */
+const PLAYED_VIDEO_BITS_PER_S = 1_500_000;
 
 /** How messages say where an option's value comes from. */
 export type Where = (key: RobotOptionKey) => string;
@@ -104,7 +113,7 @@ function toBase(values: RobotOptionValues): RobotOptions['base'] {
     charge: values.simCharge / 100,
     origin: values.simOrigin,
     things: values.simThings ?? [],
-    navigation: { map: values.simMap, planTo: values.simPlanTo },
+    navigation: { map: values.simPlanTo !== null, planTo: values.simPlanTo },
   };
 }
 
@@ -115,7 +124,7 @@ function toLimits(values: RobotOptionValues) {
       maxLinear: values.maxLinear,
       maxAngular: values.maxAngular,
       watchdogMs: values.watchdogMs,
-      maxCommandsPerSecond: values.maxCommandsPerSecond,
+      maxCommandsPerSecond: defaultDriveLimits.maxCommandsPerSecond,
     },
     takePolicy: values.takePolicy,
     estopRelease: values.estopRelease,
@@ -123,8 +132,8 @@ function toLimits(values: RobotOptionValues) {
     resumeWithinMs: values.afterGap === 'resume' ? MOST_RESUME_MS : values.resumeWithinMs,
     places: {
       most: values.maxOperators,
-      perSubject: values.maxPerSubject,
-      keepMs: values.keepPlaceS * 1000,
+      perSubject: Math.ceil(values.maxOperators / 2),
+      keepMs: KEEP_PLACE_MS,
     },
     silenceMs: values.silenceS * 1000,
     leaseSilenceMs: values.leaseSilenceS * 1000,
@@ -141,11 +150,11 @@ function toStreams(values: RobotOptionValues) {
     pictures: {
       perSecond: values.picturesPerSecond,
       longestSide: values.picturesLongestSide,
-      quality: values.picturesQuality,
-      share: values.picturesShare,
+      quality: PICTURE_QUALITY,
+      share: PICTURE_SHARE,
     },
     videos: toVideos(values),
-    playedVideosBitsPerSecond: values.playVideosKbitPerS * 1000,
+    playedVideosBitsPerSecond: PLAYED_VIDEO_BITS_PER_S,
     sound: values.sound,
   } satisfies Partial<RobotOptions>;
 }

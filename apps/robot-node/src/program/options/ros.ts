@@ -74,13 +74,6 @@ export const rosOptions = optionGroup('ros', {
     file: 'reach',
     help: 'ros2: subnet, or localhost: only nodes on this machine; default: from ROS_LOCALHOST_ONLY and ROS_AUTOMATIC_DISCOVERY_RANGE, or subnet',
   }),
-  rosAxes: defineOption({
-    schema: schema.choice(['auto', 'optical', 'body']),
-    default: 'auto',
-    argument: 'AXES',
-    file: 'axes',
-    help: 'ros1, ros2: axes of the clouds’ frame: optical (z forward), body (x forward, z up), or auto: optical if the frame’s name says so',
-  }),
   rosBaseFrame: defineOption({
     schema: schema.optional(
       z
@@ -92,13 +85,6 @@ export const rosOptions = optionGroup('ros', {
     argument: 'FRAME',
     file: 'baseFrame',
     help: 'ros1, ros2, recording: frame of the robot’s base, whose pose counts; default: base_link or base_footprint in the tree of the frame that odometry positions, else that frame',
-  }),
-  rosWaitS: defineOption({
-    schema: schema.number({ min: 0, max: 3600 }),
-    default: 30,
-    argument: 'SECONDS',
-    file: 'waitS',
-    help: 'ros1, ros2: how long to wait for the first cloud at startup',
   }),
 });
 

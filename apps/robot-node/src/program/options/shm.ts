@@ -31,10 +31,4 @@ export const shmOptions = optionGroup('source', {
     argument: 'USER',
     help: 'use shared-memory files of the user with this numeric id, too (`id -u NAME`), or of any user; default: only those of the robot’s own user and of root',
   }),
-  shmWaitS: defineOption({
-    schema: schema.number({ min: 0, max: 3600 }),
-    default: 10,
-    argument: 'SECONDS',
-    help: 'shm: how long to wait for the producer at startup',
-  }),
 });

@@ -31,7 +31,7 @@ export const signalingOptions = optionGroup('signaling', {
   plaintextToken: defineOption({
     schema: schema.boolean(),
     default: false,
-    help: 'send the token even over ws:// to another machine, where others on the way can read it',
+    help: 'send the token, and Janus’ keys, even over ws:// to another machine, where others on the way can read them',
   }),
   key: defineOption({
     schema: schema.optional(schema.secret(handleSchema)),

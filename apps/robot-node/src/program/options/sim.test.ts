@@ -25,7 +25,7 @@ it('a box in the robot is refused', () => {
 
 it('has a navigator’s map and plan only where they are asked for', () => {
   expect(base()?.navigation).toEqual({ map: false, planTo: null });
-  expect(base('--sim-map', '--sim-plan-to', '12.2,-6')?.navigation).toEqual({
+  expect(base('--sim-plan-to', '12.2,-6')?.navigation).toEqual({
     map: true,
     planTo: { x: 12.2, y: -6 },
   });

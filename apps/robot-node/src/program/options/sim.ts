@@ -82,16 +82,11 @@ export const simOptions = optionGroup('source', {
     argument: 'PLACES',
     help: 'boxes of 0.3 × 0.3 m in the simulated building, by where the robot starts: "ahead,left,height …", metres',
   }),
-  simMap: defineOption({
-    schema: schema.boolean(),
-    default: false,
-    help: 'the simulated robot has a map of its building, as a navigator would publish it',
-  }),
   simPlanTo: defineOption({
     schema: schema.optional(place),
     default: null,
     argument: 'X,Y',
-    help: 'the simulated robot has a plan to this place in its building, as a navigator would publish it; metres',
+    help: 'the simulated robot has a map of its building and a plan to this place in it, as a navigator would publish them; metres',
   }),
   simFloor: defineOption({
     schema: schema.choice(['seen', 'unseen']),

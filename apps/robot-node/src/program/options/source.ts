@@ -17,4 +17,16 @@ export const sourceOptions = optionGroup('source', {
     argument: 'RATE',
     help: 'maximum frames a second to request from the source; default: 60 for the simulated camera, a recording’s own rate, 30 for others',
   }),
+  axes: defineOption({
+    schema: schema.choice(['auto', 'optical', 'body']),
+    default: 'auto',
+    argument: 'AXES',
+    help: 'ros1, ros2, recording, pcd: axes of the clouds’ frame: optical (z forward), body (x forward, z up), or auto: optical if the frame’s name says so, and for a pcd cloud on a grid',
+  }),
+  waitS: defineOption({
+    schema: schema.optional(schema.number({ min: 0, max: 3600 })),
+    default: null,
+    argument: 'SECONDS',
+    help: 'ros1, ros2, shm: how long to wait at startup for the first cloud or the producer; default: 30 for ROS, 10 for shm',
+  }),
 });

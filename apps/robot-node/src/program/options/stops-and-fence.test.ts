@@ -60,9 +60,11 @@ describe('a fence', () => {
 
   test('is none by default; a radius is enough', () => {
     expect(robotOf([]).fence).toBeUndefined();
-    expect(robotOf(['--fence-radius-m', '5', '--fence-brake-mps2', '2']).fence).toMatchObject({
+    expect(
+      robotOf(['--fence-radius-m', '5', '--deceleration-mps2', '3', '--footprint', '0.4']).fence,
+    ).toMatchObject({
       ...{ fence: { radiusM: 5, allowed: [] }, fix: null, errorM: 0.1 },
-      limits: { brakeMps2: 2, reactionMs: 200 },
+      limits: { brakeMps2: 1.5, reactionMs: 200, radiusM: expect.closeTo(0.65, 2) },
     });
   });
 

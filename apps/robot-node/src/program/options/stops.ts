@@ -52,6 +52,6 @@ export const stopsOptions = optionGroup('stops', {
     default: 500,
     argument: 'MS',
     file: 'silenceMs',
-    help: '--stop-topic, --stop-shm: after this long without a sign of life the robot is stopped',
+    help: '--stop-topic, --stop-shm and --guard-collision-topic: silent after this long without a sign of life, which stops the robot (a collision topic: see --guard-collision-silent)',
   }),
 });

@@ -48,22 +48,10 @@ export const streamOptions = optionGroup('stream', {
     argument: 'L',
     help: 'how fast a point’s weight falls with depth; 0 samples evenly',
   }),
-  epsilon: defineOption({
-    schema: schema.number({ min: 1e-12, max: 1 }),
-    default: 1e-6,
-    argument: 'E',
-    help: 'keeps the weight of the nearest points finite',
-  }),
   priorityDistance: defineOption({
     schema: schema.number({ min: 0, max: 1000 }),
     default: 3.85,
     argument: 'METRES',
     help: 'points nearer than this have the same weight as the nearest',
-  }),
-  floor: defineOption({
-    schema: schema.number({ min: 0, max: 1 }),
-    default: 0.1,
-    argument: 'FRACTION',
-    help: 'with --plan paper: fraction of the raw cloud that is sent each second at any rate',
   }),
 });

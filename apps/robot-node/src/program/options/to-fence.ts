@@ -1,10 +1,23 @@
 import { topicAs } from '@farpoint/ros';
-import { defaultGeofenceOptions, EarthFrame, type Fence, FenceError, parseFence } from '@farpoint/safety';
+import {
+  defaultGeofenceOptions,
+  EarthFrame,
+  type Fence,
+  FenceError,
+  Footprint,
+  parseFence,
+} from '@farpoint/safety';
 import type { FenceOptions } from '../../motion/geofence/open-geofence.ts';
 import { SIM_FIX } from '../../sense/base/sim-topics.ts';
+import { footprintOf } from './guard.ts';
 import { readText } from './read-text.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { configuresOdometry } from './ros-kind.ts';
+
+/** The fence keeps this much more than the footprint inside: a base skids, and its odometry slips. Chosen. */
+const BESIDE_FOOTPRINT_M = 0.25;
+/** Beyond a fence nothing else stops the robot, so it counts on half of the deceleration that the base is said to reach. */
+const BRAKE_SHARE = 0.5;
 
 const EVERYWHERE: Fence = { allowed: [], forbidden: [], slow: [], radiusM: null };
 
@@ -50,9 +63,8 @@ export function toFence(
     errorM: values.fenceErrorM,
     limits: {
       ...defaultGeofenceOptions,
-      radiusM: values.fenceRobotRadiusM,
-      reactionMs: values.fenceReactionMs,
-      brakeMps2: values.fenceBrakeMps2,
+      radiusM: new Footprint(footprintOf(values.footprint)).reach + BESIDE_FOOTPRINT_M,
+      brakeMps2: Math.min(values.decelerationMps2 * BRAKE_SHARE, values.emergencyMps2),
       maxAgeMs: values.fenceMaxAgeMs,
     },
   };

@@ -48,14 +48,12 @@ export function toReturn(
     refuse('returnTopic', 'needs a ROS graph: neither source nor sink is ROS');
   return {
     options: {
+      ...defaultReturnOptions,
       afterMs: returnAfterS * 1000,
       announceMs: values.returnAnnounceS * 1000,
       maxM: values.returnMaxM,
       maxLinear: values.returnSpeed,
       maxAngular: Math.min(defaultReturnOptions.maxAngular, values.maxAngular),
-      toleranceM: values.returnToleranceM,
-      blockedMs: values.returnBlockedS * 1000,
-      longestMs: values.returnLongestS * 1000,
       unseen: values.returnUnseen,
     },
     topic: topic === null || kind === null ? null : { graph: graph(kind), topic },

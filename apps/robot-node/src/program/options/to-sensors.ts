@@ -7,12 +7,21 @@ import { cloudTrigger } from './check-videos.ts';
 import type { RobotOptionValues } from './robot-program.ts';
 import { toGraph } from './to-graph.ts';
 
+/** Paper, equation 1: keeps the weight of points at distance 0 finite. */
+const SAMPLING_EPSILON = 1e-6;
+/** Paper, equation 3: the share of the raw cloud that is sent each second at any rate. */
+const FLOOR_FRACTION = 0.1;
 /** If not configured. A recording has its own rate, which is kept. */
 const DEFAULT_FPS: Partial<Record<RobotOptionValues['source'], number>> = { sim: 60, recording: 120 };
 
 /** The highest rate asked of the source of clouds, 1/s. */
 export function framesPerS({ fps, source }: RobotOptionValues): number {
   return fps ?? DEFAULT_FPS[source] ?? 30;
+}
+
+/** How long a robot waits at its start for the first cloud, ms: a producer on the same machine is there sooner than a graph. */
+export function waitMsOf({ waitS, source }: RobotOptionValues): number {
+  return 1000 * (waitS ?? (source === 'shm' ? 10 : 30));
 }
 
 /** The main source of clouds comes first. */
@@ -22,8 +31,8 @@ export function toSensors(values: RobotOptionValues, topics: TopicEntry[]): Clou
     source: mounted(toSource(values, topics), values.guardMount),
     framesPerSecond: framesPerS(values),
     plan: values.plan,
-    sampling: { lambda: values.lambda, epsilon: values.epsilon, nearDistance: values.priorityDistance },
-    floorFraction: values.floor,
+    sampling: { lambda: values.lambda, epsilon: SAMPLING_EPSILON, nearDistance: values.priorityDistance },
+    floorFraction: FLOOR_FRACTION,
     mostPoints: values.maxPoints,
     picturesOfCloud: values.picturesOfCloud,
   };
@@ -60,7 +69,7 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
         layout: values.shmLayout,
         folder: values.shmFolder,
         owner: values.shmOwner ?? undefined,
-        waitMs: values.shmWaitS * 1000,
+        waitMs: waitMsOf(values),
       };
     case 'recording':
       return {
@@ -70,10 +79,10 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
         rate: values.playRate,
         fromS: values.playFromS,
         atEnd: values.playEnd,
-        axes: values.playAxes,
+        axes: values.axes,
         topics,
-        videos: values.playVideos === 'all',
-        telemetry: values.playTelemetry === 'all',
+        videos: values.playBeside === 'all' || values.playBeside === 'videos',
+        telemetry: values.playBeside === 'all' || values.playBeside === 'telemetry',
         baseFrame: values.rosBaseFrame,
       };
     case 'ros1':
@@ -82,12 +91,12 @@ function toSource(values: RobotOptionValues, topics: TopicEntry[]): SourceOption
         kind: 'ros',
         graph: toGraph(values, values.source),
         topics,
-        axes: values.rosAxes,
+        axes: values.axes,
         baseFrame: values.rosBaseFrame,
-        waitMs: values.rosWaitS * 1000,
+        waitMs: waitMsOf(values),
       };
     case 'pcd':
-      return { kind: 'pcd', path, frame: values.pcdFrame };
+      return { kind: 'pcd', path, frame: values.axes };
     case 'rgbd':
       return { kind: 'rgbd', path };
   }

@@ -23,8 +23,9 @@ describe.skipIf(findJanus() === null || address === undefined)(
     beforeAll(async () => {
       janus = await JanusServer.start({ host: address as string });
       const config = join(folder, 'farpoint.yaml');
-      const broadcast = { janus: janus.url, adminKey: janus.adminKey, insecure: true };
-      writeFileSync(config, JSON.stringify({ robot: { broadcast } }));
+      const broadcast = { janus: janus.url, adminKey: janus.adminKey };
+      const signaling = { plaintextToken: true };
+      writeFileSync(config, JSON.stringify({ robot: { broadcast, signaling } }));
       const args = ['--config', config, '--sim-size', '64', '--sim-lidars', '0'];
       stack = await LocalStack.start({ robots: [{ id: 'sim-1', name: 'Rover', args }] });
     }, 60_000);
