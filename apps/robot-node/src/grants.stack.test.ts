@@ -38,7 +38,7 @@ function holder({ session }: Client): string | undefined {
 }
 
 const refusals = (reason: string) =>
-  metricOf(robot.stack.robotAdminUrl(ROBOT), `farpoint_robot_grants_refused_total{reason="${reason}"}`);
+  metricOf(robot.stack.robotAdminUrl(ROBOT), `farpoint_robot_refused_total{what="grant",reason="${reason}"}`);
 
 describe('who is admitted', { timeout: 30_000 }, () => {
   it('a driver is welcomed by its name, sees, drives and goes on over an ICE restart', async () => {

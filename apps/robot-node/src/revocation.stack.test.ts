@@ -78,7 +78,7 @@ describe('revoked grants', { timeout: 60_000 }, () => {
   it('end a moving driver’s session, stop the robot, and are refused from then on', async () => {
     const [ada, wim] = [await granted('Ada'), await granted('Wim', 'watch')];
     const counts = async () => [
-      await metric('grants_refused_total{reason="grant-revoked"}'),
+      await metric('refused_total{what="grant",reason="grant-revoked"}'),
       await metric('sessions_ended_total{reason="grant-revoked"}'),
     ];
     const before = await counts();

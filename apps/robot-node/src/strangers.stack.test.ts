@@ -66,6 +66,7 @@ async function untilMetric(name: string, labels: string, least: number): Promise
 }
 
 const refused = (reason: string) => `{reason="${reason}"}`;
+const refusedDatagram = (reason: string) => `{what="datagram",reason="${reason}"}`;
 
 describe('strangers', { timeout: 30_000 }, () => {
   it('refuses a peer without its certificate’s key, and accepts the same peer with it', async () => {
@@ -93,25 +94,25 @@ describe('strangers', { timeout: 30_000 }, () => {
     const { connection } = driver.client.connection.iceTransports[0]!;
     const [host, port] = connection.nominated!.remoteAddr;
     const socket = await openStranger(host);
-    const plain = await metric('datagrams_refused', refused('dtls-plaintext'));
-    const foreign = await metric('datagrams_refused', refused('unknown-source'));
+    const plain = await metric('refused', refusedDatagram('dtls-plaintext'));
+    const foreign = await metric('refused', refusedDatagram('unknown-source'));
     for (const datagram of [closeAlert, clientHello()]) {
       socket.send(datagram, port, host);
       // As from somebody who forges the operator's address.
       await connection.send(datagram);
     }
-    await untilMetric('datagrams_refused', refused('dtls-plaintext'), plain + 2);
-    await untilMetric('datagrams_refused', refused('unknown-source'), foreign + 2);
+    await untilMetric('refused', refusedDatagram('dtls-plaintext'), plain + 2);
+    await untilMetric('refused', refusedDatagram('unknown-source'), foreign + 2);
     await expectDriving();
   });
 
   it('ends the session of an operator that sends 4 MB in one message, and only that one', async () => {
     const guest = await robot.connect();
     const { sctp } = guest.client.connection.sctpTransport!;
-    const before = await metric('datagrams_refused', refused('message-too-large'));
+    const before = await metric('refused', refusedDatagram('message-too-large'));
     void sctp.send(guest.client.control.id, 53, Buffer.alloc(4 << 20));
     await guest.until((message) => message.type === 'session.closed');
-    expect(await metric('datagrams_refused', refused('message-too-large'))).toBe(before + 1);
+    expect(await metric('refused', refusedDatagram('message-too-large'))).toBe(before + 1);
     await expectDriving();
   });
 

@@ -37,6 +37,23 @@ export class PulledMetrics {
     });
   }
 
+  /** The same by two labels. */
+  sumsByTwo(
+    name: string,
+    help: string,
+    [first, second]: readonly [string, string],
+    read: () => Iterable<readonly [first: string, second: string, value: number]>,
+  ): void {
+    new Counter({
+      ...this.#identity(`${name}_total`, help),
+      labelNames: [first, second],
+      collect() {
+        this.reset();
+        for (const [one, other, count] of read()) this.inc({ [first]: one, [second]: other }, count);
+      },
+    });
+  }
+
   /** A gauge: a value that may rise and fall. */
   gauge(name: string, help: string, read: () => number): void {
     new Gauge({

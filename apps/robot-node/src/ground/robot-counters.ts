@@ -56,7 +56,6 @@ export class RobotCounters {
   framesCaptured = 0;
   /** Frames that were captured, but too old when they left the worker. */
   framesStale = 0;
-  pointsCaptured = 0;
   /** Points not sent, by reason. */
   readonly pointsRejected = new ReasonCounts();
   /** Seconds of work by stage. For the source's own work and for sending, this is processor time. */
@@ -68,7 +67,6 @@ export class RobotCounters {
 
   frame(frame: CountedFrame): void {
     this.framesCaptured++;
-    this.pointsCaptured += frame.points;
     this.lastPoints = frame.points;
     this.lastFramesPerSecond = 1000 / frame.intervalMs;
     this.lastValidPoints = frame.validPoints;

@@ -76,8 +76,8 @@ export const sessionAttacks = attacks('session', {
       if (id % 50 === 49) await pause(50);
     }
     const limited = await scene.metric(
-      'farpoint_robot_messages_refused_total',
-      '{reason="probe:rate-limited"}',
+      'farpoint_robot_refused_total',
+      '{what="message",reason="probe:rate-limited"}',
     );
     mustHold(limited > 0, 'every probe was answered');
   }),

@@ -6,7 +6,7 @@ import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of commands and the guard's verdicts. */
 export function addDriveMetrics(metrics: PulledMetrics, robot: MeasuredRobot): void {
-  const { counters, base } = robot;
+  const { counters } = robot;
   metrics.sum('commands_accepted', 'Drive commands accepted', () => counters.commandsAccepted);
   metrics.sums('commands_rejected', 'Drive commands refused, by reason', 'reason', () =>
     counters.commandsRejected.entries(),
@@ -26,18 +26,13 @@ export function addDriveMetrics(metrics: PulledMetrics, robot: MeasuredRobot): v
   metrics.gauge('robot_stops_well', '1 while every stop at the robot can be read, otherwise 0', () =>
     robot.stops.areWell ? 1 : 0,
   );
+  metrics.sums('thread_restarts', 'Restarts of threads that had ended or hung, by thread', 'thread', () => [
+    ['velocities', robot.sink.restarts ?? 0],
+    ['guard-topics', robot.obstacles.report(monotonicMs()).restarts],
+    ['pictures', robot.streams.cameras.pictures?.counters.restarts ?? 0],
+  ]);
   const { returns } = robot.driving;
   if (returns !== null) addReturnMetrics(metrics, returns);
-  metrics.sum(
-    'sink_restarts',
-    'Restarts of the thread that publishes velocities',
-    () => robot.sink.restarts ?? 0,
-  );
-  metrics.sum(
-    'watchdog_thread_stops',
-    'Stops by the simulated base’s own watchdog',
-    () => base?.watchdogStops ?? 0,
-  );
 }
 
 /** Metrics of the obstacle guard: what it sees, how old that is, and what it costs. */
@@ -69,12 +64,6 @@ export function addGuardMetrics(
     'sensor',
     bySensor(({ lastMs }) => lastMs / 1000),
   );
-  metrics.sums(
-    'guard_grids',
-    'Clouds and scans that the obstacle guard has judged, by sensor',
-    'sensor',
-    bySensor(({ grids }) => grids),
-  );
   metrics.gauge(
     'guard_odometry_age_seconds',
     'Age of the odometry that the obstacle guard has',
@@ -95,13 +84,7 @@ export function addGuardMetrics(
 /** Metrics of the topics that the obstacle guard hears. None if it hears none. */
 function addGuardTopicMetrics(metrics: PulledMetrics, obstacles: MeasuredRobot['obstacles']): void {
   const report = () => obstacles.report(monotonicMs());
-  if (obstacles.topics === null) return;
-  metrics.sum(
-    'guard_topics_restarts',
-    'Restarts of the thread that hears the obstacle guard’s topics',
-    () => report().restarts,
-  );
-  if (obstacles.topics.collision === null) return;
+  if (obstacles.topics?.collision == null) return;
   metrics.gauges(
     'collision_topic',
     '1 for what the collision topic says: free, bounded or silent',
@@ -116,8 +99,6 @@ function addReturnMetrics(metrics: PulledMetrics, returns: ReturnStation): void 
   metrics.gauge('return_active', '1 while the robot says that it drives back, or does, otherwise 0', () =>
     drive.isActive ? 1 : 0,
   );
-  metrics.gauge('return_track_metres', 'Length of the way back that the robot knows', () => drive.trackM);
-  metrics.sum('return_begun', 'Times that the robot has begun to drive back', () => returns.begun);
   metrics.sums('return_ended', 'Ends of the robot’s driving back, by reason', 'reason', () =>
     returns.ends.entries(),
   );

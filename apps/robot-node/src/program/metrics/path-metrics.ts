@@ -55,11 +55,6 @@ function addSentMetrics(metrics: PulledMetrics, senders: Senders): void {
     'reason',
     byReason((sender) => sender.droppedFrames),
   );
-  metrics.gauge(
-    'frames_superseded',
-    'Frames not sent because a newer one replaced them, for operators connected now',
-    total(({ droppedFrames }) => droppedFrames.superseded + droppedFrames.overdue),
-  );
 }
 
 /** Metrics of the rate control. */
@@ -103,29 +98,25 @@ function addRateMetrics(metrics: PulledMetrics, senders: Senders): void {
 /** Metrics of what the sensors captured, and what became of their points. */
 export function addSensorMetrics(
   metrics: PulledMetrics,
-  { counters, streams: { sensors } }: MeasuredRobot,
+  { counters, streams: { sensors, cameras } }: MeasuredRobot,
 ): void {
   metrics.sum('frames_captured', 'Clouds captured', () => counters.framesCaptured);
-  metrics.sum(
-    'frames_without_buffer',
-    'Clouds not captured because no buffer was free',
-    () => sensors.framesWithoutBuffer,
-  );
+  metrics.sums('clouds_dropped', 'Clouds not captured, or not sent to anybody, by reason', 'reason', () => [
+    ['no-buffer', sensors.framesWithoutBuffer],
+    ['stale', counters.framesStale],
+  ]);
   metrics.sum(
     'source_faults',
     'Temporary faults of the source: no producer, bad clouds',
     () => sensors.faults,
   );
-  metrics.sum(
-    'frames_stale',
-    'Clouds dropped because they were too old when ready',
-    () => counters.framesStale,
-  );
-  metrics.sum('points_sent_per_frame_sum', 'Points of all captured frames', () => counters.pointsCaptured);
   metrics.sums('points_rejected', 'Points not sent, by reason', 'reason', () =>
     counters.pointsRejected.entries(),
   );
-  metrics.sums('stage_seconds', 'Time spent, by stage', 'stage', () => counters.stageSeconds.entries());
+  metrics.sums('stage_seconds', 'Time spent, by stage', 'stage', () => [
+    ...counters.stageSeconds.entries(),
+    ['pictures', cameras.pictures?.counters.workSeconds ?? 0] as const,
+  ]);
   metrics.gauge('points_per_frame', 'Points of the last frame', () => counters.lastPoints);
   metrics.gauge('valid_points', 'Valid points of the last raw cloud', () => counters.lastValidPoints);
   metrics.gauge(

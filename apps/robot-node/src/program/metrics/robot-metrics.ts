@@ -9,7 +9,7 @@ import {
   addSessionMetrics,
   addSignalingMetrics,
 } from './session-metrics.ts';
-import { addPictureMetrics, addSoundMetrics, addVideoMetrics } from './video-metrics.ts';
+import { addDeviceMetrics, addPictureMetrics, addSoundMetrics, addVideoMetrics } from './video-metrics.ts';
 
 /** Registers all of the robot's counts for `/metrics`. */
 export function registerRobotMetrics(registry: Registry, robot: MeasuredRobot): void {
@@ -23,6 +23,7 @@ export function registerRobotMetrics(registry: Registry, robot: MeasuredRobot): 
   addPictureMetrics(metrics, robot);
   addVideoMetrics(metrics, robot);
   addSoundMetrics(metrics, robot);
+  addDeviceMetrics(metrics, robot);
   addBroadcastMetrics(metrics, robot);
   addRecordingMetrics(metrics, robot);
   addLiveMetrics(metrics, robot);

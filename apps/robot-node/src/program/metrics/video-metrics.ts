@@ -20,12 +20,6 @@ export function addVideoMetrics(
     each(({ counters }) => counters.frames),
   );
   metrics.sums(
-    'video_key_frames',
-    'Of these, frames that need no other, by camera',
-    'camera',
-    each(({ counters }) => counters.keyFrames),
-  );
-  metrics.sums(
     'video_bytes',
     'Bytes of the encoded frames, by camera',
     'camera',
@@ -50,16 +44,28 @@ export function addVideoMetrics(
     () => streams.flatMap(({ failures }) => [...failures.entries()]),
   );
   metrics.gauges(
-    'video_fault',
-    'Whether a camera gives no pictures although somebody watches, by camera',
-    'camera',
-    each(({ fault }) => (fault === null ? 0 : 1)),
-  );
-  metrics.gauges(
     'video_frames_unsent',
     'Frames not sent, by reason, for operators connected now',
     'reason',
     () => [...operators.values()].flatMap(({ videos: { sender } }) => Object.entries(sender?.drops ?? {})),
+  );
+}
+
+/** Metrics of devices that operators want something of and that cannot give it. */
+export function addDeviceMetrics(
+  metrics: PulledMetrics,
+  { streams: { cameras, sound } }: Pick<MeasuredRobot, 'streams'>,
+): void {
+  const { microphone, loudspeaker, hasMicrophone } = sound;
+  metrics.gauges(
+    'device_fault',
+    '1 for a camera, microphone or loudspeaker that fails, otherwise 0',
+    'device',
+    () => [
+      ...cameras.videos.streams.map(({ camera, fault }) => [camera.name, fault === null ? 0 : 1] as const),
+      ...(hasMicrophone ? [['microphone', microphone.fault === null ? 0 : 1] as const] : []),
+      ...(loudspeaker === null ? [] : [['loudspeaker', loudspeaker.fault === null ? 0 : 1] as const]),
+    ],
   );
 }
 
@@ -72,35 +78,26 @@ export function addSoundMetrics(
   if (hasMicrophone) {
     metrics.gauge('sound_listeners', 'Operators who are sent the microphone’s sound', () => sound.listeners);
     metrics.sum('sound_packets', 'Packets of sound encoded', () => microphone.counters.packets);
-    metrics.sum('sound_bytes', 'Bytes of the packets encoded', () => microphone.counters.bytes);
     metrics.gauge(
       'sound_bits_per_second',
       'Rate that the microphone’s encoder is set to; 0 while nobody listens',
       () => microphone.bitsPerSecond,
-    );
-    metrics.gauge('sound_fault', 'Whether the microphone gives nothing although somebody listens', () =>
-      microphone.fault === null ? 0 : 1,
     );
   }
   if (loudspeaker === null) return;
   metrics.gauge('voice_open', 'Whether an operator’s voice is being played', () =>
     sound.speaking === null ? 0 : 1,
   );
-  metrics.sums('voice_packets', 'Packets of operators’ voices, by what became of them', 'outcome', () =>
-    Object.entries(loudspeaker.counters),
-  );
-  metrics.sums('voice_packets_dropped', 'Packets of voices that were not played, by reason', 'reason', () =>
-    Object.entries(loudspeaker.drops),
-  );
+  metrics.sums('voice_packets', 'Packets of operators’ voices, by what became of them', 'outcome', () => [
+    ...Object.entries(loudspeaker.counters),
+    ...Object.entries(loudspeaker.drops),
+  ]);
   metrics.gauges(
     'voice_packets_refused',
     'Packets from operators connected now that were not taken for a voice, by reason',
     'reason',
     () =>
       [...operators.values()].flatMap(({ sound: { line } }) => Object.entries(line?.voice?.refusals ?? {})),
-  );
-  metrics.gauge('voice_fault', 'Whether the loudspeaker cannot be used', () =>
-    loudspeaker.fault === null ? 0 : 1,
   );
 }
 
@@ -116,14 +113,6 @@ export function addPictureMetrics(
     [...operators.values()].reduce((sum, operator) => sum + read(operator), 0);
 
   metrics.sum('pictures_made', 'Camera pictures prepared for sending', () => made.made);
-  metrics.sum(
-    'pictures_untouched',
-    'Prepared pictures that are the camera’s own files, unchanged',
-    () => made.untouched,
-  );
-  metrics.sum('picture_bytes', 'Bytes of the prepared pictures', () => made.bytes);
-  metrics.sum('picture_thread_seconds', 'Processor time of the picture thread', () => made.workSeconds);
-  metrics.sum('picture_thread_restarts', 'Restarts of the picture thread', () => made.restarts);
   metrics.sums('pictures_lost', 'Pictures that could not be prepared, by reason', 'reason', () =>
     made.lost.entries(),
   );

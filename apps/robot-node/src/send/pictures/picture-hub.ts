@@ -38,9 +38,6 @@ const PLAN_MS = 250;
 
 export interface PictureCounters {
   made: number;
-  /** Of these, files that were passed on unchanged. */
-  untouched: number;
-  bytes: number;
   /** Processor time of the picture thread, s. */
   workSeconds: number;
   lost: ReasonCounts;
@@ -51,8 +48,6 @@ export interface PictureCounters {
 export class PictureHub {
   readonly counters: PictureCounters = {
     made: 0,
-    untouched: 0,
-    bytes: 0,
     workSeconds: 0,
     restarts: 0,
     lost: new ReasonCounts(),
@@ -138,11 +133,9 @@ export class PictureHub {
       this.#options.log.warn({ camera: name, reason, detail, origin }, 'a picture cannot be shown');
       return;
     }
-    const { header, fileBytes, longestSide, untouched, workMs } = report;
+    const { header, fileBytes, longestSide, workMs } = report;
     counters.made++;
-    counters.bytes += fileBytes;
     counters.workSeconds += workMs / 1000;
-    if (untouched) counters.untouched++;
     this.#planners[header.camera]?.onMade(fileBytes, longestSide);
     for (const target of this.#options.targets()) target.offerPicture(report);
     this.#options.onMade(report);

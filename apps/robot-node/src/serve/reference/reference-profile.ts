@@ -50,8 +50,6 @@ export class ReferenceProfile {
   offers = 0;
   connected = 0;
   ended = 0;
-  /** Answers that did not match the offer. They change nothing. */
-  answersRefused = 0;
   readonly #options: ReferenceProfileOptions;
   readonly #host: ReferenceHost;
   readonly #log: Logger;
@@ -154,7 +152,6 @@ export class ReferenceProfile {
     const listed = this.#listed;
     const misfit = answerMisfit(listed?.peer.offerSdp ?? '', sdp);
     if (misfit !== null) {
-      this.answersRefused++;
       this.#log.debug({ misfit }, 'an answer that is none to the offer');
     } else if (listed?.peer.state === 'offering') {
       await listed.peer.answer(sdp);
