@@ -4,7 +4,7 @@ import { expect, test } from '../src/stage/page-test.ts';
 import type { Stage } from '../src/stage/stage.ts';
 
 /** How long the control is held to release, ms, and the interval at which the page looks at it. */
-const [HOLD_MS, TICK_MS] = [1000, 25];
+const [HOLD_MS, READ_EVERY_MS] = [1000, 25];
 /** Longer than a hold. */
 const LONG_MS = 1200;
 
@@ -133,7 +133,7 @@ for (const [what, { down, up }] of Object.entries(holds)) {
     await stage.run(100);
 
     await down(page);
-    await stage.run(HOLD_MS + 2 * TICK_MS);
+    await stage.run(HOLD_MS + 2 * READ_EVERY_MS);
     expect(await releases(stage)).toEqual([{ type: 'estop', latch: false, of: 2 }]);
     await up(page);
     await stage.run(300);
@@ -151,7 +151,7 @@ test('STOP just after somebody else has pressed it is a press of its own, and a 
   expect(await latch(stage)).toBe(2);
   // Somebody presses again while the control is held: what was not shown when the hold began is released by nobody.
   await page.keyboard.down('KeyR');
-  await stage.run(HOLD_MS + TICK_MS);
+  await stage.run(HOLD_MS + READ_EVERY_MS);
   await page.keyboard.up('KeyR');
   expect((await releases(stage)).at(-1)).toEqual({ type: 'estop', latch: false, of: 2 });
 });
@@ -209,12 +209,12 @@ test('on a gamepad, B stops, and Y held for a second releases', async ({ stage }
     expect(await latch(stage)).toBe(count);
   }
   await press(3, true);
-  await stage.run(HOLD_MS - TICK_MS);
+  await stage.run(HOLD_MS - READ_EVERY_MS);
   await press(3, false);
   await stage.run(100);
   expect(await releases(stage)).toEqual([]);
   await press(3, true);
-  await stage.run(HOLD_MS + 2 * TICK_MS);
+  await stage.run(HOLD_MS + 2 * READ_EVERY_MS);
   expect(await releases(stage)).toEqual([{ type: 'estop', latch: false, of: 2 }]);
 });
 
@@ -241,12 +241,12 @@ test.describe('in the headset', () => {
     await headset.button('right', 'squeeze', 0);
     await stage.run(100);
     await headset.button('right', 'trigger', 1);
-    await stage.run(HOLD_MS - 2 * TICK_MS);
+    await stage.run(HOLD_MS - 2 * READ_EVERY_MS);
     await headset.button('right', 'trigger', 0);
     await stage.run(100);
     expect(await releases(stage)).toEqual([]);
     await headset.button('right', 'trigger', 1);
-    await stage.run(HOLD_MS + 3 * TICK_MS);
+    await stage.run(HOLD_MS + 3 * READ_EVERY_MS);
     expect(await releases(stage)).toEqual([{ type: 'estop', latch: false, of: 1 }]);
     expect((await stage.state()).estop).toBe(false);
   });

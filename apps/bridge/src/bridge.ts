@@ -50,7 +50,7 @@ export interface FrameRecord {
 
 type SignalingLine = MessageLine<ReferenceServiceToClient, ReferenceClientToService>;
 
-const TICK_MS = 250;
+const EXPIRE_EVERY_MS = 250;
 const MAX_REFUSED_ORIGINS = 100;
 const CONTROL_BACKLOG_BYTES = 1_048_576;
 /** A page with more unread bytes than this is not sent another frame. */
@@ -67,7 +67,7 @@ export class Bridge {
   readonly #now: () => number;
   readonly roster: RobotRoster;
   readonly #refusedOrigins = new Set<string>();
-  readonly #tick: NodeJS.Timeout;
+  readonly #timer: NodeJS.Timeout;
   readonly #announcer = new PageAnnouncer();
   /** A reference signaling service reports changes only to the newest client, so pages may ask for the list again. */
   readonly #refreshes = new TokenBucket({ perSecond: 1, burst: 2 });
@@ -93,7 +93,7 @@ export class Bridge {
         onRobotFailed: (robot, detail) => log.warn({ robot, detail }, 'robot failed'),
       },
     );
-    this.#tick = setInterval(() => this.roster.tick(now()), TICK_MS);
+    this.#timer = setInterval(() => this.roster.expire(now()), EXPIRE_EVERY_MS);
     this.#url = options.signaling;
     this.#line = this.#openLine();
   }
@@ -144,7 +144,7 @@ export class Bridge {
 
   async close(): Promise<void> {
     this.#line.close();
-    clearInterval(this.#tick);
+    clearInterval(this.#timer);
     this.roster.close();
     // If a port was taken, the later ones were never opened.
     for (const server of [this.#control, this.#telemetry, this.#streaming] as (

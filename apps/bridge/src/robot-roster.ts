@@ -131,8 +131,8 @@ export class RobotRoster {
     }
   }
 
-  /** Call this a few times a second. */
-  tick(nowMs: number): void {
+  /** Drops orphans that have gone silent. Call this a few times a second. */
+  expire(nowMs: number): void {
     for (const [id, { orphan, connection }] of [...this.#robots]) {
       if (orphan && !(connection.connected && nowMs - connection.lastPacketMs < ORPHAN_SILENCE_MS))
         this.#remove(id);

@@ -39,7 +39,7 @@ export function control(
   initial: Readonly<Record<Direction, LinkProfile>>,
 ): ControlMessage {
   const message = controlSchema.parse(data);
-  link.tick();
+  link.advance();
   const nowMs = monotonicMs();
   if (message.type === 'reset') {
     for (const way of directions) link.models[way].setProfile(initial[way], nowMs);
@@ -54,7 +54,7 @@ export function control(
     else if (message.type === 'blackhole') model.blackhole(message.active, nowMs);
     else model.setProfile(patched(model.profile, message), message.atMs ?? nowMs);
   }
-  link.tick();
+  link.advance();
   return message;
 }
 

@@ -32,7 +32,7 @@ await runProgram(program, async (context) => {
     },
   });
   shutdown.onClose('link', () => {
-    link.tick();
+    link.advance();
     link.close();
     return file?.close();
   });

@@ -67,10 +67,10 @@ export class DriveCore {
     });
   }
 
-  /** Call this every 25 ms. */
-  tick(): void {
-    this.driving.tick();
-    this.host.tick();
-    this.paths.tick();
+  /** Acts on what the time that has passed changes. Call this every 25 ms. */
+  update(): void {
+    this.driving.update();
+    this.host.checkLocalRelease();
+    this.paths.update();
   }
 }

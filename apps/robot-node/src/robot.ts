@@ -31,7 +31,7 @@ import type { SessionRecording } from './tell/session-recording.ts';
 import type { TelemetryBoard } from './tell/telemetry-board.ts';
 import { TelemetrySender } from './tell/telemetry-sender.ts';
 
-const TICK_MS = 25;
+const UPDATE_EVERY_MS = 25;
 
 /** The complete robot: a base, a velocity sink, sensors, operators, and one guard over the wheels. */
 export class Robot {
@@ -57,7 +57,7 @@ export class Robot {
   readonly #core: DriveCore;
   readonly #board: TelemetryBoard;
   readonly #reports: RobotReports;
-  readonly #ticking: NodeJS.Timeout;
+  readonly #updating: NodeJS.Timeout;
   #state: TimedBaseState | null = null;
   /** When the first sensor's capture thread last gave a sign of life, ms on the robot's clock. */
   #captureSeenMs: number | null = null;
@@ -93,7 +93,7 @@ export class Robot {
       statisticsFile: options.statisticsFile,
       now: monotonicMs,
     });
-    this.#ticking = setInterval(() => this.#tick(), TICK_MS);
+    this.#updating = setInterval(() => this.#update(), UPDATE_EVERY_MS);
   }
 
   /** Opens the sources and connects to the signaling service. @throws {CaptureError} if a source cannot be opened */
@@ -239,7 +239,7 @@ export class Robot {
     if (isAsked) this.driving.estop.end();
     this.drive.guard.latchEstop('robot');
     this.drive.halt();
-    clearInterval(this.#ticking);
+    clearInterval(this.#updating);
     const reported = this.#reports.close();
     this.sessions.close();
     this.reference?.close();
@@ -271,10 +271,10 @@ export class Robot {
     this.streams.budgets.update();
   }
 
-  #tick(): void {
-    this.#core.tick();
-    this.sessions.tick();
-    this.reference?.tick();
-    this.streams.tick();
+  #update(): void {
+    this.#core.update();
+    this.sessions.update();
+    this.reference?.update();
+    this.streams.update();
   }
 }

@@ -17,7 +17,7 @@ export class Heartbeat {
   readonly #slots: Set<Pulse>[] = Array.from({ length: SLOTS }, () => new Set());
   readonly #timer: NodeJS.Timeout;
   #next = 0;
-  #tick = 0;
+  #beats = 0;
 
   constructor(intervalMs: number) {
     this.#timer = setInterval(() => this.beat(), intervalMs / SLOTS);
@@ -33,7 +33,7 @@ export class Heartbeat {
 
   /** Processes one slot. */
   beat(): void {
-    for (const member of this.#slots[this.#tick++ % SLOTS]!) {
+    for (const member of this.#slots[this.#beats++ % SLOTS]!) {
       if (!member.alive) {
         member.dead();
         continue;

@@ -90,8 +90,8 @@ export class GccController implements RateController {
     this.#receiverLimit = Math.max(bitsPerSecond, 0);
   }
 
-  onTick(nowMs: number): void {
-    this.#probe.onTick(nowMs, this.#roundTrip);
+  update(nowMs: number): void {
+    this.#probe.expire(nowMs, this.#roundTrip);
     if (this.#probe.busy) return;
     const rate = this.#search.due(this.#most, nowMs);
     if (rate > 0) this.#probe.ask(rate, StartProbes.bytes(rate), nowMs);

@@ -5,7 +5,7 @@ import { RecentWorst } from '@farpoint/timing';
  * it from running keeps it from reading the operator's hand as well. No clock here.
  */
 export class WorstGap {
-  #tickMs: number | null = null;
+  #calledMs: number | null = null;
   readonly #gaps = new RecentWorst();
 
   /**
@@ -14,8 +14,8 @@ export class WorstGap {
    * @param nowMs `performance.now()`
    */
   tick(nowMs: number): void {
-    if (this.#tickMs !== null) this.#gaps.add(nowMs - this.#tickMs, nowMs);
-    this.#tickMs = nowMs;
+    if (this.#calledMs !== null) this.#gaps.add(nowMs - this.#calledMs, nowMs);
+    this.#calledMs = nowMs;
   }
 
   /**
@@ -29,7 +29,7 @@ export class WorstGap {
 
   /** The page was hidden: its timers rest. */
   pause(): void {
-    if (this.#tickMs !== null) this.#gaps.reset(this.#tickMs);
-    this.#tickMs = null;
+    if (this.#calledMs !== null) this.#gaps.reset(this.#calledMs);
+    this.#calledMs = null;
   }
 }

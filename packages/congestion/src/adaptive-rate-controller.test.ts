@@ -279,7 +279,7 @@ describe('decisions', () => {
     let sequence = 0;
     let sent = 0;
     for (let t = 0; t < 3000; t += 1) {
-      if (t % 25 === 0) controller.onTick(t);
+      if (t % 25 === 0) controller.update(t);
       const { bytesInFlight, congestionWindowBytes } = controller.decision(t);
       if (bytesInFlight >= congestionWindowBytes) continue;
       controller.onPacketSent(sequence++ & 0xffff, 1250, t);
@@ -293,7 +293,7 @@ describe('decisions', () => {
   test('a train fits into the window', () => {
     const controller = new AdaptiveRateController({ startBitsPerSecond: 200_000 });
     controller.onPacketSent(0, 7000, 0);
-    controller.onTick(25);
+    controller.update(25);
     const d = controller.decision(25);
     expect(d.bytesInFlight + d.probe!.bytes).toBeLessThan(d.congestionWindowBytes + 1250);
   });
@@ -331,7 +331,7 @@ describe('decisions', () => {
             now += gap;
           }
           controller.onFeedback(results, now);
-          controller.onTick(now);
+          controller.update(now);
           const d = controller.decision(now);
           expect(d.targetBitsPerSecond).toBeGreaterThanOrEqual(2e5);
           expect(d.targetBitsPerSecond).toBeLessThanOrEqual(5e7);

@@ -118,9 +118,9 @@ export class AdaptiveRateController implements RateController {
     this.#receiverLimit = Math.max(bitsPerSecond, 0);
   }
 
-  onTick(nowMs: number): void {
+  update(nowMs: number): void {
     const { feedbackIntervalMs, baseRttMs } = this.#path;
-    const unsent = this.#probe.onTick(nowMs, baseRttMs);
+    const unsent = this.#probe.expire(nowMs, baseRttMs);
     if (unsent && this.#probesPace) this.#frame.onUnsent(nowMs);
     else if (unsent) this.#plan.onIgnored();
     if (this.#state !== 'silent') {
@@ -134,7 +134,7 @@ export class AdaptiveRateController implements RateController {
       this.#frame.onFull(nowMs);
       this.#probe.cancel();
     }
-    this.#silence.onTick(this.#flight.bytes, nowMs);
+    this.#silence.trickle(this.#flight.bytes, nowMs);
   }
 
   targetBitsPerSecond(_nowMs: number): number {

@@ -26,7 +26,7 @@ function run(fromMs: number, seconds: number, loss: number): number {
     for (let i = 0; i < 50; i++) controller.onPacketSent(i, 1244, t);
     controller.onFeedback(results(Math.round(50 * (1 - loss)), Math.round(50 * loss)), t);
   }
-  controller.onTick(untilMs);
+  controller.update(untilMs);
   return untilMs;
 }
 
@@ -98,7 +98,7 @@ describe('without transport-wide feedback', () => {
     controller.onReceiverReport({ packetsReceived: 1000, packetsLost: 100 }, 0);
     controller.onReceiverReport({ packetsReceived: 2000, packetsLost: 100 }, 400);
     controller.onReceiverReport({ packetsReceived: 1100, packetsLost: 900 }, 1000);
-    controller.onTick(1001);
+    controller.update(1001);
     expect(controller.targetBitsPerSecond(0)).toBe(40 * MBIT);
   });
 
@@ -115,18 +115,18 @@ describe('silence', () => {
   test('of a receiver that has answered before counts as loss', () => {
     let t = run(0, 1, 0);
     for (const end = t + 1000; t < end; t += 10) controller.onPacketSent(0, 1244, t);
-    controller.onTick(t);
+    controller.update(t);
     expect(controller.targetBitsPerSecond(t)).toBe(20 * MBIT);
   });
 
   test('of a receiver that never answered, or while nothing is sent, means nothing', () => {
     for (let t = 0; t < 3000; t += 10) {
       controller.onPacketSent(0, 1244, t);
-      controller.onTick(t);
+      controller.update(t);
     }
     expect(controller.targetBitsPerSecond(0)).toBe(40 * MBIT);
     const t = run(3000, 2, 0);
-    for (let later = t; later < t + 10_000; later += 25) controller.onTick(later);
+    for (let later = t; later < t + 10_000; later += 25) controller.update(later);
     expect(controller.targetBitsPerSecond(0)).toBe(40 * MBIT);
   });
 });
@@ -134,7 +134,7 @@ describe('silence', () => {
 test('ignores the loss fraction of few packets', () => {
   controller.onPacketSent(0, 1244, 0);
   controller.onFeedback(results(5, 5), 500);
-  controller.onTick(1000);
+  controller.update(1000);
   expect(controller.targetBitsPerSecond(0)).toBe(40 * MBIT);
 });
 
@@ -164,7 +164,7 @@ test('stays between floor and configured rate, never above the receiver’s limi
           controller.onReceiverLimit(received, t);
           limit = Math.max(received, 0);
         }
-        controller.onTick(t);
+        controller.update(t);
         const target = controller.targetBitsPerSecond(t);
         expect(target).toBeLessThanOrEqual(Math.min(40 * MBIT, limit));
         expect(target).toBeGreaterThanOrEqual(Math.min(MBIT, limit));

@@ -69,7 +69,7 @@ export class FixedRateController implements RateController {
       if (arrivalUs === null) this.#feedback.lost++;
       else this.#feedback.received++;
     }
-    this.onTick(nowMs);
+    this.update(nowMs);
   }
 
   onReceiverReport(report: ReceiverSums, nowMs: number): void {
@@ -79,14 +79,14 @@ export class FixedRateController implements RateController {
     this.#sums = { packetsReceived: report.packetsReceived, packetsLost: report.packetsLost };
     this.#sumsAtStart ??= this.#sums;
     this.#reportInInterval = true;
-    this.onTick(nowMs);
+    this.update(nowMs);
   }
 
   onReceiverLimit(bitsPerSecond: number, _nowMs: number): void {
     this.#receiverLimit = Math.max(bitsPerSecond, 0);
   }
 
-  onTick(nowMs: number): void {
+  update(nowMs: number): void {
     if (this.#intervalStartMs === null || nowMs - this.#intervalStartMs < this.#intervalMs) return;
     const loss = this.#lossFraction();
     if (loss !== null) {

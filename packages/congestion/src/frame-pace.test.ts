@@ -60,8 +60,8 @@ describe('on a path', () => {
   function run(scenario: Partial<Scenario>) {
     const decisions: (RateDecision & { atMs: number })[] = [];
     class Watched extends AdaptiveRateController {
-      override onTick(nowMs: number): void {
-        super.onTick(nowMs);
+      override update(nowMs: number): void {
+        super.update(nowMs);
         decisions.push({ ...this.decision(nowMs), atMs: nowMs });
       }
     }

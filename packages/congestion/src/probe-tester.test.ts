@@ -37,8 +37,8 @@ test('a train that is spread out shows the rate of the link', () => {
 test('a train that nobody sends is given up', () => {
   const tester = new ProbeTester();
   tester.ask(10e6, 12_500, 0);
-  expect(tester.onTick(300, 50)).toBe(false);
+  expect(tester.expire(300, 50)).toBe(false);
   expect(tester.busy).toBe(true);
-  expect(tester.onTick(600, 50)).toBe(true);
+  expect(tester.expire(600, 50)).toBe(true);
   expect(tester.busy).toBe(false);
 });

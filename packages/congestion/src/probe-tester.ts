@@ -57,8 +57,8 @@ export class ProbeTester {
     this.#sentBytes += bytes;
   }
 
-  /** @returns whether a train is given up because nobody began to send it */
-  onTick(nowMs: number, roundTripMs: number): boolean {
+  /** Gives up a train that takes too long. @returns whether it is one that nobody began to send */
+  expire(nowMs: number, roundTripMs: number): boolean {
     if (this.#request === null) return false;
     const since = this.#sentBytes > 0 ? this.#sentFirstMs : this.#askedMs;
     if (nowMs - since <= PATIENCE_MS + 2 * roundTripMs) return false;

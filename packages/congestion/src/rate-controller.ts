@@ -2,7 +2,7 @@ import type { PacketResult } from '@farpoint/rtp';
 
 /**
  * Interface of all rate controllers. Inputs: when each packet was sent and its size, when it arrived or that it did
- * not, the receiver's own limit, and a regular tick. One controller serves one operator's path.
+ * not, the receiver's own limit, and the time. One controller serves one operator's path.
  *
  * Times are the robot's monotonic clock in ms unless stated otherwise; sizes are bytes on the wire, including IP and
  * UDP.
@@ -20,8 +20,8 @@ export interface RateController {
   onReceiverReport(report: ReceiverSums, nowMs: number): void;
   /** The receiver's limit; valid until the next one. */
   onReceiverLimit(bitsPerSecond: number, nowMs: number): void;
-  /** Call about every 25 ms. */
-  onTick(nowMs: number): void;
+  /** Decides anew for the time that has passed. Call about every 25 ms. */
+  update(nowMs: number): void;
   /** The rate at which all streams of this path together may send now. */
   targetBitsPerSecond(nowMs: number): number;
   /** What the planner and the pacer need now. Returns one object, which the next call overwrites. */
@@ -40,7 +40,7 @@ export interface ReceiverSums {
   rttMs?: number | null | undefined;
 }
 
-/** What may be sent. Ask again before each frame, after each feedback message and on each tick. */
+/** What may be sent. Ask again before each frame, after each feedback message and after each update. */
 export interface RateDecision {
   /** The rate to plan media for, over all streams of the path, bit/s. */
   targetBitsPerSecond: number;

@@ -71,14 +71,14 @@ describe('ReportRateController', () => {
     const controller = new ReportRateController();
     for (let ms = 0; ms < 2500; ms += 25) {
       send(controller, ms);
-      controller.onTick(ms);
+      controller.update(ms);
     }
     expect(controller.snapshot(2500)).toMatchObject({ state: 'no-reports', estimateBitsPerSecond: 500_000 });
     controller.onReceiverReport({ packetsReceived: 50, packetsLost: 0 }, 2500);
     expect(controller.snapshot(2500).state).toBe('reports');
     for (let ms = 2525; ms < 9000; ms += 25) {
       send(controller, ms);
-      controller.onTick(ms);
+      controller.update(ms);
     }
     expect(controller.snapshot(9000)).toMatchObject({ state: 'silent', estimateBitsPerSecond: 150_000 });
     controller.onReceiverReport({ packetsReceived: 60, packetsLost: 0 }, 9000);
@@ -89,9 +89,9 @@ describe('ReportRateController', () => {
     const controller = new ReportRateController();
     send(controller, 0);
     controller.onReceiverReport({ packetsReceived: 1, packetsLost: 0 }, 10);
-    for (let ms = 25; ms < 20_000; ms += 25) controller.onTick(ms);
+    for (let ms = 25; ms < 20_000; ms += 25) controller.update(ms);
     send(controller, 20_000);
-    controller.onTick(20_025);
+    controller.update(20_025);
     expect(controller.snapshot(20_025).state).toBe('reports');
   });
 
@@ -119,7 +119,7 @@ describe('ReportRateController', () => {
           ms += 300;
           send(controller, ms);
           controller.onReceiverReport(report, ms);
-          controller.onTick(ms);
+          controller.update(ms);
           const target = controller.targetBitsPerSecond(ms);
           expect(target).toBeGreaterThanOrEqual(150_000);
           expect(target).toBeLessThanOrEqual(50e6);

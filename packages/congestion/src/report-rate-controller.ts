@@ -129,7 +129,7 @@ export class ReportRateController implements RateController {
     this.#receiverLimit = Math.max(bitsPerSecond, 0);
   }
 
-  onTick(nowMs: number): void {
+  update(nowMs: number): void {
     if (Number.isNaN(this.#firstSentMs) || this.#state === 'silent') return;
     if (this.#state === 'no-reports') {
       if (nowMs - this.#firstSentMs > BLIND_AFTER_MS) {

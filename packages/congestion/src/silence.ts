@@ -25,7 +25,8 @@ export class Silence {
     this.#trickleMs = Number.NEGATIVE_INFINITY;
   }
 
-  onTick(inFlightBytes: number, nowMs: number): void {
+  /** Opens the window for a trickle when one is due. */
+  trickle(inFlightBytes: number, nowMs: number): void {
     if (nowMs - this.#trickleMs < TRICKLE_MS) return;
     this.#trickleMs = nowMs;
     this.#windowBytes = inFlightBytes + TRICKLE_BYTES;

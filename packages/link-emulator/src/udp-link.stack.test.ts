@@ -129,7 +129,7 @@ test('a new profile that ends an outage releases what waits', async () => {
   await robot.until(1);
   expect(operator.received).toEqual([]);
   link.models.up.setProfile(idealProfile, 0);
-  link.tick();
+  link.advance();
   await operator.until(2);
   expect(operator.received.map(({ text }) => text)).toEqual(['held', 'held too']);
 });

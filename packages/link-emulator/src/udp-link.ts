@@ -130,8 +130,8 @@ export class UdpLink {
     return false;
   }
 
-  /** Brings the models up to date, and sends what is due; call after changing one of them. */
-  tick(): void {
+  /** Advances the models, and sends what is due; call after changing one of them. */
+  advance(): void {
     if (this.#closed) return;
     this.#nowMs = monotonicMs();
     this.models.up.advance(this.#nowMs);
@@ -226,7 +226,7 @@ export class UdpLink {
 
   readonly #onTimer = (): void => {
     this.#timer = null;
-    this.tick();
+    this.advance();
   };
 
   #sweep(): void {

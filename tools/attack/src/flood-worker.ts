@@ -11,7 +11,7 @@ export interface FloodOrder {
   datagrams: readonly Uint8Array[];
 }
 
-const TICK_MS = 2;
+const SEND_EVERY_MS = 2;
 
 if (parentPort !== null) {
   const { host, port, perSecond, datagrams } = workerData as FloodOrder;
@@ -24,7 +24,7 @@ if (parentPort !== null) {
     const timer = setInterval(() => {
       const due = ((performance.now() - begun) / 1000) * perSecond;
       while (sent < due) socket.send(datagrams[sent++ % datagrams.length] as Uint8Array);
-    }, TICK_MS);
+    }, SEND_EVERY_MS);
     parentPort?.once('message', () => {
       clearInterval(timer);
       parentPort?.postMessage(sent / ((performance.now() - begun) / 1000));

@@ -3,7 +3,7 @@ import { expect, test } from 'vitest';
 import { Scenario } from './scenario.ts';
 
 const WARNING_MS = 60_000;
-/** A tick of the robot, and the way to the operator. */
+/** An update of the robot, and the way to the operator. */
 const SOON_MS = 31;
 
 test('one that lets its holder watch moves nothing, takes no lease, and still stops the robot', () => {

@@ -57,7 +57,7 @@ export class OperatorLink extends KeptLink {
   /** The machine loses its power: nothing is said. */
   vanish(): void {
     this.#gone = true;
-    this.stopTicking();
+    this.stopUpdating();
     this.#connection?.vanish();
   }
 

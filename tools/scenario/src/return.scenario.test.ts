@@ -52,7 +52,7 @@ describe('a robot that has lost its operators', () => {
     const nowMs = () => scenario.robot.core.host.now();
     scenario.until(() => returns()?.begun === 1, 20_000);
     expect(nowMs() - heardMs).toBeGreaterThanOrEqual(BEGINS_MS);
-    // A tick of the robot, and what was under way when the operator vanished.
+    // An update of the robot, and what was under way when the operator vanished.
     expect(nowMs() - heardMs).toBeLessThanOrEqual(BEGINS_MS + 50);
     expect(x()).toBe(far);
     scenario.until(() => returns()?.ends.get('track-end') === 1, 60_000);

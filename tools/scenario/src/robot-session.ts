@@ -93,7 +93,7 @@ export class RobotSession implements KeptOperator, HostedOperator {
     this.#connection?.toOperator('telemetry', text);
   }
 
-  tick(): void {
+  update(): void {
     this.messages.flushRejections();
   }
 

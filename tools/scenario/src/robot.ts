@@ -21,7 +21,7 @@ import { RobotSession } from './robot-session.ts';
 import type { Signaling } from './signaling.ts';
 import { WheelRecord } from './wheel-record.ts';
 
-const [TICK_MS, BASE_MS, TELEMETRY_MS, CAMERA_MS] = [25, 10, 50, 33];
+const [UPDATE_EVERY_MS, BASE_MS, TELEMETRY_MS, CAMERA_MS] = [25, 10, 50, 33];
 const ID = 'robot';
 
 export interface RobotParts {
@@ -114,7 +114,7 @@ export class ScenarioRobot {
       sight?.look(this.base, now);
     };
     this.#timers = [
-      setInterval(() => this.#tick(), TICK_MS),
+      setInterval(() => this.#update(), UPDATE_EVERY_MS),
       setInterval(advance, BASE_MS),
       setInterval(() => this.#tell(realTime), TELEMETRY_MS),
       setInterval(() => this.#capture(), CAMERA_MS),
@@ -166,9 +166,9 @@ export class ScenarioRobot {
     this.core.host.drive.close();
   }
 
-  #tick(): void {
-    this.core.tick();
-    this.#access.tick(this.sessions, this.core.host.drive.guard.leaseHolder);
+  #update(): void {
+    this.core.update();
+    this.#access.enforce(this.sessions, this.core.host.drive.guard.leaseHolder);
   }
 
   #welcome({ messages, resumeKey }: RobotSession): void {

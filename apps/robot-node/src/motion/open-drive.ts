@@ -102,8 +102,8 @@ export interface Drive {
   fix: FixPosition | null;
   /** What drives the robot back by itself; `null`: nothing. */
   returns: ReturnStation | null;
-  /** Call this every 25 ms. */
-  tick: () => void;
+  /** Brings obstacles and return up to date. Call this every 25 ms. */
+  update: () => void;
 }
 
 /**
@@ -165,7 +165,7 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
     ),
     fix: fence?.fix ?? null,
     returns,
-    tick: () => {
+    update: () => {
       obstacles.update(odometry, guard.leaseHolder !== null || returns?.drive.isActive === true);
       if (returns?.update(odometry, newestHeardMs(heard())) === true) station.apply();
     },

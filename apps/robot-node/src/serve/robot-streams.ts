@@ -119,11 +119,11 @@ export class RobotStreams {
     sendLoop.onWork = (ms) => counters.stageSeconds.add('send', ms / 1000);
   }
 
-  /** Call this every 25 ms. */
-  tick(): void {
-    this.broadcast?.tick();
-    this.cameras.tick(monotonicMs());
-    this.sound.tick();
+  /** Updates every stream, and sends what is due. Call this every 25 ms. */
+  update(): void {
+    this.broadcast?.update();
+    this.cameras.update(monotonicMs());
+    this.sound.update();
     this.budgets.update();
     this.sendLoop.run();
   }

@@ -12,7 +12,7 @@ import type { OccupancyMap } from '@farpoint/ros';
 import { beforeEach, describe, expect, it } from 'vitest';
 import { NavigationBoard, type PathWidth } from './navigation-board.ts';
 
-const TICK_MS = 50;
+const STEP_MS = 50;
 
 /** @param state of a cell, by its place in the list */
 function mapOf(width: number, height: number, state: (at: number) => number): OccupancyMap {
@@ -28,7 +28,7 @@ class Operator {
   bytes = 0;
 
   hear(board: NavigationBoard, width: PathWidth, fromMs: number, toMs: number): void {
-    const step = width === 'wide' ? TICK_MS : 4 * TICK_MS;
+    const step = width === 'wide' ? STEP_MS : 4 * STEP_MS;
     for (let nowMs = fromMs; nowMs < toMs; nowMs += step)
       for (const message of board.next(this, width, nowMs)) this.#take(message);
   }

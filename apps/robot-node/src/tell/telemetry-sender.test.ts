@@ -8,7 +8,7 @@ import type { OperatorSession } from '../serve/session/operator-session.ts';
 import { TelemetryBoard } from './telemetry-board.ts';
 import { TelemetrySender } from './telemetry-sender.ts';
 
-const TICK_MS = 50;
+const STEP_MS = 50;
 const STREAM = {
   ...{ frameNumber: 0, framesPerSecond: 0, pointsPerFrame: 0, validPoints: 0 },
   ...{ bitsPerSecond: 0, targetBitsPerSecond: 0, droppedFrames: 0 },
@@ -75,8 +75,8 @@ function secondAt(
     0,
   );
   for (let i = 0; i < 20; i++) {
-    board.sample('/a', [i / 5], i * TICK_MS);
-    sender.send({ ...state, battery: null, contact: false }, i * TICK_MS);
+    board.sample('/a', [i / 5], i * STEP_MS);
+    sender.send({ ...state, battery: null, contact: false }, i * STEP_MS);
   }
   const messages = heard.map((text) => decodeJson(telemetryCodec, text));
   return {

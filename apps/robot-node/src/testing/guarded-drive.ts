@@ -47,12 +47,12 @@ export interface GuardedStage {
   close(): void;
 }
 
-const TICK_S = 0.01;
-/** Ticks from one cloud to the next, and from its capture until the guard has it. */
-const CLOUD_TICKS = 5;
-const DELAY_TICKS = 3;
-/** Ticks between two commands. */
-const COMMAND_TICKS = 2;
+const STEP_S = 0.01;
+/** Steps from one cloud to the next, and from its capture until the guard has it. */
+const CLOUD_STEPS = 5;
+const DELAY_STEPS = 3;
+/** Steps between two commands. */
+const COMMAND_STEPS = 2;
 /** Stopped for so long, the driver turns on the spot, s. */
 const PATIENCE_S = 1;
 /** More than this free on the way, beyond the guard's margin, and a stop there is false: metres, s. */
@@ -144,18 +144,18 @@ class GuardedCamera implements Disposable {
     this.#reader = new SharedGridReader(memory, GRID_SHAPE);
   }
 
-  capture(capturedAtMs: number, tick: number, seen: SeenThings): void {
+  capture(capturedAtMs: number, step: number, seen: SeenThings): void {
     const { depth, cameraPose } = this.#camera.render();
     const { camera, width } = this.#camera.description;
     if (camera !== null) seen.take(depth, width, camera, cameraPose, capturedAtMs);
     this.#clouds.take({ form: 'images', depth, colour: NO_COLOUR, cameraPose, capturedAtMs });
     const grid = this.#reader.read();
-    if (grid !== null) this.#waiting = { grid, due: tick + DELAY_TICKS };
+    if (grid !== null) this.#waiting = { grid, due: step + DELAY_STEPS };
   }
 
   /** The grid that has reached the guard by now, once. */
-  arrived(tick: number): SensorGrid | null {
-    if (this.#waiting === null || tick < this.#waiting.due) return null;
+  arrived(step: number): SensorGrid | null {
+    if (this.#waiting === null || step < this.#waiting.due) return null;
     const { grid } = this.#waiting;
     this.#waiting = null;
     return grid;
@@ -185,30 +185,30 @@ export function guardedDrive(codec: Codec, stage: GuardedStage, options: Guarded
   };
   const wish = zeroTwist();
   const command = zeroTwist();
-  const phase = random() * CLOUD_TICKS;
+  const phase = random() * CLOUD_STEPS;
   let curvature = 0;
   let [stoppedS, turningS, turn] = [0, 0, 1];
   let touching = false;
-  const ticks = Math.round(seconds / TICK_S);
-  for (let tick = 0; tick < ticks && run.fellAtS === null; tick++) {
-    const nowMs = tick * TICK_S * 1000;
+  const steps = Math.round(seconds / STEP_S);
+  for (let step = 0; step < steps && run.fellAtS === null; step++) {
+    const nowMs = step * STEP_S * 1000;
     cameras.forEach((camera, sensor) => {
-      if (Math.floor(tick + phase) % CLOUD_TICKS === 0) camera.capture(nowMs, tick, seen);
-      const grid = camera.arrived(tick);
+      if (Math.floor(step + phase) % CLOUD_STEPS === 0) camera.capture(nowMs, step, seen);
+      const grid = camera.arrived(step);
       if (grid !== null) guard.see(sensor, grid);
     });
-    if (tick % COMMAND_TICKS === 0) {
+    if (step % COMMAND_STEPS === 0) {
       const { pose, yaw, twist } = base.state;
       guard.moved({ x: pose.position.x, y: pose.position.y, yaw }, twist, nowMs);
-      if (tick % 100 === 0) curvature = random() < 0.5 ? 0 : (random() * 2 - 1) * 1.2;
-      turningS = Math.max(0, turningS - TICK_S * COMMAND_TICKS);
+      if (step % 100 === 0) curvature = random() < 0.5 ? 0 : (random() * 2 - 1) * 1.2;
+      turningS = Math.max(0, turningS - STEP_S * COMMAND_STEPS);
       wish.linear.x = turningS > 0 ? 0 : speed;
       wish.angular.z = turningS > 0 ? turn : curvature * speed;
       const began = times?.now() ?? 0;
       const { factor } = asked.bound(wish, nowMs);
       times?.boundMs.push(times.now() - began);
       const stopped = factor === 0;
-      stoppedS = stopped ? stoppedS + TICK_S * COMMAND_TICKS : 0;
+      stoppedS = stopped ? stoppedS + STEP_S * COMMAND_STEPS : 0;
       if (stoppedS > PATIENCE_S) {
         [stoppedS, turningS, turn] = [0, 0.5 + 1.5 * random(), random() < 0.5 ? 1 : -1];
       }
@@ -223,18 +223,18 @@ export function guardedDrive(codec: Codec, stage: GuardedStage, options: Guarded
       base.setCommand(command);
     }
     const before = base.state.twist.linear.x;
-    base.step(TICK_S);
+    base.step(STEP_S);
     const touched = stage.touched();
     const { x, y } = base.state.pose.position;
     if (touched && !touching) {
       const lastMs = stage.isStill(x, y) ? Number.NEGATIVE_INFINITY : nowMs - MOVED_ON_MS;
       const isKnown = nowMs - seen.thingSinceMs({ x, y }, radius, lastMs) > KNOWN_MS;
-      (isKnown ? run.contacts : run.unseenContacts).push({ atS: tick * TICK_S, speed: before });
+      (isKnown ? run.contacts : run.unseenContacts).push({ atS: step * STEP_S, speed: before });
     }
     touching = touched;
     run.nearestEdgeM = Math.min(run.nearestEdgeM, stage.edgeAt(x, y));
     if (run.nearestEdgeM < 0) {
-      run.fellAtS = tick * TICK_S;
+      run.fellAtS = step * STEP_S;
       run.fellUnseen = !(nowMs - seen.holeSinceMs({ x, y }, radius) > KNOWN_MS);
     }
   }

@@ -64,7 +64,7 @@ export interface WallDriven {
 }
 
 const RADIUS = 0.25;
-const TICK_MS = 10;
+const STEP_MS = 10;
 const CLOUD_MS = 50;
 const BAND = { clearanceM: 0.04, heightM: 1.1, dropM: 0.15 };
 /** The robot's edge is so far from the wall at the start, m. */
@@ -153,7 +153,7 @@ export function driveAtWall(codec: Codec, drive: WallDrive): WallDriven {
     fastestMps: 0,
   };
   let [x, now] = [0, 0];
-  for (let ms = 0; ms < seconds * 1000 && driven.contactMps === null; ms += TICK_MS) {
+  for (let ms = 0; ms < seconds * 1000 && driven.contactMps === null; ms += STEP_MS) {
     const nowMs = BEGAN_MS + ms;
     setNow(nowMs);
     source.onReading = (reading) => opened?.fix?.take(reading, nowMs);
@@ -173,9 +173,9 @@ export function driveAtWall(codec: Codec, drive: WallDrive): WallDriven {
     const urgent = bounds.some((bound) => bound.urgent);
     const target = asked.linear.x * Math.min(...bounds.map(({ factor }) => factor));
     believed.told({ ...zeroTwist(), linear: { x: target, y: 0, z: 0 } }, nowMs);
-    const most = ((urgent || Math.abs(target) < Math.abs(now) ? BRAKES : ACCELERATION) * TICK_MS) / 1000;
+    const most = ((urgent || Math.abs(target) < Math.abs(now) ? BRAKES : ACCELERATION) * STEP_MS) / 1000;
     now += Math.max(-most, Math.min(most, target - now));
-    x += (now * TICK_MS) / 1000;
+    x += (now * STEP_MS) / 1000;
     driven.gapM = Math.abs(wallX) - RADIUS - way * x;
     if (fenceM !== null) driven.outsideM = Math.max(driven.outsideM, Math.abs(x) + RADIUS - fenceM);
     driven.fastestMps = Math.max(driven.fastestMps, Math.abs(now));

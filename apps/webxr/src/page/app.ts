@@ -148,25 +148,25 @@ export class App {
     this.#show();
     setInterval(() => {
       const nowMs = performance.now();
-      this.frames.tick(nowMs);
+      this.frames.measureGap(nowMs);
       this.#inputs.poll(nowMs);
       const away = this.#handsAway();
-      this.#panels.estop.tick(nowMs, away);
+      this.#panels.estop.update(nowMs, away);
       const { driver } = this.client;
       driver.suspended = away || this.state.driving.role.value === 'watch';
-      if (this.#left.tick(this.vr.active.value ? this.vr.hidden : document.hidden, nowMs))
+      if (this.#left.decide(this.vr.active.value ? this.vr.hidden : document.hidden, nowMs))
         driver.letGo(nowMs);
       this.client.tick(performance.now());
       showRobotModel(this.client, this.stage, this.appearance);
       showDrivePath(this.client, this.stage);
       showNavigation(this.client, this.stage, this.appearance, nowMs);
-      this.near.tick(nowMs);
+      this.near.update(nowMs);
     }, DRIVE_TICK_MS);
     setInterval(() => {
       const nowMs = performance.now();
-      this.stats.tick(this.views.cloud, nowMs);
-      this.stats.remembered = this.views.remembered.tick(nowMs);
-      this.views.videoColour.tick(nowMs);
+      this.stats.update(this.views.cloud, nowMs);
+      this.stats.remembered = this.views.remembered.updateMap(nowMs);
+      this.views.videoColour.update(nowMs);
       this.views.videos.measure(nowMs);
       this.state.looking.value = this.vr.active.value || !document.hidden;
       this.state.sample();

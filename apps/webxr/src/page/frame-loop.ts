@@ -74,8 +74,8 @@ export class FrameLoop {
     this.#afterDrawing.push(act);
   }
 
-  /** Call this at each tick of the timer that reads the operator's hand. */
-  tick(nowMs: number): void {
+  /** Measures how late the page runs. Call this whenever the timer fires that reads the operator's hand. */
+  measureGap(nowMs: number): void {
     this.#gaps.tick(nowMs);
   }
 
@@ -122,7 +122,7 @@ export class FrameLoop {
     const { client, held, cloud, clouds, remembered, videos, settings, stage, stats, vr } = this.#parts;
     // Videos are shown beside the scene: they need not wait until it can be drawn again.
     const nowOnClockMs = performance.now();
-    videos.tick(nowOnClockMs);
+    videos.present(nowOnClockMs);
     held.tick(videos.shownMs, nowOnClockMs);
     const inVr = vr.active.peek();
     // In VR the headset's compositor sets the pace.

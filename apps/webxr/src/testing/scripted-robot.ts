@@ -71,7 +71,7 @@ export class ScriptedRobot implements LinkScript {
   /** The robot is listed by the service, which is there. */
   appear(link: ScriptedLink): void {
     this.#link = link;
-    this.#timer ??= setInterval(() => this.#tick(), TELEMETRY_MS);
+    this.#timer ??= setInterval(() => this.#advance(), TELEMETRY_MS);
     link.enterSignaling('ready');
     link.list([{ id: this.id, name: this.name }]);
   }
@@ -164,7 +164,7 @@ export class ScriptedRobot implements LinkScript {
     this.tell(this.estop);
   }
 
-  #tick(): void {
+  #advance(): void {
     const fresh = performance.now() - this.#commandMs < this.limits.watchdogMs;
     const wish = fresh && !this.estop.latched && this.lease.holder === 'you' ? this.#wish : null;
     this.velocity = { linear: wish?.linear.x ?? 0, angular: wish?.angular.z ?? 0 };

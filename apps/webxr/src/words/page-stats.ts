@@ -82,8 +82,8 @@ export class PageStatistics {
     this.#sparedFrames++;
   }
 
-  /** Call this a few times a second. */
-  tick(drawn: DrawnCounts, nowMs: number): void {
+  /** Updates the rates. Call this a few times a second. */
+  update(drawn: DrawnCounts, nowMs: number): void {
     this.#frames.update(drawn.frames, nowMs);
     this.#points.update(drawn.points, nowMs);
     this.#display.update(this.#displayFrames, nowMs);

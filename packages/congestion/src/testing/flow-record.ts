@@ -17,7 +17,7 @@ export class FlowRecord implements FlowListener {
   readonly packetMs: number[] = [];
   readonly queueMs: number[] = [];
   readonly ageMs: number[] = [];
-  /** Samples of the controller on every tick. */
+  /** Samples of the controller after every update. */
   readonly sampleMs: number[] = [];
   readonly target: number[] = [];
   readonly state: string[] = [];

@@ -47,7 +47,7 @@ interface SimFrame extends PacedFrame {
 
 const PACKET_BYTES = 1244;
 const FRAME_MS = 1000 / 30;
-const TICK_MS = 25;
+const UPDATE_EVERY_MS = 25;
 /** The most packets that the receiver remembers for feedback; older ones are never reported. */
 const RECEIVER_WINDOW = 1 << 15;
 
@@ -90,7 +90,7 @@ export class MediaFlow {
     this.#arrivals.fill(Number.NaN);
     this.#senderAt(this.#startMs, () => {
       this.#frame(this.#startMs);
-      this.#tick();
+      this.#update();
     });
     events.at(this.#startMs + this.#feedbackInterval(), () => this.#report());
   }
@@ -120,13 +120,13 @@ export class MediaFlow {
     this.#pump();
   }
 
-  #tick(): void {
+  #update(): void {
     const now = this.#events.nowMs;
     if (now >= this.#stopMs) return;
-    this.#controller.onTick(now);
+    this.#controller.update(now);
     this.record.sample(now, this.#controller);
     this.#pump();
-    this.#senderAt(now + TICK_MS, () => this.#tick());
+    this.#senderAt(now + UPDATE_EVERY_MS, () => this.#update());
   }
 
   #pump(): void {

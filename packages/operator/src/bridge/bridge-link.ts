@@ -9,7 +9,7 @@ import { BridgeSession, type BridgeSessionActions } from './bridge-session.ts';
 import type { BridgeAddress } from './bridge-settings.ts';
 import { BridgeSocket } from './bridge-socket.ts';
 
-const TICK_MS = 100;
+const CHECK_EVERY_MS = 100;
 
 export class BridgeLink implements RobotLink {
   sessionsOpened = 0;
@@ -60,7 +60,7 @@ export class BridgeLink implements RobotLink {
   start(): void {
     this.#control.start();
     this.#telemetry.start();
-    this.#timer = setInterval(() => this.#bridge.tick(performance.now()), TICK_MS);
+    this.#timer = setInterval(() => this.#bridge.checkSilence(performance.now()), CHECK_EVERY_MS);
   }
 
   close(): void {

@@ -122,7 +122,7 @@ describe('BridgeSession', () => {
     session.command(forward(0.4), 0);
     expect(said.at(-1)?.linear.x).toBe(0.4);
     // No points: the robot is told to stop, then nothing is sent.
-    session.tick(1001);
+    session.checkSilence(1001);
     expect(said.at(-1)?.linear.x).toBe(0);
     const { length } = said;
     session.command(forward(0.4), 1010);

@@ -154,7 +154,8 @@ export class BridgeSession {
     this.#actions.onPath(true);
   }
 
-  tick(nowMs: number): void {
+  /** Stops, and reports the path, once nothing is heard. */
+  checkSilence(nowMs: number): void {
     if (this.#phase === 'live' && this.#pathUp && nowMs - this.#heardMs > BLIND_AFTER_MS) {
       this.#pathUp = false;
       this.#sayStop();

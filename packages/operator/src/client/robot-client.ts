@@ -19,7 +19,7 @@ import { clientParts, openLink } from './client-parts.ts';
 import { type ClientParts, linkEvents } from './link-events.ts';
 import type { RobotEvents } from './robot-events.ts';
 
-const [TICK_MS, STATISTICS_MS] = [25, 250];
+const [UPDATE_EVERY_MS, STATISTICS_MS] = [25, 250];
 
 /**
  * An operator's connection to robots. Events report what robots send; methods send what the operator wants. Use
@@ -95,7 +95,7 @@ export class RobotClient {
   start(): void {
     if (this.#closed) return;
     this.link.start();
-    this.#timer ??= setInterval(() => this.tick(performance.now()), TICK_MS);
+    this.#timer ??= setInterval(() => this.tick(performance.now()), UPDATE_EVERY_MS);
   }
 
   /** Ends the session and frees everything. The client cannot be started again. */
@@ -276,7 +276,7 @@ export class RobotClient {
     this.#wish.lapse(nowMs);
     this.stops.tick(nowMs);
     this.driver.tick(nowMs);
-    this.#switch.tick(presentRobot(this.link, this.driver.holder), nowMs);
+    this.#switch.decide(presentRobot(this.link, this.driver.holder), nowMs);
     this.latency.tick(nowMs);
     if (nowMs < this.#statisticsDueMs) return;
     this.#statisticsDueMs = nowMs + STATISTICS_MS;

@@ -16,7 +16,7 @@ function leased(): CommandStream {
 function run(stream: CommandStream, fromMs: number, toMs: number, stepMs = 5): Command[] {
   const commands: Command[] = [];
   for (let now = fromMs; now < toMs; now += stepMs) {
-    const command = stream.tick(now);
+    const command = stream.due(now);
     if (command !== null) commands.push(command);
   }
   return commands;
@@ -39,7 +39,7 @@ describe('CommandStream', () => {
     stream.set('held', forward);
     run(stream, 0, 100);
     stream.set('open', forward);
-    const first = stream.tick(101);
+    const first = stream.due(101);
     expect(first?.deadMan).toBe(false);
     const rest = run(stream, 105, 2000);
     expect(rest).toHaveLength(STOP_REPEATS - 1);
@@ -60,9 +60,9 @@ describe('CommandStream', () => {
       expect(timeMs).toBeGreaterThan(100);
     }
     stream.set('held', forward, 1000);
-    expect(stream.tick(1001)).toMatchObject({ deadMan: true, twist: { linear: { x: 1 } } });
+    expect(stream.due(1001)).toMatchObject({ deadMan: true, twist: { linear: { x: 1 } } });
     stream.set('unread', forward, 1000);
-    stream.tick(1101);
+    stream.due(1101);
     stream.set('open', forward, null);
     expect(run(stream, 1102, 2000).map(({ deadMan, unread }) => [deadMan, unread])).toEqual(
       Array.from({ length: STOP_REPEATS }, () => [false, undefined]),
@@ -91,8 +91,8 @@ describe('CommandStream', () => {
     const stream = leased();
     stream.set('held', forward);
     run(stream, 0, 100);
-    expect(stream.tick(5000)).not.toBe(null);
-    expect(stream.tick(5001)).toBe(null);
+    expect(stream.due(5000)).not.toBe(null);
+    expect(stream.due(5001)).toBe(null);
   });
 
   test('a latency test is an extra command with the current wish', () => {
@@ -104,7 +104,7 @@ describe('CommandStream', () => {
       timeMs: 3,
     });
     stream.set('held', forward);
-    stream.tick(10);
+    stream.due(10);
     expect(stream.latencyTest(11, 8)).toMatchObject({
       sequence: 3,
       deadMan: true,
@@ -117,13 +117,13 @@ describe('CommandStream', () => {
   test('a new session begins with the grip released', () => {
     const stream = leased();
     stream.set('held', forward);
-    stream.tick(0);
+    stream.due(0);
     stream.reset();
     stream.setLimits(limits);
     stream.setLease('other');
-    expect(stream.tick(100)).toBe(null);
+    expect(stream.due(100)).toBe(null);
     stream.set('held', forward);
-    expect(stream.tick(200)?.sequence).toBe(1);
+    expect(stream.due(200)?.sequence).toBe(1);
   });
 
   test('motion is only requested while the grip is held', () => {
@@ -136,7 +136,7 @@ describe('CommandStream', () => {
         for (const { held, forward, left, ms } of steps) {
           stream.set(held ? 'held' : 'open', { forward, left });
           now += ms;
-          const command = stream.tick(now);
+          const command = stream.due(now);
           if (command === null) continue;
           expect(command.sequence).toBe(++last);
           expect(command.deadMan).toBe(held);

@@ -70,10 +70,10 @@ export class CommandStream {
   }
 
   /**
-   * Sets the state of the operator's hand. A change of the grip takes effect at the next {@link tick}, at any rate.
+   * Sets the state of the operator's hand. A changed grip takes effect at the next {@link due}, at any rate.
    *
    * @param wish while it is held
-   * @param readMs when the device was read, which becomes the commands' time; `null`: at the tick
+   * @param readMs when the device was read, which becomes the commands' time; `null`: as it is made
    */
   set(hand: Hand, wish: DriveWish, readMs: number | null = null): void {
     this.#readMs = readMs;
@@ -97,7 +97,7 @@ export class CommandStream {
   }
 
   /** The command due now, if any. */
-  tick(nowMs: number): Command | null {
+  due(nowMs: number): Command | null {
     if (!this.active || nowMs < this.#nextMs) return null;
     if (this.#limits === null || this.#lease === null) {
       // Without the lease commands would be rejected, and the robot stops by itself.
@@ -118,7 +118,7 @@ export class CommandStream {
    * Says that the hand is open, to a robot that it does not drive yet. The robot lets no hand drive that is not known to have
    * been open before.
    *
-   * @returns `null` before the robot has said its limits, and with the lease: then {@link tick} says it
+   * @returns `null` before the robot has said its limits, and with the lease: then {@link due} says it
    */
   openHand(nowMs: number): Command | null {
     if (this.#limits === null || this.#lease !== null || this.#hand !== 'open') return null;

@@ -119,30 +119,30 @@ describe('Driver', () => {
     });
     driver.onLimits({ maxLinear: 1, maxAngular: 1, watchdogMs: 150, maxCommandsPerSecond: 100 });
     driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
-    const ticks = (fromMs: number, toMs: number, reads: boolean) => {
+    const driveOn = (fromMs: number, toMs: number, reads: boolean) => {
       for (let now = fromMs; now < toMs; now += 25) {
-        // The last frame comes 14 ms before the tick.
+        // The last frame comes 14 ms before the command.
         if (reads) headset.readMs = now - 14;
         driver.tick(now);
       }
       return commands.splice(0);
     };
-    for (const { timeMs, twist } of ticks(1000, 2000, true)) {
+    for (const { timeMs, twist } of driveOn(1000, 2000, true)) {
       expect((timeMs - 1000 + 14) % 25).toBe(0);
       expect(twist.linear.x).toBe(1);
     }
-    const frozen = ticks(2000, 7000, false);
+    const frozen = driveOn(2000, 7000, false);
     const moving = frozen.filter(({ twist }) => twist.linear.x !== 0);
     expect(moving.map(({ timeMs }) => timeMs)).toEqual(moving.map(() => headset.readMs));
     expect(moving.length).toBeLessThanOrEqual(4);
     expect(frozen.slice(moving.length).map(({ deadMan }) => deadMan)).toEqual([false, false, false, false]);
     expect([losses, driver.lost, driver.input]).toEqual([['late-reading'], 'late-reading', null]);
     // The frames come back and the fist is still closed.
-    expect(ticks(7000, 9000, true)).toEqual([]);
+    expect(driveOn(7000, 9000, true)).toEqual([]);
     headset.held = false;
-    ticks(9000, 9025, true);
+    driveOn(9000, 9025, true);
     headset.held = true;
-    expect(ticks(9025, 9100, true).map(({ twist }) => twist.linear.x)).toEqual([1, 1, 1]);
+    expect(driveOn(9025, 9100, true).map(({ twist }) => twist.linear.x)).toEqual([1, 1, 1]);
     expect(driver.lost).toBe(null);
   });
 
@@ -156,25 +156,25 @@ describe('Driver', () => {
     });
     driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
     expect(hand.held).toBe(false);
-    const tick = (nowMs: number, reads: boolean) => {
+    const sentAt = (nowMs: number, reads: boolean) => {
       if (reads) keys.readMs = nowMs;
       driver.tick(nowMs);
       return commands
         .splice(0)
         .map(({ deadMan, unread, twist }) => [deadMan, unread ?? false, twist.linear.x]);
     };
-    for (let now = 1000; now <= 2000; now += 25) expect(tick(now, true)).toEqual([[true, false, 1]]);
+    for (let now = 1000; now <= 2000; now += 25) expect(sentAt(now, true)).toEqual([[true, false, 1]]);
     // After the hang the first turn does not count as a reading.
-    expect([tick(2350, false), driver.paused, driver.lost]).toEqual([[[true, true, 0]], true, null]);
-    expect([tick(2375, true), driver.paused]).toEqual([[[true, false, 1]], false]);
+    expect([sentAt(2350, false), driver.paused, driver.lost]).toEqual([[[true, true, 0]], true, null]);
+    expect([sentAt(2375, true), driver.paused]).toEqual([[[true, false, 1]], false]);
     // Only the device is silent: a few commands say so, and then none.
-    const silent = Array.from({ length: 15 }, (_, i) => tick(2400 + i * 25, false)).flat();
+    const silent = Array.from({ length: 15 }, (_, i) => sentAt(2400 + i * 25, false)).flat();
     expect(silent).toEqual([
       ...Array.from({ length: 4 }, () => [true, false, 1]),
       ...Array.from({ length: 4 }, () => [true, true, 0]),
     ]);
     // From here on the page counts it as open, and says so.
-    expect(tick(2776, true)).toEqual([[false, false, 0]]);
+    expect(sentAt(2776, true)).toEqual([[false, false, 0]]);
     expect([driver.paused, driver.lost, driver.input]).toEqual([false, 'late-reading', null]);
   });
 

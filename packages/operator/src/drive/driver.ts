@@ -163,7 +163,7 @@ export class Driver {
     if (held && this.#holder !== 'you') this.#ask(nowMs);
     if (!held) this.#toldOther = false;
     this.#tellOpenHand(nowMs);
-    const command = this.stream.tick(nowMs);
+    const command = this.stream.due(nowMs);
     if (command === null) return;
     this.#port.sendCommand(command);
     this.onCommand?.(command);

@@ -17,12 +17,12 @@ describe('RobotSwitch', () => {
     const { done, change } = bench();
     change.choose('b', driven, 0);
     expect(done).toEqual(['let go']);
-    change.tick({ ...driven, speed: 0 }, 25); // we still hold the lease
-    change.tick({ ...driven, holder: 'nobody' }, 50); // the robot is still moving
+    change.decide({ ...driven, speed: 0 }, 25); // we still hold the lease
+    change.decide({ ...driven, holder: 'nobody' }, 50); // the robot is still moving
     expect([done, change.target]).toEqual([['let go'], 'b']);
-    change.tick({ ...driven, holder: 'nobody', speed: 0.01 }, 75);
+    change.decide({ ...driven, holder: 'nobody', speed: 0.01 }, 75);
     expect([done, change.target]).toEqual([['let go', 'connect b'], null]);
-    change.tick({ ...driven, robotId: 'b' }, 100);
+    change.decide({ ...driven, robotId: 'b' }, 100);
     expect(done).toHaveLength(2);
   });
 
@@ -46,13 +46,13 @@ describe('RobotSwitch', () => {
   test('leaves a robot that does not answer after a while, and a lost one at once', () => {
     const silent = bench();
     silent.change.choose('b', driven, 0);
-    silent.change.tick(driven, LONGEST_WAIT_MS - 1);
+    silent.change.decide(driven, LONGEST_WAIT_MS - 1);
     expect(silent.done).toEqual(['let go']);
-    silent.change.tick(driven, LONGEST_WAIT_MS);
+    silent.change.decide(driven, LONGEST_WAIT_MS);
     expect(silent.done).toEqual(['let go', 'connect b']);
     const lost = bench();
     lost.change.choose('b', driven, 0);
-    lost.change.tick({ ...driven, live: false }, 25);
+    lost.change.decide({ ...driven, live: false }, 25);
     expect(lost.done).toEqual(['let go', 'connect b']);
   });
 
@@ -60,13 +60,13 @@ describe('RobotSwitch', () => {
     const { done, change } = bench();
     change.choose('b', driven, 0);
     change.choose('c', driven, 1000);
-    change.tick(driven, LONGEST_WAIT_MS);
+    change.decide(driven, LONGEST_WAIT_MS);
     expect(done).toEqual(['let go', 'let go', 'connect c']);
     change.choose('b', driven, 2000);
     change.choose('a', driven, 2025);
     change.choose('c', driven, 3000);
     change.cancel();
-    change.tick({ ...driven, live: false }, 9000);
+    change.decide({ ...driven, live: false }, 9000);
     expect(done.filter((what) => what.startsWith('connect'))).toEqual(['connect c']);
   });
 });

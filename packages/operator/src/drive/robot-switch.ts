@@ -49,7 +49,7 @@ export class RobotSwitch {
     if (this.#target === null) this.#deadlineMs = nowMs + LONGEST_WAIT_MS;
     this.#target = robotId;
     if (present.live) this.#port.letGo();
-    this.tick(present, nowMs);
+    this.decide(present, nowMs);
   }
 
   /** Drops the choice. */
@@ -57,8 +57,8 @@ export class RobotSwitch {
     this.#target = null;
   }
 
-  /** Call several times a second. */
-  tick(present: PresentRobot, nowMs: number): void {
+  /** Connects to the chosen robot once the present one may be left. Call several times a second. */
+  decide(present: PresentRobot, nowMs: number): void {
     const target = this.#target;
     if (target === null) return;
     if (present.live && nowMs < this.#deadlineMs) {

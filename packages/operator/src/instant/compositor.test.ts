@@ -85,7 +85,7 @@ describe('simultaneously triggered cameras', () => {
           { name: 'slow', intervalMs: HZ_30, delayMs: delayMs + 8, jitterMs: jitterMs / 2 },
           { name: 'cloud', intervalMs: HZ_15, delayMs, jitterMs: jitterMs / 2 },
         ];
-        const run = runCompositor({ sources, lengthMs: 10_000, tickMs: 5, random: randomOf(from) });
+        const run = runCompositor({ sources, lengthMs: 10_000, stepMs: 5, random: randomOf(from) });
         // Once the rates are known.
         const settled = run.shown.slice(60);
         const whole = settled.filter((shown) => {
@@ -115,7 +115,7 @@ test('nobody waits longer than an interval of the slowest source and 10 ms', () 
         { name: 'b', intervalMs: HZ_30, phaseMs: 9, delayMs: b, jitterMs: 60, loss },
         { name: 'cloud', intervalMs: HZ_15, delayMs: 20, loss },
       ];
-      const run = runCompositor({ sources, lengthMs: 8000, tickMs: 2, random: randomOf(from) });
+      const run = runCompositor({ sources, lengthMs: 8000, stepMs: 2, random: randomOf(from) });
       // Losses make the estimated interval longer than the true one, at most to a few times.
       const bound = Math.max(...run.stats.sources.map(({ intervalMs }) => intervalMs), 4 * HZ_15) + 10 + 2;
       expect(Math.max(...run.waitedMs)).toBeLessThanOrEqual(bound);

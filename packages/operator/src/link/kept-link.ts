@@ -16,7 +16,7 @@ import { SessionKeeper, type SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
 import type { RobotLink, RobotLinkEvents, SignalingState } from './robot-link.ts';
 
-const [TICK_MS, PROBE_MS] = [250, 500];
+const [UPDATE_EVERY_MS, PROBE_MS] = [250, 500];
 
 export abstract class KeptLink implements RobotLink {
   robots: readonly RobotListing[] = [];
@@ -72,11 +72,11 @@ export abstract class KeptLink implements RobotLink {
   protected abstract dropPeer(): void;
 
   start(): void {
-    this.#timer ??= setInterval(() => this.#tick(performance.now()), TICK_MS);
+    this.#timer ??= setInterval(() => this.#update(performance.now()), UPDATE_EVERY_MS);
   }
 
   close(): void {
-    this.stopTicking();
+    this.stopUpdating();
     this.disconnect();
   }
 
@@ -117,7 +117,7 @@ export abstract class KeptLink implements RobotLink {
     this.heard(nowMs);
   }
 
-  protected stopTicking(): void {
+  protected stopUpdating(): void {
     clearInterval(this.#timer);
     this.#timer = undefined;
   }
@@ -164,8 +164,8 @@ export abstract class KeptLink implements RobotLink {
     this.keeper.onHeard(nowMs);
   }
 
-  #tick(nowMs: number): void {
-    this.keeper.tick(nowMs);
+  #update(nowMs: number): void {
+    this.keeper.update(nowMs);
     if (this.phase !== 'live' || nowMs < this.#probeDueMs) return;
     this.#probeDueMs = nowMs + PROBE_MS;
     this.sendControl({ type: 'clockProbe', id: this.session.nextProbeId(), sentMs: nowMs });

@@ -7,10 +7,10 @@ import {
   UNANSWERED_MS,
 } from './resume-policy.ts';
 
-/** Ticks every 250 ms up to `toMs`. @returns the times of the requests */
+/** Decides every 250 ms up to `toMs`. @returns the times of the requests */
 function run(policy: ResumePolicy, fromMs: number, toMs: number, each: (ms: number) => boolean = () => true) {
   const asked: number[] = [];
-  for (let ms = fromMs; ms <= toMs; ms += 250) if (policy.tick(ms, each(ms))) asked.push(ms);
+  for (let ms = fromMs; ms <= toMs; ms += 250) if (policy.decide(ms, each(ms))) asked.push(ms);
   return asked;
 }
 
@@ -61,24 +61,24 @@ describe('ResumePolicy', () => {
     const policy = new ResumePolicy();
     policy.begin(0);
     policy.onNetworkChange(0);
-    expect(policy.tick(LOST_AFTER_CHANGE_MS - 1, true)).toBe(false);
-    expect(policy.tick(LOST_AFTER_CHANGE_MS, true)).toBe(true);
+    expect(policy.decide(LOST_AFTER_CHANGE_MS - 1, true)).toBe(false);
+    expect(policy.decide(LOST_AFTER_CHANGE_MS, true)).toBe(true);
   });
 
   test('makes no request without signaling, and one at once when it is back', () => {
     const policy = new ResumePolicy();
     policy.begin(0);
     expect(run(policy, 0, 9000, () => false)).toEqual([]);
-    expect(policy.tick(9100, true)).toBe(true);
+    expect(policy.decide(9100, true)).toBe(true);
     policy.onSignalingBack();
-    expect(policy.tick(9200, true)).toBe(true);
+    expect(policy.decide(9200, true)).toBe(true);
   });
 
   test('a page that was asleep waits for the full time limit before a request', () => {
     const policy = new ResumePolicy();
     policy.begin(0);
-    policy.tick(0, true);
-    expect(policy.tick(600_000, true)).toBe(false);
-    expect(policy.tick(600_000 + LOST_AFTER_MS, true)).toBe(true);
+    policy.decide(0, true);
+    expect(policy.decide(600_000, true)).toBe(false);
+    expect(policy.decide(600_000 + LOST_AFTER_MS, true)).toBe(true);
   });
 });

@@ -7,7 +7,7 @@ const CHANGE_COUNTS_MS = 5000;
 export const UNANSWERED_MS = 2500;
 /** Interval between requests for an ICE restart, ms. */
 export const RESUME_EVERY_MS = 1000;
-/** If ticks are this far apart, the page was asleep and not cut off, ms. */
+/** If decisions are this far apart, the page was asleep and not cut off, ms. */
 const ASLEEP_MS = 2500;
 
 /**
@@ -19,7 +19,7 @@ export class ResumePolicy {
   #answeredMs = 0;
   #changedMs = Number.NEGATIVE_INFINITY;
   #nextMs = 0;
-  #tickMs: number | null = null;
+  #decidedMs: number | null = null;
 
   /** A path has been established. */
   begin(nowMs: number): void {
@@ -64,9 +64,9 @@ export class ResumePolicy {
   }
 
   /** @returns whether to ask the robot for an ICE restart now; the request then counts as made */
-  tick(nowMs: number, canAsk: boolean): boolean {
-    const asleep = this.#tickMs !== null && nowMs - this.#tickMs >= ASLEEP_MS;
-    this.#tickMs = nowMs;
+  decide(nowMs: number, canAsk: boolean): boolean {
+    const asleep = this.#decidedMs !== null && nowMs - this.#decidedMs >= ASLEEP_MS;
+    this.#decidedMs = nowMs;
     if (asleep) this.begin(nowMs);
     if (!canAsk || nowMs < this.#nextMs || !this.lost(nowMs)) return false;
     this.#nextMs = nowMs + RESUME_EVERY_MS;

@@ -48,7 +48,7 @@ class Bench {
         this.keeper.onHeard(this.now);
         this.keeper.onAnswered(this.now);
       }
-      this.keeper.tick(this.now);
+      this.keeper.update(this.now);
     }
   }
 }

@@ -91,7 +91,7 @@ export class SessionKeeper {
     this.#backoff.reset();
     this.#listed = robots.some((robot) => robot.id === robotId);
     this.#enter(robotId === null ? 'none' : 'waiting');
-    this.tick(nowMs);
+    this.update(nowMs);
   }
 
   onSignaling(ready: boolean, nowMs: number): void {
@@ -102,7 +102,7 @@ export class SessionKeeper {
       return;
     }
     this.#resume.onSignalingBack();
-    this.tick(nowMs);
+    this.update(nowMs);
   }
 
   onRobots(robots: readonly RobotListing[], nowMs: number): void {
@@ -114,7 +114,7 @@ export class SessionKeeper {
       this.#resume.onSignalingBack();
     }
     this.#listed = listed;
-    this.tick(nowMs);
+    this.update(nowMs);
   }
 
   /** The service opened a session. @returns false if it is not the requested one and must be closed */
@@ -131,7 +131,7 @@ export class SessionKeeper {
     this.#lose(lossOf[reason], nowMs);
     // The robot has restarted and is available.
     if (reason === 'unknown-session') this.#retryAtMs = 0;
-    this.tick(nowMs);
+    this.update(nowMs);
   }
 
   /** The service refused a request. @param session the one that the service named, if any */
@@ -166,7 +166,7 @@ export class SessionKeeper {
   /** The browser's network has changed or is lost. */
   onNetworkChange(nowMs: number): void {
     this.#resume.onNetworkChange(nowMs);
-    this.tick(nowMs);
+    this.update(nowMs);
   }
 
   onPeerFailed(nowMs: number, loss: SessionLoss = 'connection-failed'): void {
@@ -181,18 +181,18 @@ export class SessionKeeper {
   retry(nowMs: number): void {
     if (this.#phase !== 'waiting') return;
     this.#retryAtMs = 0;
-    this.tick(nowMs);
+    this.update(nowMs);
   }
 
-  /** Call at least twice a second. */
-  tick(nowMs: number): void {
+  /** Acts on every deadline that has passed. Call at least twice a second. */
+  update(nowMs: number): void {
     if (this.#phase === 'opening' && nowMs >= this.#deadlineMs) this.#lose('not-connected', nowMs);
     if (this.#failedAtMs !== null) {
       // Without a reason, it was the connection.
       if (nowMs >= this.#failedAtMs + REASON_MS) this.#lose('connection-failed', this.#failedAtMs);
     } else if (this.#phase === 'live') {
       const canAsk = this.#signalingReady && this.#listed;
-      const ask = this.#resume.tick(nowMs, canAsk);
+      const ask = this.#resume.decide(nowMs, canAsk);
       this.#notePath(nowMs);
       if (this.#resume.silentMs(nowMs) >= SILENCE_LIMIT_MS) this.#lose('silent', nowMs);
       else if (ask && this.#session !== null && this.#robotId !== null) {

@@ -33,7 +33,7 @@ export interface Run {
 export interface RunOptions {
   readonly sources: readonly SimulatedSource[];
   readonly lengthMs: number;
-  readonly tickMs?: number;
+  readonly stepMs?: number;
   readonly synchronised?: boolean;
   /** 0…1. */
   random(): number;
@@ -42,7 +42,7 @@ export interface RunOptions {
 export function runCompositor({
   sources,
   lengthMs,
-  tickMs = 1000 / 60,
+  stepMs = 1000 / 60,
   synchronised = true,
   random,
 }: RunOptions): Run {
@@ -59,7 +59,7 @@ export function runCompositor({
   const shown: Map<string, number>[] = [];
   const waitedMs: number[] = [];
   let [next, mostInside] = [0, 0];
-  for (let nowMs = 0; nowMs < lengthMs; nowMs += tickMs) {
+  for (let nowMs = 0; nowMs < lengthMs; nowMs += stepMs) {
     for (; next < arrivals.length && (arrivals[next]?.atMs ?? 0) <= nowMs; next++) {
       const { name, captureMs, atMs } = arrivals[next] as Arrival;
       inside++;

@@ -26,7 +26,7 @@ export interface RobotWatcherOptions {
   transform: TransformSupport;
 }
 
-const TICK_MS = 250;
+const CHECK_EVERY_MS = 250;
 const SILENT_MS = 1500;
 const FIRST_RETRY_MS = 300;
 const MOST_RETRY_MS = 4000;
@@ -75,7 +75,7 @@ export class RobotWatcher {
   #peer: WatchPeer | null = null;
   #mediaAtMs = 0;
   #retry: ReturnType<typeof setTimeout> | undefined;
-  #ticking: ReturnType<typeof setInterval> | undefined;
+  #checking: ReturnType<typeof setInterval> | undefined;
   #closed = false;
 
   /** Makes a watcher that does nothing until {@link start} is called. */
@@ -107,15 +107,15 @@ export class RobotWatcher {
 
   /** Begins to watch, and begins again whenever that ends. */
   start(): void {
-    if (this.#closed || this.#ticking !== undefined) return;
-    this.#ticking = setInterval(() => this.#tick(performance.now()), TICK_MS);
+    if (this.#closed || this.#checking !== undefined) return;
+    this.#checking = setInterval(() => this.#checkSilence(performance.now()), CHECK_EVERY_MS);
     void this.#attempt();
   }
 
   /** Ends it and frees everything. The watcher cannot be started again. */
   close(): void {
     this.#closed = true;
-    clearInterval(this.#ticking);
+    clearInterval(this.#checking);
     clearTimeout(this.#retry);
     this.#drop();
     this.#receiver.close();
@@ -266,7 +266,7 @@ export class RobotWatcher {
     this.#enter('live');
   }
 
-  #tick(nowMs: number): void {
+  #checkSilence(nowMs: number): void {
     if (this.#state.phase === 'live' && nowMs - this.#mediaAtMs > SILENT_MS) this.#enter('silent');
   }
 

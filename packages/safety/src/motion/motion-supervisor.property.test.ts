@@ -20,7 +20,7 @@ const ramps = {
 };
 const view = { slowMs: 250, brakeMs: 400, stallMs: 150, mostM: 0.5, decelerationMps2: 2, radiusM: 0.25 };
 /** The interval at which the robot applies the velocity while it moves, ms. */
-const TICK_MS = 10;
+const STEP_MS = 10;
 const EPSILON = 1e-9;
 
 class Sensed implements MotionGuard {
@@ -231,8 +231,8 @@ class Run {
     const guard = this.#guard;
     switch (step.type) {
       case 'wait':
-        for (let left = step.ms; left > 0; left -= TICK_MS) {
-          this.#nowMs += Math.min(TICK_MS, left);
+        for (let left = step.ms; left > 0; left -= STEP_MS) {
+          this.#nowMs += Math.min(STEP_MS, left);
           this.#look();
         }
         return;

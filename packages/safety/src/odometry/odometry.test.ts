@@ -4,7 +4,7 @@ import { describe, expect, test } from 'vitest';
 import { Odometry } from './odometry.ts';
 
 const LIMITS = { maxLinear: 0.6, maxAngular: 1 };
-const TICK_MS = 50;
+const STEP_MS = 50;
 
 function go(linear: number, angular = 0): Twist {
   const twist = zeroTwist();
@@ -46,14 +46,14 @@ describe('a pose', () => {
 });
 
 describe('a pose that does not move although the robot is told to', () => {
-  /** Told, with the same pose in every tick. @returns how far it was told to go before the pose was given up, m */
+  /** Told, with the same pose in every step. @returns how far it was told to go before the pose was given up, m */
   function toldUntilStuck(odometry: Odometry, speed: number, twist: Twist, fromMs: number): number {
     let metres = 0;
     let nowMs = fromMs;
-    for (; !odometry.isStuck && nowMs < fromMs + 60_000; nowMs += TICK_MS) {
+    for (; !odometry.isStuck && nowMs < fromMs + 60_000; nowMs += STEP_MS) {
       odometry.measured({ x: 0, y: 0, yaw: 0 }, twist, nowMs);
       odometry.told(go(speed), nowMs);
-      metres += (speed * TICK_MS) / 1000;
+      metres += (speed * STEP_MS) / 1000;
     }
     return metres;
   }
@@ -99,7 +99,7 @@ describe('a pose that does not move although the robot is told to', () => {
       [-0.6, 1],
     ] as const) {
       const odometry = begun();
-      for (let nowMs = 50; nowMs < 20_000; nowMs += TICK_MS) {
+      for (let nowMs = 50; nowMs < 20_000; nowMs += STEP_MS) {
         const s = nowMs / 1000;
         odometry.measured({ x: linear * s, y: 0, yaw: angular * s }, null, nowMs);
         odometry.told(go(linear, angular), nowMs);

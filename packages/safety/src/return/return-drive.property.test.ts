@@ -5,7 +5,7 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { FREE } from '../motion/motion-guard.ts';
 import type { FloorPose } from '../obstacles/sensor-grid.ts';
-import { ReturningRobot, ramps, TICK_MS } from './testing/returning-robot.ts';
+import { ReturningRobot, ramps, STEP_MS } from './testing/returning-robot.ts';
 
 const options = {
   afterMs: 3000,
@@ -17,7 +17,7 @@ const options = {
 };
 const [MAX_LINEAR, MAX_ANGULAR] = [0.2, 0.5];
 const EPSILON = 1e-9;
-/** What braking from 0.2 m/s takes, and one tick. */
+/** What braking from 0.2 m/s takes, and one step. */
 const BRAKING_M = 0.02;
 
 /** What happened up to an instant, and the velocities before and at it. */
@@ -44,7 +44,7 @@ const speed = ({ linear, angular }: Twist) => [Math.abs(linear.x), Math.abs(angu
 function brakes({ before, after }: Instant): boolean {
   const [v, w] = speed(after);
   const [v0, w0] = speed(before);
-  const s = TICK_MS / 1000;
+  const s = STEP_MS / 1000;
   const [mostV, mostW] = [v0 - ramps.decelerationMps2 * s, w0 - ramps.turnRadps2 * s];
   return v <= Math.max(0, mostV) + EPSILON && w <= Math.max(0, mostW) + EPSILON;
 }
@@ -56,7 +56,7 @@ const invariants: Record<string, (instant: Instant) => boolean> = {
     return (v <= MAX_LINEAR + EPSILON && w <= MAX_ANGULAR + EPSILON) || brakes(instant);
   },
   'it changes its velocity no faster than the ramps': ({ before, after }) =>
-    Math.abs(after.linear.x - before.linear.x) <= (ramps.emergencyMps2 * TICK_MS) / 1000 + EPSILON,
+    Math.abs(after.linear.x - before.linear.x) <= (ramps.emergencyMps2 * STEP_MS) / 1000 + EPSILON,
   'while the emergency stop is latched it brakes or stands': (instant) => !instant.latched || brakes(instant),
   'while nothing takes the velocities it brakes or stands': (instant) => instant.wheels || brakes(instant),
   'without fresh odometry it brakes or stands': (instant) =>
@@ -146,7 +146,7 @@ class Run {
   #driven: FloorPose[] = [];
 
   constructor() {
-    this.#robot.onTick = () => this.#look();
+    this.#robot.onAdvance = () => this.#look();
     this.#robot.connect();
   }
 

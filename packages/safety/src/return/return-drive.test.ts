@@ -43,17 +43,17 @@ function moved(base: ReturningRobot['base'], x: number, y: number): void {
   base.pose = { ...base.pose, x: base.pose.x + x, y: base.pose.y + y };
 }
 
-/** It is moved so far in each of so many ticks. */
-function pushed(robot: ReturningRobot, ticks: number, x: number, y: number): void {
-  for (let i = 0; i < ticks; i++) {
+/** It is moved so far in each of so many steps. */
+function pushed(robot: ReturningRobot, steps: number, x: number, y: number): void {
+  for (let i = 0; i < steps; i++) {
     moved(robot.base, x, y);
-    robot.tick();
+    robot.advance();
   }
 }
 
 function pinnedFor(robot: ReturningRobot, seconds: number): void {
   const { pose } = robot.base;
-  robot.onTick = () => {
+  robot.onAdvance = () => {
     robot.base.pose = pose;
   };
   robot.wait(seconds);
@@ -114,7 +114,7 @@ describe('a robot that has lost its operators', () => {
   test('does it once for each drive', () => {
     const robot = returning();
     robot.back.heard(robot.nowMs);
-    robot.tick();
+    robot.advance();
     ends(robot, 'service-back');
     robot.connect();
     robot.wait(1);
@@ -142,7 +142,7 @@ describe('a driver who has left on purpose', () => {
   test('does not end a way back that silence has begun, nor forbid the next', () => {
     const robot = returning();
     robot.back.left(robot.nowMs);
-    robot.tick();
+    robot.advance();
     expect(robot.back.phase).toBe('returning');
   });
 });
@@ -151,7 +151,7 @@ describe('it stands at once', () => {
   test('when an operator is heard, also while it only announces', () => {
     const robot = returning();
     robot.back.heard(robot.nowMs);
-    robot.tick();
+    robot.advance();
     expect(robot.velocity.linear.x).toBeGreaterThan(-0.15);
     ends(robot, 'service-back');
     const announcing = lost();
@@ -189,7 +189,7 @@ describe('it stands at once', () => {
   ])('%s', (_, end, happens) => {
     const robot = returning();
     happens(robot);
-    robot.tick();
+    robot.advance();
     ends(robot, end);
   });
 

@@ -7,7 +7,7 @@ import { Footprint } from '../obstacles/footprint.ts';
 import { ObstacleGuard } from '../obstacles/obstacle-guard.ts';
 import { PaintedGrid } from '../obstacles/testing/painted-grid.ts';
 import type { Lookout } from './return-drive.ts';
-import { ReturningRobot, TICK_MS } from './testing/returning-robot.ts';
+import { ReturningRobot, STEP_MS } from './testing/returning-robot.ts';
 
 const RADIUS = 0.25;
 const CLOUD_MS = 60;
@@ -32,16 +32,16 @@ function lost() {
   const robot = new ReturningRobot({}, eyes);
   /** From x to x, in its way. */
   const way: { person: [number, number] | null } = { person: null };
-  let ticks = 0;
+  let steps = 0;
   const look = () => {
     const { x, y, yaw } = robot.base.pose;
     eyes.guard.moved({ x, y, yaw }, robot.velocity, robot.nowMs);
-    if (++ticks % (CLOUD_MS / TICK_MS) !== 0) return;
+    if (++steps % (CLOUD_MS / STEP_MS) !== 0) return;
     const grid = new PaintedGrid(robot.nowMs, x, y);
     if (way.person !== null) grid.paint('occupied', ...way.person, -0.2, 0.2);
     eyes.guard.see(0, grid);
   };
-  robot.onTick = look;
+  robot.onAdvance = look;
   robot.wait(0.2);
   robot.connect();
   robot.drive(0.5, 0, 6);

@@ -5,7 +5,7 @@ import { Unicycle } from './testing/unicycle.ts';
 import { Track } from './track.ts';
 import { TrackFollower } from './track-follower.ts';
 
-const TICK_MS = 40;
+const STEP_MS = 40;
 const limits = { maxLinear: 0.2, maxAngular: 0.5, toleranceM: 0.3 };
 type Leg = readonly [linear: number, angular: number, seconds: number];
 
@@ -14,16 +14,16 @@ function driven(legs: readonly Leg[]) {
   const robot = new Unicycle();
   let nowMs = 1000;
   const seen = [robot.pose];
-  const tick = (x: number, z: number, lays: boolean) => {
+  const advance = (x: number, z: number, lays: boolean) => {
     const zero = { x: 0, y: 0, z: 0 };
-    robot.go({ linear: { ...zero, x }, angular: { ...zero, z } }, TICK_MS / 1000);
-    nowMs += TICK_MS;
+    robot.go({ linear: { ...zero, x }, angular: { ...zero, z } }, STEP_MS / 1000);
+    nowMs += STEP_MS;
     track.note(robot.pose, nowMs, lays);
   };
   track.note(robot.pose, nowMs);
   for (const [x, z, seconds] of legs)
-    for (let t = 0; t < seconds * 1000; t += TICK_MS) {
-      tick(x, z, true);
+    for (let t = 0; t < seconds * 1000; t += STEP_MS) {
+      advance(x, z, true);
       seen.push(robot.pose);
     }
   const follower = new TrackFollower(track, limits);
@@ -39,7 +39,7 @@ function driven(legs: readonly Leg[]) {
       expect(Math.abs(wish.linear.x)).toBeLessThanOrEqual(limits.maxLinear + 1e-9);
       expect(Math.abs(wish.angular.z)).toBeLessThanOrEqual(limits.maxAngular + 1e-9);
       if (wish.linear.x < 0) reverse++;
-      tick(wish.linear.x, wish.angular.z, false);
+      advance(wish.linear.x, wish.angular.z, false);
       const { x, y } = robot.pose;
       worst = Math.max(worst, Math.min(...seen.map((was) => Math.hypot(was.x - x, was.y - y))));
     }

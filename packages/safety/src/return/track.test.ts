@@ -3,17 +3,17 @@ import { describe, expect, test } from 'vitest';
 import { Unicycle } from './testing/unicycle.ts';
 import { Track } from './track.ts';
 
-const TICK_MS = 20;
+const STEP_MS = 20;
 
 function tracked(maxM = 20) {
   const track = new Track({ maxM, mostMps: 1.5, mostRadps: 3 });
   const robot = new Unicycle();
   let nowMs = 1000;
   const drive = (x: number, z: number, seconds: number) => {
-    for (let t = 0; t < seconds * 1000 - 1e-6; t += TICK_MS) {
+    for (let t = 0; t < seconds * 1000 - 1e-6; t += STEP_MS) {
       const zero = { x: 0, y: 0, z: 0 };
-      robot.go({ linear: { ...zero, x }, angular: { ...zero, z } }, TICK_MS / 1000);
-      nowMs += TICK_MS;
+      robot.go({ linear: { ...zero, x }, angular: { ...zero, z } }, STEP_MS / 1000);
+      nowMs += STEP_MS;
       track.note(robot.pose, nowMs);
     }
   };

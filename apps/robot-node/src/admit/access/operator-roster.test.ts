@@ -26,7 +26,7 @@ it('tells everyone at each change, at most four times a second, the own entry fi
   const roster = new OperatorRoster();
   const [ada, wim, sue] = [operator('ada'), operator('wim', 'watch'), operator('sue', 'supervise')];
   const all = [ada.made, wim.made, sue.made];
-  roster.tick(all, 'wim', 0);
+  roster.sendDue(all, 'wim', 0);
   expect(ada.inbox).toEqual([
     {
       type: 'operators',
@@ -39,12 +39,12 @@ it('tells everyone at each change, at most four times a second, the own entry fi
   ]);
   expect(sue.taken()).toEqual([{ names: ['sue', 'wim', 'ada'] }]);
   ada.taken();
-  roster.tick(all, null, 249);
-  roster.tick([ada.made, sue.made], null, 249);
+  roster.sendDue(all, null, 249);
+  roster.sendDue([ada.made, sue.made], null, 249);
   expect(ada.taken()).toEqual([]);
-  roster.tick([ada.made, sue.made], null, 250);
+  roster.sendDue([ada.made, sue.made], null, 250);
   expect(ada.taken()).toEqual([{ names: ['ada', 'sue'] }]);
-  roster.tick([ada.made, sue.made], null, 1000);
+  roster.sendDue([ada.made, sue.made], null, 1000);
   expect(ada.taken()).toEqual([]);
 });
 
@@ -59,13 +59,13 @@ it('lists nobody who is not admitted or not connected, and gives no number twice
     },
   };
   other.made.peer.connected = false;
-  roster.tick([ada.made, other.made, stranger], null, 0);
+  roster.sendDue([ada.made, other.made, stranger], null, 0);
   expect(ada.taken()).toEqual([{ names: ['ada'] }]);
   other.made.peer.connected = true;
-  roster.tick([ada.made, other.made], null, 250);
-  roster.tick([ada.made], null, 500);
+  roster.sendDue([ada.made, other.made], null, 250);
+  roster.sendDue([ada.made], null, 500);
   const again = operator('other');
-  roster.tick([ada.made, again.made], null, 750);
+  roster.sendDue([ada.made, again.made], null, 750);
   const numbers = ada.inbox.map(({ operators }) => operators[1]?.number);
   expect(numbers).toEqual([2, undefined, 3]);
   expect([roster.has(again.made, 3), roster.has(again.made, 2)]).toEqual([true, false]);
@@ -76,7 +76,7 @@ it('fits a message with the most operators and the longest names, and counts the
   const all = Array.from({ length: 32 }, (_, i) =>
     operator(`o${i}`, 'supervise', (i % 2 ? '"' : '\ud800').repeat(64)),
   );
-  roster.tick(
+  roster.sendDue(
     all.map(({ made }) => made),
     'o31',
     0,

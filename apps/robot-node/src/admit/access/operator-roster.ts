@@ -43,8 +43,8 @@ export class OperatorRoster {
     return this.#numbers.get(operator) === number;
   }
 
-  /** Call several times a second. @param driver the session that holds the lease */
-  tick(operators: Iterable<ListedOperator>, driver: string | null, nowMs: number): void {
+  /** Sends the list to everybody in it once it has changed. @param driver the session with the lease */
+  sendDue(operators: Iterable<ListedOperator>, driver: string | null, nowMs: number): void {
     if (nowMs < this.#dueMs) return;
     this.#dueMs = nowMs + INTERVAL_MS;
     const here = [...operators].filter(

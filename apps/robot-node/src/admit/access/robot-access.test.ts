@@ -49,9 +49,9 @@ async function setUp() {
     nowS += s;
     nowMs += s * 1000;
   };
-  const tick = (made: GuardedOperator[], driver: string | null = null) =>
-    access.tick(new Map(made.map((each) => [each.messages.id, each])), driver);
-  return { access, operator, showing, pass, tick, log, refusals, file, issuer: first };
+  const enforce = (made: GuardedOperator[], driver: string | null = null) =>
+    access.enforce(new Map(made.map((each) => [each.messages.id, each])), driver);
+  return { access, operator, showing, pass, enforce, log, refusals, file, issuer: first };
 }
 
 const grant: RevocableGrant = { id: 'g1', subject: 'a', keyId: 'k1', issuedAtS: 900 };
@@ -61,30 +61,30 @@ const told = (send: ReturnType<typeof vi.fn>) =>
   send.mock.calls.map(([message]) => message as { type: string }).filter(({ type }) => type !== 'operators');
 
 it('warns once, a minute before the end, and ends the session at the end', async () => {
-  const { operator, pass, tick } = await setUp();
+  const { operator, pass, enforce } = await setUp();
   const { made, send, close } = operator('s', granted);
   pass(39);
-  tick([made]);
+  enforce([made]);
   expect(told(send)).toEqual([]);
   pass(1.5);
-  tick([made]);
-  tick([made]);
+  enforce([made]);
+  enforce([made]);
   expect(told(send)).toEqual([{ type: 'expires', inS: 59 }]);
   pass(59);
-  tick([made]);
+  enforce([made]);
   expect(close).not.toHaveBeenCalled();
   pass(0.5);
-  tick([made]);
+  enforce([made]);
   expect(close).toHaveBeenCalledExactlyOnceWith('grant-expired', 'the grant has expired');
 });
 
 it('an operator that has not been admitted may do nothing, and neither is warned nor ended', async () => {
-  const { access, operator, pass, tick } = await setUp();
+  const { access, operator, pass, enforce } = await setUp();
   const { made, send, close } = operator('s');
   access.offered(made, 'v=0');
   expect(made.messages.access).toMatchObject({ role: 'watch', name: 'Ada', keyId: null });
   pass(1e6);
-  tick([made]);
+  enforce([made]);
   expect([send.mock.calls, close.mock.calls]).toEqual([[], []]);
 });
 
@@ -162,7 +162,7 @@ describe('revocation', () => {
     );
 
   it('ends the sessions of revoked grants, and no others', async () => {
-    const { access, operator, issuer, tick } = await setUp();
+    const { access, operator, issuer, enforce } = await setUp();
     const [first, second, other] = [
       operator('a', granted),
       operator('b', { ...granted, grant: { ...grant, id: 'g2', subject: 'b' } }),
@@ -170,7 +170,7 @@ describe('revocation', () => {
     ];
     const all = [first, second, other].map(({ made }) => made);
     await access.revocations.take(await listOf(issuer, ['g1']), 'test');
-    tick(all);
+    enforce(all);
     expect(first.close).toHaveBeenCalledExactlyOnceWith('grant-revoked', 'the grant has been revoked');
     expect([second.close.mock.calls, other.close.mock.calls]).toEqual([[], []]);
   });
@@ -199,7 +199,7 @@ describe('a supervisor', () => {
       all.operator('t', granted),
     ];
     const made = [sue.made, ada.made, tab.made];
-    all.tick(made);
+    all.enforce(made);
     const list = sue.send.mock.calls[0]?.[0] as Operators;
     const [own, ...others] = list.operators.map(({ number }) => number);
     const end = (operator: number, block = false) =>
@@ -208,20 +208,20 @@ describe('a supervisor', () => {
   }
 
   it('ends the session that it names', async () => {
-    const { end, others, ada, tab, sue, tick, made } = await meeting();
+    const { end, others, ada, tab, sue, enforce, made } = await meeting();
     end(others[0] ?? 0);
     expect(ada.close).toHaveBeenCalledExactlyOnceWith('ended-by-supervisor', 'Sue ended the session');
-    tick(made);
+    enforce(made);
     expect([tab.close.mock.calls, sue.close.mock.calls, told(sue.send)]).toEqual([[], [], []]);
   });
 
   it('blocks the grant, which ends all its sessions until it expires', async () => {
-    const { access, end, others, ada, tab, tick, made, pass } = await meeting();
+    const { access, end, others, ada, tab, enforce, made, pass } = await meeting();
     end(others[0] ?? 0, true);
     expect(ada.close.mock.calls).toEqual([
       ['ended-by-supervisor', 'Sue ended the session and blocked the grant'],
     ]);
-    tick(made);
+    enforce(made);
     expect(tab.close).toHaveBeenCalledExactlyOnceWith(
       'ended-by-supervisor',
       expect.stringContaining('blocked'),

@@ -113,7 +113,7 @@ export class RobotAccess {
    *
    * @param driver the session that holds the lease
    */
-  tick(operators: ReadonlyMap<string, GuardedOperator>, driver: string | null): void {
+  enforce(operators: ReadonlyMap<string, GuardedOperator>, driver: string | null): void {
     const nowS = this.#options.nowS();
     for (const operator of operators.values()) {
       const { messages, peer } = operator;
@@ -129,7 +129,7 @@ export class RobotAccess {
         messages.send({ type: 'expires', inS: Math.floor(leftS) });
       }
     }
-    this.#roster.tick(operators.values(), driver, this.#options.now());
+    this.#roster.sendDue(operators.values(), driver, this.#options.now());
   }
 
   /** A supervisor ends another operator's session. What is not done, it is told. */

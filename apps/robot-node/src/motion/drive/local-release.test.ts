@@ -11,7 +11,7 @@ beforeEach(() => {
   folder = testFolder();
 });
 
-const TICK_MS = 25;
+const STEP_MS = 25;
 
 function setUp(estopRelease: EstopReleasePolicy = 'driver') {
   const guard = makeGuard({ estopRelease });
@@ -26,7 +26,7 @@ function setUp(estopRelease: EstopReleasePolicy = 'driver') {
     /** @returns whether it was released in this time */
     run: (ms: number) => {
       let released = false;
-      for (const end = nowMs + ms; nowMs < end; nowMs += TICK_MS) released = release.look(nowMs) || released;
+      for (const end = nowMs + ms; nowMs < end; nowMs += STEP_MS) released = release.look(nowMs) || released;
       return released;
     },
     now: () => nowMs,

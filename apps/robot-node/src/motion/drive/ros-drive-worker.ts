@@ -10,7 +10,7 @@ import type { RosDriveReport, RosDriveRequest, RosDriveSetup } from './ros-drive
 import { RosVelocity } from './ros-velocity.ts';
 import { SinkBeat } from './sink-beat.ts';
 
-const TICK_MS = 10;
+const CHECK_EVERY_MS = 10;
 
 const port = parentPort;
 if (port === null) throw new Error('ros-drive-worker.ts runs as a worker only');
@@ -29,19 +29,19 @@ try {
   const { entry, silenceMs } = options;
   const velocity = new RosVelocity(graph, { entry, silenceMs, now: monotonicMs, wallNs });
   let listeners: number | null = null;
-  const ticking = setInterval(() => {
-    velocity.tick();
+  const checking = setInterval(() => {
+    velocity.checkSilence();
     beat.beat(monotonicMs());
     if (velocity.subscribers === listeners) return;
     listeners = velocity.subscribers;
     send({ type: 'listeners', count: listeners });
-  }, TICK_MS);
+  }, CHECK_EVERY_MS);
   port.on('message', (request: RosDriveRequest) => {
     if (request.type === 'twist') {
       velocity.apply(request.twist, request.hold);
       return;
     }
-    clearInterval(ticking);
+    clearInterval(checking);
     velocity.close();
     void graph.close().finally(() => port.close());
   });

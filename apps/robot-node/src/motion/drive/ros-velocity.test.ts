@@ -21,7 +21,7 @@ function setUp(type = TWIST) {
     for (let i = 0; i < ms; i += 10) {
       nowMs += 10;
       if (twist !== null && i % 40 === 30) velocity.apply(twist, hold);
-      velocity.tick();
+      velocity.checkSilence();
     }
   };
   return { graph, velocity, messages, pass, xs: () => messages().map(({ linear }) => linear.x) };

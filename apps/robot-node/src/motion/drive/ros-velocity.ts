@@ -32,7 +32,7 @@ const TAIL_MS = 1000;
 const REPEAT_MS = 40;
 const FRAME = 'base_link';
 
-/** Call `apply` at each velocity and at a steady rate. Call `tick` at least every few ms of the silence time. */
+/** Call `apply` at each velocity and at a steady rate, and `checkSilence` every few ms. */
 export class RosVelocity {
   /** How often silence made the velocity zero. */
   silences = 0;
@@ -67,8 +67,8 @@ export class RosVelocity {
     this.#publish(now);
   }
 
-  /** Checks for silence. */
-  tick(): void {
+  /** Stops the robot after a silence, and repeats the stop. */
+  checkSilence(): void {
     const now = this.#options.now();
     // Before the first velocity there is nothing to repeat.
     if (!this.#wasFed || !this.#watchdog.expired(now)) return;

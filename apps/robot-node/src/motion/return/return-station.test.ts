@@ -5,7 +5,7 @@ import { BaseOdometry } from '../../sense/base/base-odometry.ts';
 import { newestHeardMs, ReturnStation } from './return-station.ts';
 
 const FACTS = { driven: false, leased: false, latched: false, wheels: true };
-const TICK_MS = 25;
+const STEP_MS = 25;
 
 function at(x: number, timeMs: number) {
   const orientation = { x: 0, y: 0, z: 0, w: 1 };
@@ -33,13 +33,13 @@ function station(isSimulated = true) {
   /** @param speed of a driver, m/s; `null`: nobody is there */
   const run = (seconds: number, speed: number | null) => {
     let stops = 0;
-    for (let t = 0; t < seconds * 1000; t += TICK_MS) {
-      robot.nowMs += TICK_MS;
+    for (let t = 0; t < seconds * 1000; t += STEP_MS) {
+      robot.nowMs += STEP_MS;
       if (speed !== null) robot.heardMs = robot.nowMs;
       odometry.take(at(robot.x, robot.nowMs));
       if (returns.update(odometry, robot.heardMs)) stops++;
       const wish = returns.drive.wishAt(robot.nowMs, { ...FACTS, driven: (speed ?? 0) !== 0 });
-      robot.x += ((speed ?? wish?.linear.x ?? 0) * TICK_MS) / 1000;
+      robot.x += ((speed ?? wish?.linear.x ?? 0) * STEP_MS) / 1000;
     }
     return stops;
   };

@@ -54,7 +54,7 @@ async function setUp() {
     log,
   });
   onTestFinished(() => hub.close());
-  hub.tick(0);
+  hub.update(0);
   let nowMs = 0;
   const offer = async (picture: Omit<SourcePicture, 'camera'>) => {
     // Wait until a plan arrives and the previous picture is done.

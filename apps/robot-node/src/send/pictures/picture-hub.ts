@@ -68,7 +68,7 @@ export class PictureHub {
   }
 
   /** Updates the plans, at most a few times a second. */
-  tick(nowMs: number): void {
+  update(nowMs: number): void {
     if (nowMs - this.#plannedMs < PLAN_MS) return;
     this.#plannedMs = nowMs;
     const watching = [...this.#options.targets()].filter(

@@ -48,7 +48,7 @@ describe('PictureSender', () => {
       const allowed = pictureAllowance(target, 0.15);
       for (let ms = 0, id = 0; ms <= 20_000; ms += 25) {
         if (ms % 100 === 0) sender.offer(picture(0, id++ & 0xff, 8));
-        sender.tick(ms, allowed);
+        sender.sendDue(ms, allowed);
       }
       const bitsPerSecond = (channel.bytes * 8) / 20;
       // One chunk and 100 ms of credit may be sent ahead.
@@ -61,11 +61,11 @@ describe('PictureSender', () => {
 
   it('sends one whole picture after another, cameras in turn, the newest of each', () => {
     const { channel, sender } = setUp();
-    sender.tick(0, 1e6);
+    sender.sendDue(0, 1e6);
     sender.offer(picture(0, 1, 2));
     sender.offer(picture(0, 2, 2));
     sender.offer(picture(1, 1, 2));
-    for (let ms = 25; ms < 200; ms += 25) sender.tick(ms, 1e6);
+    for (let ms = 25; ms < 200; ms += 25) sender.sendDue(ms, 1e6);
     expect(channel.chunks).toEqual([
       [0, 2],
       [0, 2],
@@ -77,45 +77,45 @@ describe('PictureSender', () => {
 
   it('skips a picture while the channel is full, and pauses within one', () => {
     const { channel, sender } = setUp();
-    sender.tick(0, 1e6);
+    sender.sendDue(0, 1e6);
     channel.picturesBuffered = 10_000;
     sender.offer(picture(0, 1, 4));
-    sender.tick(100, 1e6);
+    sender.sendDue(100, 1e6);
     expect(sender.drops.backlog).toBe(1);
     channel.picturesBuffered = 0;
     sender.offer(picture(0, 2, 20));
-    sender.tick(200, 1e6);
+    sender.sendDue(200, 1e6);
     const begun = channel.chunks.length;
     expect(begun).toBeGreaterThan(0);
     channel.picturesBuffered = 10_000;
-    sender.tick(300, 1e6);
+    sender.sendDue(300, 1e6);
     expect(channel.chunks.length).toBe(begun);
     channel.picturesBuffered = 0;
-    sender.tick(400, 1e6);
+    sender.sendDue(400, 1e6);
     expect(channel.chunks.length).toBeGreaterThan(begun);
   });
 
   it('gives up a picture that takes too long, and one that is refused', () => {
     const { channel, sender } = setUp();
-    sender.tick(0, 50_000);
+    sender.sendDue(0, 50_000);
     sender.offer(picture(0, 1, 30));
-    for (let ms = 25; ms <= 2000; ms += 25) sender.tick(ms, 50_000);
+    for (let ms = 25; ms <= 2000; ms += 25) sender.sendDue(ms, 50_000);
     expect(sender.drops.overdue).toBe(1);
     channel.open = false;
     sender.offer(picture(0, 2, 1));
-    sender.tick(2100, 1e6);
-    sender.tick(2200, 1e6);
+    sender.sendDue(2100, 1e6);
+    sender.sendDue(2200, 1e6);
     expect(sender.drops.backlog).toBe(1);
     expect(sender.picturesSent).toBe(0);
   });
 
   it('accepts only pictures of watched cameras', () => {
     const { channel, sender } = setUp([1]);
-    sender.tick(0, 1e6);
+    sender.sendDue(0, 1e6);
     sender.offer(picture(0, 1, 1));
     sender.offer(picture(1, 1, 1));
     sender.watch([0]);
-    sender.tick(100, 1e6);
+    sender.sendDue(100, 1e6);
     expect(channel.chunks).toEqual([]);
   });
 
@@ -131,7 +131,7 @@ describe('PictureSender', () => {
           for (const [camera, chunks, wait] of steps) {
             sender.offer(picture(camera, 0, chunks));
             ms += wait;
-            sender.tick(ms, rate);
+            sender.sendDue(ms, rate);
           }
           const { superseded, backlog, overdue } = sender.drops;
           const left = steps.length - sender.picturesSent - superseded - backlog - overdue;

@@ -33,7 +33,7 @@ interface Sending {
 
 /**
  * One operator's pictures. The newest picture of each camera waits for its turn. Pictures are sent one after another,
- * chunk by chunk, at the rate that is left for pictures. The sender owns no timer: call `tick` often, and whenever
+ * chunk by chunk, at the rate that is left for pictures. The sender owns no timer: call `sendDue` often, and whenever
  * the channel has room again.
  */
 export class PictureSender {
@@ -70,7 +70,7 @@ export class PictureSender {
   }
 
   /** Sends what is due. @param bitsPerSecond the present rate for pictures; 0 holds everything back */
-  tick(nowMs: number, bitsPerSecond: number): void {
+  sendDue(nowMs: number, bitsPerSecond: number): void {
     this.#fill(nowMs, bitsPerSecond);
     while (this.#creditBytes > 0) {
       const sending = this.#sending ?? this.#begin(nowMs);

@@ -99,7 +99,7 @@ export class OperatorSound {
   }
 
   /** @param bitsPerSecond what the encoder is set to; 0 while it is off */
-  tick(bitsPerSecond: number, nowMs: number): void {
+  update(bitsPerSecond: number, nowMs: number): void {
     const needed = this.#hasRoom ? LEAST_SOUND_BITS_PER_S : LEAST_SOUND_BITS_PER_S * ROOM_TO_RETURN;
     this.#hasRoom = this.#connected === null || this.room >= needed;
     this.#budget.takeSound(this.hears && bitsPerSecond > 0 ? soundWireRate(bitsPerSecond) : 0);

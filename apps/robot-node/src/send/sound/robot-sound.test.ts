@@ -90,7 +90,7 @@ function bench() {
     const operator = new Operator(id, now);
     operators.push(operator);
     sound.welcome(operator);
-    sound.tick();
+    sound.update();
     return operator;
   };
   return {
@@ -98,12 +98,12 @@ function bench() {
     capture: () => device.microphone?.onPacket({ capturedAtMs: time.ms, bytes: OPUS }),
     drive: (id: string | null) => {
       driver = id;
-      sound.tick();
+      sound.update();
     },
     /** Time passes. */
     pass: (ms: number) => {
       time.ms += ms;
-      sound.tick();
+      sound.update();
     },
   };
 }
@@ -116,17 +116,17 @@ describe('the microphone', () => {
     expect(ada.told?.microphone).toEqual({ state: 'off' });
     ada.sound.listen(true);
     bob.sound.listen(true);
-    sound.tick();
+    sound.update();
     expect(device.bits).toBe(32_000);
     expect(ada.told?.microphone).toEqual({ state: 'starting' });
     capture();
-    sound.tick();
+    sound.update();
     expect(ada.told?.microphone).toEqual({ state: 'live' });
     expect([ada, bob, eve].map(({ frames }) => frames.length)).toEqual([1, 1, 0]);
     expect(bob.frames[0]).toBe(ada.frames[0]);
     ada.sound.listen(false);
     bob.sound.disconnect();
-    sound.tick();
+    sound.update();
     expect(device.microphone).toBe(null);
     expect(lines.filter((line) => line.includes('listen'))).toEqual([
       ...['an operator listens', 'an operator listens'],
@@ -141,20 +141,20 @@ describe('the microphone', () => {
     ada.sound.listen(true);
     // A third of what messages leave, less 30.4 kbit/s of headers.
     ada.targetBitsPerSecond = 20_000 + 3 * (30_400 + 20_000);
-    sound.tick();
-    sound.tick();
+    sound.update();
+    sound.update();
     expect(device.bits).toBeCloseTo(20_000);
     ada.targetBitsPerSecond = 20_000 + 3 * (30_400 + 15_000);
-    sound.tick();
+    sound.update();
     expect(ada.told?.microphone?.state).toBe('slow-link');
     capture();
     expect(ada.frames).toEqual([]);
     expect(device.microphone).toBe(null);
     ada.targetBitsPerSecond = 20_000 + 3 * (30_400 + 19_000);
-    sound.tick();
+    sound.update();
     expect(ada.told?.microphone?.state).toBe('slow-link');
     ada.targetBitsPerSecond = 20_000 + 3 * (30_400 + 20_001);
-    sound.tick();
+    sound.update();
     expect(ada.told?.microphone?.state).toBe('starting');
   });
 
@@ -162,12 +162,12 @@ describe('the microphone', () => {
     const { sound, device, join, capture } = bench();
     const ada = join('a');
     ada.sound.listen(true);
-    sound.tick();
+    sound.update();
     device.microphone?.onFault('unplugged');
-    sound.tick();
+    sound.update();
     expect(ada.told?.microphone).toEqual({ state: 'failed', detail: 'unplugged' });
     capture();
-    sound.tick();
+    sound.update();
     expect(ada.told?.microphone).toEqual({ state: 'live' });
   });
 });
@@ -221,7 +221,7 @@ describe('the loudspeaker', () => {
     ada.sound.speak(true);
     ada.speak();
     capture();
-    sound.tick();
+    sound.update();
     expect([ada.frames.length, bob.frames.length]).toEqual([0, 1]);
     expect(ada.told?.microphone).toEqual({ state: 'muted' });
     ada.sound.speak(false);

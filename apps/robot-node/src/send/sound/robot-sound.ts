@@ -92,11 +92,11 @@ export class RobotSound {
     };
   }
 
-  /** Call often. */
-  tick(): void {
+  /** Plans the devices, and tells each operator what has changed. Call often. */
+  update(): void {
     const nowMs = this.#options.now();
     const targets = [...this.#options.targets()];
-    for (const { sound } of targets) sound.tick(this.microphone.bitsPerSecond, nowMs);
+    for (const { sound } of targets) sound.update(this.microphone.bitsPerSecond, nowMs);
     const hearing = targets.filter((target) => isHearing(target));
     this.microphone.plan(hearing.length === 0 ? null : Math.min(...hearing.map(({ sound }) => sound.room)));
     this.loudspeaker?.plan(targets.some((target) => this.#drives(target)));

@@ -175,7 +175,7 @@ describe('StreamSender', () => {
     expect(sender.heardMs).toBe(1300);
     // All packets of the interval were lost: the rate halves, but not below its floor.
     runUntil(2500);
-    sender.tick();
+    sender.update();
     transport.onRtcp?.(feedback.subarray(0, 22));
     transport.onRtcp?.(Uint8Array.of(1));
     const truncated = Buffer.from(feedback);

@@ -143,7 +143,7 @@ export class StreamSender {
     return this.#transport.resendRefusals;
   }
 
-  /** `null` also while too much is in flight; feedback or the next tick will change that. */
+  /** `null` also while too much is in flight; feedback or the next update will change that. */
   get nextDueMs(): number | null {
     return this.#windowFull ? null : this.#pacer.nextDueMs;
   }
@@ -231,10 +231,10 @@ export class StreamSender {
     }
   }
 
-  /** Call this every 25 ms or so. */
-  tick(): void {
+  /** Lets the controller decide anew, and the pacer follow. Call this every 25 ms or so. */
+  update(): void {
     const now = this.#now();
-    this.#controller.onTick(now);
+    this.#controller.update(now);
     this.#setPace(now);
   }
 

@@ -95,7 +95,7 @@ export class OperatorVideos {
   }
 
   /** Sends the sender reports that are due. */
-  tick(nowMs: number): void {
+  sendDueReports(nowMs: number): void {
     if (this.#connected === null || nowMs - this.#reportedMs < REPORT_MS) return;
     this.#reportedMs = nowMs;
     for (const video of this.wanted) this.lines[video]?.transport?.sendReport(nowMs, VIDEO_CLOCK_RATE);

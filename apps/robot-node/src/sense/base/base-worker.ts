@@ -20,9 +20,9 @@ import { SIM_DIAGNOSTICS, SIM_FIX, SIM_JOINTS, SIM_MOTORS } from './sim-topics.t
 import { Wheels } from './wheels.ts';
 
 /** Maximum age of the world that the sensors see. */
-const TICK_MS = 10;
+const ADVANCE_EVERY_MS = 10;
 /** The robot is told about every second of them. */
-const REPORT_MS = 2 * TICK_MS;
+const REPORT_MS = 2 * ADVANCE_EVERY_MS;
 const COMPONENTS_MS = 1000;
 const JOINTS_MS = 50;
 /** A receiver with corrections from the ground: centimetres. */
@@ -48,7 +48,7 @@ const reports = new EvenPace();
 let toldComponentsMs = Number.NEGATIVE_INFINITY;
 let toldJointsMs = Number.NEGATIVE_INFINITY;
 
-function tick(): void {
+function advance(): void {
   const now = monotonicMs();
   wheels.advance(now);
   writer.write(base.simulated.snapshot);
@@ -83,13 +83,13 @@ function wheelJoints(nowMs: number): TopicReading | null {
   return joints.take({ name, position: [left, right] }, nowMs);
 }
 
-tick();
-const ticking = setInterval(tick, TICK_MS);
+advance();
+const advancing = setInterval(advance, ADVANCE_EVERY_MS);
 port.on('message', (request: BaseRequest) => {
   if (request.type === 'twist') {
     wheels.apply(request.twist, monotonicMs());
     return;
   }
-  clearInterval(ticking);
+  clearInterval(advancing);
   port.close();
 });

@@ -64,10 +64,10 @@ function setUp(ownRhythm = false) {
     wait: (ms: number) => {
       nowMs += ms;
     },
-    /** Ticks as the loop's owner does, until `ms` have passed. */
+    /** Captures as the loop's owner does, until `ms` have passed. */
     run: (ms: number) => {
       const until = nowMs + ms;
-      while (nowMs < until) nowMs = Math.min(until, nowMs + Math.max(loop.tick(), 1));
+      while (nowMs < until) nowMs = Math.min(until, nowMs + Math.max(loop.captureDue(), 1));
     },
   };
 }
@@ -161,13 +161,13 @@ describe('CaptureLoop over a source with its own timing', () => {
     expect([captures, skips]).toEqual([[1540], [2091]]);
   });
 
-  it('is ticked when its next report is due, not a fraction of a millisecond before', () => {
+  it('is called again when its next report is due, not a fraction of a millisecond before', () => {
     const { loop, wait } = setUp(true);
-    expect(loop.tick()).toBe(20);
+    expect(loop.captureDue()).toBe(20);
     wait(0.3);
-    expect(loop.tick()).toBe(20);
+    expect(loop.captureDue()).toBe(20);
     wait(19);
-    expect(loop.tick()).toBe(1);
+    expect(loop.captureDue()).toBe(1);
   });
 
   it('skips a cloud if all buffers are in use', () => {

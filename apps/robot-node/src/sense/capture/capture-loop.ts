@@ -9,7 +9,7 @@ import type { CapturePipeline } from './pipeline.ts';
 const STATE_INTERVAL_MS = 20;
 /** An unchanged state is repeated at this interval, as a sign of life, ms. */
 const UNCHANGED_STATE_INTERVAL_MS = 100;
-/** Longest time between two ticks for a source that is polled, ms. */
+/** Longest time between two calls for a source that is polled, ms. */
 const MAX_WAIT_MS = 10;
 /** The obstacle guard gets a cloud at least this often if the source has that many, ms. */
 const LOOK_INTERVAL_MS = 50;
@@ -42,7 +42,7 @@ export type LoopFrames = Pick<
 
 /**
  * Decides when clouds are captured. A source that can be asked at any time is asked at the plan's rate. A source with
- * its own timing offers its clouds, and the loop takes as many as the plan has room for. The owner calls {@link tick},
+ * its own timing offers its clouds, and the loop takes as many as the plan has room for. The owner calls {@link captureDue},
  * and calls it again after the number of ms that it returned.
  */
 export class CaptureLoop {
@@ -132,8 +132,8 @@ export class CaptureLoop {
     }
   }
 
-  /** @returns when to call it again, ms from now */
-  tick(): number {
+  /** Captures and reports what is due. @returns when to call it again, ms from now */
+  captureDue(): number {
     const now = this.#now();
     if (!this.#ownRhythm && now >= this.#nextFrameMs) this.#captureAtPlan();
     if (!this.#ownRhythm && this.#mustLook(now)) this.#look(now);
@@ -148,7 +148,7 @@ export class CaptureLoop {
     return Math.min(Math.max(Math.ceil(this.#nextFrameMs - after), 0), MAX_WAIT_MS);
   }
 
-  /** Whether the source has its own timing: it calls `onReady` when it has a cloud, and ticks only report its state. */
+  /** Whether the source has its own timing: then {@link captureDue} only reports its state. */
   get #ownRhythm(): boolean {
     return this.#source.onReady !== undefined;
   }

@@ -37,8 +37,8 @@ const loop = new CaptureLoop(source, frames, {
   send,
 });
 
-function tick(): void {
-  if (!loop.closed) setTimeout(tick, loop.tick());
+function keepCapturing(): void {
+  if (!loop.closed) setTimeout(keepCapturing, loop.captureDue());
 }
 
 port.on('message', (request: CaptureRequest) => {
@@ -48,4 +48,4 @@ port.on('message', (request: CaptureRequest) => {
 });
 send({ type: 'ready', description: source.description, cameras: pictures.cameras });
 source.start?.();
-tick();
+keepCapturing();

@@ -52,7 +52,7 @@ describe('a camera with several codecs', () => {
   async function pass(ms: number): Promise<void> {
     for (const endMs = nowMs + ms; nowMs < endMs; ) {
       nowMs += 100;
-      hub.tick(nowMs);
+      hub.update(nowMs);
       await settled();
     }
   }

@@ -51,25 +51,25 @@ describe('VideoHub', () => {
   function watch(bitsPerSecond: number): FakeOperator {
     const operator = new FakeOperator('a', bitsPerSecond);
     operators = [operator];
-    hub.tick(0);
+    hub.update(0);
     return operator;
   }
 
   it('opens a camera while somebody watches, and no other', async () => {
-    hub.tick(0);
+    hub.update(0);
     expect(encoders).toHaveLength(0);
     operators = [new FakeOperator('a', 5e6)];
-    hub.tick(1000);
+    hub.update(1000);
     expect(encoders).toHaveLength(1);
     expect(encoders[0]!.formats).toEqual([{ ...most, barcode: false }]);
     operators = [];
-    hub.tick(2000);
+    hub.update(2000);
     expect(encoders[0]!.closed).toBe(false);
-    hub.tick(5000);
+    hub.update(5000);
     expect(encoders[0]!.closed).toBe(true);
     await new Promise((resolve) => setImmediate(resolve));
     operators = [new FakeOperator('b', 5e6)];
-    hub.tick(6000);
+    hub.update(6000);
     expect(encoders).toHaveLength(2);
   });
 
@@ -80,7 +80,7 @@ describe('VideoHub', () => {
     for (let i = 1; i <= 30; i++) encoder.picture(i * 33);
     expect(encoder.formats.map(({ bitsPerSecond }) => bitsPerSecond)).toEqual([800_000, 1_040_000]);
     operator.bitsPerSecond = 400_000;
-    hub.tick(1000);
+    hub.update(1000);
     expect(encoder.formats.at(-1)?.bitsPerSecond).toBe(520_000);
     for (let i = 31; i <= 60; i++) encoder.picture(i * 33);
     expect(encoder.formats.at(-1)?.bitsPerSecond).toBeLessThan(450_000);
@@ -99,7 +99,7 @@ describe('VideoHub', () => {
 
   it('encodes once for everyone, at the rate of the narrowest path', () => {
     operators = [new FakeOperator('a', 800_000), new FakeOperator('b', 500_000)];
-    hub.tick(0);
+    hub.update(0);
     encoders[0]!.picture(10);
     expect(encoders).toHaveLength(1);
     expect(encoders[0]!.formats.at(-1)?.bitsPerSecond).toBe(500_000);
@@ -110,32 +110,32 @@ describe('VideoHub', () => {
   it('follows the driver’s path, whoever watches', () => {
     operators = [new FakeOperator('a', 800_000), new FakeOperator('b', 200_000)];
     driver = 'a';
-    hub.tick(0);
+    hub.update(0);
     expect(encoders[0]!.formats.at(-1)?.bitsPerSecond).toBe(800_000);
     // A driver who does not watch the camera has no say.
     operators[0]!.wantedVideos = new Set();
-    hub.tick(1000);
+    hub.update(1000);
     expect(encoders[0]!.formats.at(-1)?.bitsPerSecond).toBe(200_000);
   });
 
   it('tells the encoder only of changes that matter', () => {
     const operator = watch(800_000);
     operator.bitsPerSecond = 810_000;
-    hub.tick(1000);
+    hub.update(1000);
     expect(encoders[0]!.formats).toHaveLength(1);
     operator.bitsPerSecond = 700_000;
-    hub.tick(2000);
+    hub.update(2000);
     expect(encoders[0]!.formats.map(({ bitsPerSecond }) => bitsPerSecond)).toEqual([800_000, 700_000]);
   });
 
   it('draws the capture time while anybody wants it', () => {
     operators = [new FakeOperator('a', 800_000), new FakeOperator('b', 800_000)];
     driver = 'a';
-    hub.tick(0);
+    hub.update(0);
     operators[1]!.wantsBarcode = true;
-    hub.tick(1000);
+    hub.update(1000);
     operators[1]!.wantedVideos = new Set();
-    hub.tick(2000);
+    hub.update(2000);
     expect(encoders[0]!.formats.map(({ barcode }) => barcode)).toEqual([false, true, false]);
   });
 
@@ -143,11 +143,11 @@ describe('VideoHub', () => {
     const operator = watch(800_000);
     encoders[0]!.picture(10);
     operator.bitsPerSecond = 10_000;
-    hub.tick(1000);
+    hub.update(1000);
     encoders[0]!.picture(20, false);
     expect(operator.frames).toHaveLength(1);
     operator.bitsPerSecond = 800_000;
-    hub.tick(2000);
+    hub.update(2000);
     expect(encoders[0]!.keyFrames).toBe(1);
     encoders[0]!.picture(30);
     expect(operator.frames.map(({ capturedAtMs }) => capturedAtMs)).toEqual([10, 30]);
@@ -208,7 +208,7 @@ describe('VideoHub', () => {
     });
 
     it('encodes cameras that nobody watches, at their full rate', () => {
-      hub.tick(0);
+      hub.update(0);
       expect(encoders.map(({ formats }) => formats)).toEqual([
         [{ ...most, barcode: false }],
         [{ ...most, barcode: false }],
@@ -216,7 +216,7 @@ describe('VideoHub', () => {
       encoders[1]!.picture(10);
       expect(taken).toEqual([[1, 10]]);
       recording = false;
-      hub.tick(5000);
+      hub.update(5000);
       expect(encoders.every(({ closed }) => closed)).toBe(true);
     });
 
@@ -237,7 +237,7 @@ describe('VideoHub', () => {
       expect(operator.frames).toHaveLength(0);
       expect(taken).toEqual([[0, 10]]);
       operator.bitsPerSecond = 900_000;
-      hub.tick(1000);
+      hub.update(1000);
       expect(encoders[0]!.keyFrames).toBe(1);
       encoders[0]!.picture(20);
       expect(operator.frames).toHaveLength(1);

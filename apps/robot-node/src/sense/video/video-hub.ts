@@ -99,7 +99,7 @@ export class VideoHub {
   }
 
   /** Call often; plans a few times a second. */
-  tick(nowMs: number): void {
+  update(nowMs: number): void {
     if (nowMs - this.#plannedMs < PLAN_MS) return;
     this.#plannedMs = nowMs;
     for (const stream of this.streams) {

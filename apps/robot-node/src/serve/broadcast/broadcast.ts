@@ -167,8 +167,8 @@ export class Broadcast extends FrameReceiver implements VideoTarget {
     this.keeper.describe();
   }
 
-  /** Call every 25 ms. */
-  tick(): void {
+  /** Follows whether anybody watches, and asks for due key frames. Call every 25 ms. */
+  update(): void {
     const nowMs = this.#parts.now();
     const { streaming } = this;
     if (streaming !== this.#wasStreaming) this.#onSwitched(streaming);
@@ -176,7 +176,7 @@ export class Broadcast extends FrameReceiver implements VideoTarget {
     if (nowMs - this.#knockedMs >= KNOCK_MS) this.#knock(nowMs);
     if (!streaming) return;
     for (const video of this.keyFrames.due(nowMs)) this.#parts.requestKeyFrame(video);
-    this.#feed.sender.tick();
+    this.#feed.sender.update();
   }
 
   async close(): Promise<void> {

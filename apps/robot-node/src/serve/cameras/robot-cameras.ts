@@ -42,10 +42,10 @@ export class RobotCameras {
     });
   }
 
-  /** Call often. */
-  tick(nowMs: number): void {
-    this.pictures?.tick(nowMs);
-    this.videos.tick(nowMs);
+  /** Updates the plans of all cameras. Call often. */
+  update(nowMs: number): void {
+    this.pictures?.update(nowMs);
+    this.videos.update(nowMs);
   }
 
   async close(): Promise<void> {

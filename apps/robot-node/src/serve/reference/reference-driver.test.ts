@@ -12,9 +12,9 @@ function setUp(mayHold = true) {
   return {
     ...{ guard, driver },
     /** As often as the robot does. @returns whether the lease was released */
-    ticks(fromMs: number, toMs: number, pathLives: boolean): boolean {
+    wait(fromMs: number, toMs: number, pathLives: boolean): boolean {
       let released = false;
-      for (let t = fromMs; t <= toMs; t += 20) released = driver.tick(t, pathLives) || released;
+      for (let t = fromMs; t <= toMs; t += 20) released = driver.checkQuiet(t, pathLives) || released;
       return released;
     },
   };
@@ -31,8 +31,8 @@ describe('ReferenceDriver', () => {
     expect(guard.leaseHolder).toBeNull();
     expect(driver.onTwist(forward(0.5), 20)).toMatchObject({ accepted: true });
     expect(guard.velocityAt(20).linear.x).toBe(0.5);
-    expect(driver.tick(2019, true)).toBe(false);
-    expect(driver.tick(2020, true)).toBe(true);
+    expect(driver.checkQuiet(2019, true)).toBe(false);
+    expect(driver.checkQuiet(2020, true)).toBe(true);
     expect(guard.leaseHolder).toBeNull();
   });
 
@@ -78,7 +78,7 @@ describe('ReferenceDriver', () => {
 
   it('obeys no hand that it does not know to be open: a zero, or 2 s without a request on a live path', () => {
     const refused = { accepted: false, reason: 'let-go-first' };
-    const { driver, ticks } = setUp();
+    const { driver, wait } = setUp();
     // A stick that is held when the session begins.
     expect(driver.onTwist(forward(0.5), 0)).toMatchObject(refused);
     driver.onTwist(zeroTwist(), 20);
@@ -88,24 +88,24 @@ describe('ReferenceDriver', () => {
     driver.onTwist(zeroTwist(), 1520);
     expect(driver.onTwist(forward(0.5), 1540)).toMatchObject({ accepted: true });
     // No zero was sent, but everything else kept arriving.
-    expect(ticks(1560, 4000, true)).toBe(true);
+    expect(wait(1560, 4000, true)).toBe(true);
     expect(driver.onTwist(forward(0.5), 4020)).toMatchObject({ accepted: true });
     // The path was lost, so the hand may still hold the stick.
-    expect(ticks(4040, 6000, false)).toBe(false);
-    expect(ticks(6020, 7000, true)).toBe(true);
+    expect(wait(4040, 6000, false)).toBe(false);
+    expect(wait(6020, 7000, true)).toBe(true);
     expect(driver.onTwist(forward(0.5), 7020)).toMatchObject(refused);
-    ticks(7040, 9100, true);
+    wait(7040, 9100, true);
     expect(driver.onTwist(forward(0.5), 9120)).toMatchObject({ accepted: true });
   });
 
   it('presumes the hand open in a session before which none was held, and says when it may hold on', () => {
-    const { driver, ticks } = setUp(false);
+    const { driver, wait } = setUp(false);
     expect(driver.holds(0)).toBe(false);
     expect(driver.onTwist(forward(0.5), 20)).toMatchObject({ accepted: true });
     expect(driver.holds(100)).toBe(true);
-    ticks(40, 1900, true);
+    wait(40, 1900, true);
     expect(driver.holds(1900)).toBe(true);
-    ticks(1920, 2100, true);
+    wait(1920, 2100, true);
     expect(driver.holds(2100)).toBe(false);
     driver.onTwist(forward(0.5), 2120);
     driver.onTwist(zeroTwist(), 2140);
@@ -140,7 +140,7 @@ describe('ReferenceDriver', () => {
         let now = 0;
         for (const { waitMs, x, z, turn } of steps) {
           now += waitMs;
-          driver.tick(now, true);
+          driver.checkQuiet(now, true);
           driver.onTwist({ linear: { x, y: 0, z }, angular: { x: 0, y: 0, z: turn } }, now);
           const { linear, angular } = guard.velocityAt(now);
           expect(Math.abs(linear.x)).toBeLessThanOrEqual(limits.maxLinear);

@@ -98,12 +98,12 @@ export class ReferenceDriver {
   }
 
   /**
-   * Call this at regular intervals.
+   * Releases the lease, and takes the hand as open, after a time without motion. Call this regularly.
    *
    * @param pathLives whether anything was received from the operator lately, on any channel
    * @returns whether the lease was released
    */
-  tick(nowMs: number, pathLives: boolean): boolean {
+  checkQuiet(nowMs: number, pathLives: boolean): boolean {
     this.#quietSinceMs = pathLives ? (this.#quietSinceMs ?? nowMs) : null;
     const isQuiet = this.#quietSinceMs !== null && nowMs - this.#quietSinceMs >= LEASE_AFTER_MOTION_MS;
     const isOver = this.holdsLease && nowMs - this.#lastMotionMs >= LEASE_AFTER_MOTION_MS;

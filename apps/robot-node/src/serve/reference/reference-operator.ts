@@ -127,15 +127,15 @@ export class ReferenceOperator extends FrameReceiver {
     frame.release();
   }
 
-  /** Call this every 25 ms. */
-  tick(): void {
+  /** Updates the sender, and acts on silence. Call this every 25 ms. */
+  update(): void {
     const now = this.#host.now();
     if (this.peer.heardSinceLast()) this.#heardMs = now;
-    this.sender?.tick();
+    this.sender?.update();
     if (this.sender === null) return;
     const silentMs = this.silentMs(now);
     this.#quiet = silentMs > QUIET_MS;
-    if (this.driver.tick(now, silentMs < LEASE_MS)) {
+    if (this.driver.checkQuiet(now, silentMs < LEASE_MS)) {
       this.#host.drive.apply();
       this.#host.leaseChanged('expired');
     }

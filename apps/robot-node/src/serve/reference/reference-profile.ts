@@ -112,10 +112,10 @@ export class ReferenceProfile {
     return this.#current === null ? [] : [this.#current];
   }
 
-  /** Call this every 25 ms. */
-  tick(): void {
+  /** Updates the operator, and closes a silent one that has a rival. Call this every 25 ms. */
+  update(): void {
     const current = this.#current;
-    current?.tick();
+    current?.update();
     // If the operator that took the offer seems to be gone, make a new offer for the one that came after it.
     if (this.#rival && current !== null && current.silentMs(this.#host.now()) > REPLACE_AFTER_MS) {
       current.peer.close('closed', 'another operator is here');

@@ -27,7 +27,7 @@ function setUp(most = 3) {
   };
   const drive = (id: string | null, nowMs: number) => {
     driver = id;
-    places.tick(id, nowMs);
+    places.noteDriver(id, nowMs);
   };
   return { places, operators, enter, drive, end: end_ };
 }

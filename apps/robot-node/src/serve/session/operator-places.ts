@@ -35,8 +35,8 @@ export class OperatorPlaces {
     return this.#rules.most + ANTEROOM;
   }
 
-  /** Call several times a second. @param driver the session that holds the lease */
-  tick(driver: string | null, nowMs: number): void {
+  /** Notes that the driver is active. Call several times a second. @param driver who holds the lease */
+  noteDriver(driver: string | null, nowMs: number): void {
     if (driver !== null && this.#activeMs.has(driver)) {
       this.#driver = driver;
       this.#activeMs.set(driver, nowMs);

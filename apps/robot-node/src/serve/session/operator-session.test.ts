@@ -89,7 +89,7 @@ function setUp() {
       const shared = new SharedFrame({ ...frame(150, nowMs), ...more }, 68, () => void recycled++);
       session.enqueue(shared);
       shared.release();
-      session.tick();
+      session.update();
     },
     wait: (ms: number) => {
       nowMs += ms;

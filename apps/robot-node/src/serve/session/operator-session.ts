@@ -186,13 +186,13 @@ export class OperatorSession extends FrameReceiver {
     this.messages.send({ type: 'cloudStream', format, header: text, ...(sensor === 0 ? {} : { sensor }) });
   }
 
-  /** Call every 25 ms. */
-  tick(): void {
+  /** Updates the budget, and sends what is due. Call every 25 ms. */
+  update(): void {
     if (this.peer.heardSinceLast()) this.#pathHeardMs = this.#host.now();
     this.budget.update(this.peer.messageBytesSent, this.pictures.bytesSent, this.#host.now());
     this.#sendPictures();
-    this.videos.tick(this.#host.now());
-    this.sender?.tick();
+    this.videos.sendDueReports(this.#host.now());
+    this.sender?.update();
     this.messages.flushRejections();
   }
 
@@ -206,7 +206,7 @@ export class OperatorSession extends FrameReceiver {
   }
 
   #sendPictures(): void {
-    this.pictures.tick(this.#host.now(), this.streaming ? this.pictureBitsPerSecond : 0);
+    this.pictures.sendDue(this.#host.now(), this.streaming ? this.pictureBitsPerSecond : 0);
   }
 
   /** Discards what is waiting to be sent. */

@@ -89,11 +89,11 @@ export class OperatorSessions {
         : new RobotAccess({ files, robot, refusals, revocationLists, onRefused, log, ...clocks });
   }
 
-  /** Call every 25 ms. */
-  tick(): void {
+  /** Notes the driver, and enforces the grants. Call every 25 ms. */
+  update(): void {
     const { leaseHolder } = this.#options.host.drive.guard;
-    this.#places?.tick(leaseHolder, monotonicMs());
-    this.#access?.tick(this.operators, leaseHolder);
+    this.#places?.noteDriver(leaseHolder, monotonicMs());
+    this.#access?.enforce(this.operators, leaseHolder);
   }
 
   /** Reads keys and revocations again; the old keys stay in force if that fails. @throws {GrantKeysError} */

@@ -26,7 +26,7 @@ function setUp(connected = true) {
   let leased: string | null = 'op';
   const messages = { id: 'op', heardMs: 1000 };
   const operator = {
-    ...{ messages, sender: {}, tick: () => undefined },
+    ...{ messages, sender: {}, update: () => undefined },
     ...{ resumeKey, restarts: new RestartPolicy(), heardMs: 0 },
     peer: {
       connected,
@@ -77,19 +77,19 @@ it('releases the lease of a page that is frozen while ICE and RTCP go on', () =>
   for (let i = 0; i < 100; i++) {
     pass(100);
     hear(true);
-    keeper.tick();
+    keeper.update();
   }
   expect(done).toEqual([]);
   for (let i = 0; i < 30; i++) {
     pass(100);
     hear(false);
-    keeper.tick();
+    keeper.update();
   }
   expect(done).toEqual([]);
   pass(1);
   hear(false);
-  keeper.tick();
-  keeper.tick();
+  keeper.update();
+  keeper.update();
   expect(done).toEqual(['apply', 'lease changed']);
 });
 

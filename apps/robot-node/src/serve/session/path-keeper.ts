@@ -12,7 +12,7 @@ export type ResumeRequest = Extract<ServiceToRobot, { type: 'session.resume' }>;
 /** The parts of an operator session that {@link PathKeeper} uses. */
 export type KeptOperator = Pick<
   OperatorSession,
-  'tick' | 'heardMs' | 'quiet' | 'messages' | 'restarts' | 'resumeKey'
+  'update' | 'heardMs' | 'quiet' | 'messages' | 'restarts' | 'resumeKey'
 > & {
   /** `null` while there is no path yet. */
   readonly sender: unknown;
@@ -43,11 +43,11 @@ export class PathKeeper {
     this.#options = options;
   }
 
-  /** Call every 25 ms. */
-  tick(): void {
+  /** Updates each operator, and acts on its silence. Call every 25 ms. */
+  update(): void {
     const { operators, limits, drive, signaling, leaseChanged, now } = this.#options;
     for (const operator of [...operators().values()]) {
-      operator.tick();
+      operator.update();
       if (operator.sender === null) continue;
       const silentMs = now() - operator.heardMs;
       operator.quiet = silentMs > limits.streamMs;

@@ -55,8 +55,8 @@ export class RobotSessionHost implements SessionHost {
     this.#localRelease = new LocalRelease(parts.estop.request, parts.drive.guard, parts.log);
   }
 
-  /** Call this every 25 ms. */
-  tick(): void {
+  /** Releases the emergency stop once somebody at the robot asks for it. Call this every 25 ms. */
+  checkLocalRelease(): void {
     if (!this.#localRelease.look(this.now())) return;
     this.drive.apply();
     this.#keepEstop();

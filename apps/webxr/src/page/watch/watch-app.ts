@@ -163,7 +163,7 @@ export class WatchApp {
 
   #frame(nowMs: number): void {
     const beganMs = performance.now();
-    this.videos.tick(beganMs);
+    this.videos.present(beganMs);
     this.#held.tick(this.videos.shownMs, beganMs);
     this.cloud.update(beganMs);
     this.#clouds.update(beganMs);

@@ -51,12 +51,16 @@ export class EstopUi {
     this.#hold.set(control, down);
   }
 
-  /** @param away the operator cannot see the page or is not at its controls */
-  tick(nowMs: number, away: boolean): void {
+  /**
+   * Releases the stop once its control was held long enough.
+   *
+   * @param away the operator cannot see the page or is not at its controls
+   */
+  update(nowMs: number, away: boolean): void {
     if (away) this.#hold.letGo();
     const { estopLatched, estopAtRobot } = this.#robot;
     const mayRelease = estopLatched.value && !estopAtRobot.value;
-    if (this.#hold.tick(nowMs, mayRelease)) this.#client.releaseEstop();
+    if (this.#hold.advance(nowMs, mayRelease)) this.#client.releaseEstop();
   }
 }
 

@@ -52,7 +52,7 @@ export class MinimapPanel {
     client.on('telemetry', ({ pose }) => this.#drive(pose.position.x, pose.position.y));
   }
 
-  /** Takes what {@link tick} asked for. */
+  /** Takes what {@link update} asked for. */
   take(view: TopView): void {
     const context = this.#image.getContext('2d');
     if (context === null) return;
@@ -67,8 +67,12 @@ export class MinimapPanel {
     this.#changed = true;
   }
 
-  /** Call it a few times a second. @param memory `null` while nothing is remembered, or nobody sees the page */
-  tick(memory: Pick<WorldMemory, 'lookFromAbove'> | null, nowMs: number): void {
+  /**
+   * Draws the map anew if it has changed. Call it a few times a second.
+   *
+   * @param memory `null` while nothing is remembered, or nobody sees the page
+   */
+  update(memory: Pick<WorldMemory, 'lookFromAbove'> | null, nowMs: number): void {
     const { session } = this.#client.link;
     const { telemetry } = session;
     const { minimap, minimapPicture: canvas, minimapAge } = elements;

@@ -54,9 +54,9 @@ export class RememberedWorld {
   }
 
   /** Brings the small map up to date. Call it a few times a second. @returns what is in view; `null`: nothing */
-  tick(nowMs: number): RememberedFigures | null {
+  updateMap(nowMs: number): RememberedFigures | null {
     const isSeen = this.#on && !this.#parts.renderer.xr.isPresenting && !document.hidden;
-    this.#map.tick(isSeen ? this.#memory : null, nowMs);
+    this.#map.update(isSeen ? this.#memory : null, nowMs);
     const view = this.#view;
     if (view === null || view.oldestS === null) return null;
     return { points: view.drawn, oldestS: view.oldestS };

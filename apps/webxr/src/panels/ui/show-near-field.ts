@@ -23,8 +23,8 @@ export class NearFieldDisplay {
     this.#arc = new BlockedArc(stage.camera);
   }
 
-  /** Call this at the rate of the commands. @param nowMs page's clock */
-  tick(nowMs: number): void {
+  /** Shows what is near, and what blocks. Call this at the rate of the commands. @param nowMs page's clock */
+  update(nowMs: number): void {
     const { link, driver } = this.#client;
     const { session, phase } = link;
     const live = phase === 'live';

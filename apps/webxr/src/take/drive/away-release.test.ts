@@ -3,7 +3,7 @@ import { AwayRelease } from './away-release.ts';
 
 test('an operator who has been away for 2 s gives up their turn, once', () => {
   const release = new AwayRelease();
-  const at = (away: boolean, ms: number) => release.tick(away, ms);
+  const at = (away: boolean, ms: number) => release.decide(away, ms);
   expect([at(false, 0), at(true, 100), at(true, 2099), at(true, 2100), at(true, 9000)]).toEqual([
     ...[false, false, false, true, false],
   ]);
@@ -14,5 +14,5 @@ test('an operator who has been away for 2 s gives up their turn, once', () => {
 
 test('a glance elsewhere keeps it', () => {
   const release = new AwayRelease();
-  for (let ms = 0; ms < 10_000; ms += 100) expect(release.tick(ms % 1000 !== 0, ms)).toBe(false);
+  for (let ms = 0; ms < 10_000; ms += 100) expect(release.decide(ms % 1000 !== 0, ms)).toBe(false);
 });

@@ -11,7 +11,7 @@ export class AwayRelease {
    * @param nowMs `performance.now()`
    * @returns true once for each time that the operator has left
    */
-  tick(away: boolean, nowMs: number): boolean {
+  decide(away: boolean, nowMs: number): boolean {
     if (!away) {
       this.#leftMs = null;
       this.#released = false;

@@ -11,7 +11,7 @@ class Bench {
   pass(ms: number, stepMs = 25): this {
     for (const end = this.now + ms; this.now < end; ) {
       this.now += stepMs;
-      if (this.hold.tick(this.now, this.latched)) this.releases++;
+      if (this.hold.advance(this.now, this.latched)) this.releases++;
     }
     return this;
   }

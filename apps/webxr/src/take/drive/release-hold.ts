@@ -2,8 +2,8 @@ import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
 
 /** How long the release control must be held, ms. */
 export const RELEASE_HOLD_MS = 1000;
-/** The most that one tick may count for, ms. A page that hung cannot know whether the operator let go meanwhile. */
-const MOST_TICK_MS = 100;
+/** The most that one `advance` counts for, ms: a page that hung cannot know whether the operator let go. */
+const MOST_COUNTED_MS = 100;
 
 export type ReleaseControl = 'pointer' | 'key' | 'gamepad' | 'headset';
 
@@ -13,10 +13,10 @@ export type ReleaseControl = 'pointer' | 'key' | 'gamepad' | 'headset';
  */
 export class ReleaseHold {
   readonly #down = new Set<ReleaseControl>();
-  /** The control being held, from its first tick. */
+  /** The control being held, from its first `advance`. */
   #by: ReleaseControl | null = null;
   readonly #heldMs = signal(0);
-  #tickMs = 0;
+  #advancedMs = 0;
   /** Set until every control has been let go; nothing counts meanwhile. */
   #spent = false;
 
@@ -41,10 +41,10 @@ export class ReleaseHold {
     this.cancel();
   }
 
-  /** Call this many times a second. @returns whether to release now */
-  tick(nowMs: number, latched: boolean): boolean {
-    const passedMs = Math.min(nowMs - this.#tickMs, MOST_TICK_MS);
-    this.#tickMs = nowMs;
+  /** Counts how long a control is held. Call this many times a second. @returns whether to release now */
+  advance(nowMs: number, latched: boolean): boolean {
+    const passedMs = Math.min(nowMs - this.#advancedMs, MOST_COUNTED_MS);
+    this.#advancedMs = nowMs;
     const [first] = this.#down;
     if (first === undefined) {
       this.#spent = false;

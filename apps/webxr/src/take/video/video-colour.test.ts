@@ -65,7 +65,7 @@ class Bench extends RobotVoice {
   }
 
   state(nowMs = 0) {
-    this.colour.tick(nowMs);
+    this.colour.update(nowMs);
     return this.colour.figures.state;
   }
 }
@@ -100,7 +100,7 @@ describe('the video of the camera that the cloud comes from', () => {
   test('makes clouds wait for their own pictures only while these come, and come later', () => {
     const bench = new Bench();
     const exactAt = (nowMs: number) => {
-      bench.colour.tick(nowMs);
+      bench.colour.update(nowMs);
       return bench.hold.exact;
     };
     expect(exactAt(0)).toBe(false);

@@ -87,8 +87,11 @@ export class VideoColour {
     });
   }
 
-  /** Call this a few times a second. Clouds wait for their own pictures only while some come after them. */
-  tick(nowMs: number): void {
+  /**
+   * Decides whether clouds wait for their own pictures: only while some come after them. Call this a few times
+   * a second.
+   */
+  update(nowMs: number): void {
     this.#nowMs = nowMs;
     this.#parts.hold.exact = nowMs - this.#matchedMs < SILENT_MS && this.#share !== null;
   }

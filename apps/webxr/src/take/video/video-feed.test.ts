@@ -101,18 +101,18 @@ describe('the videos’ feed', () => {
     const bench = new Bench().begin();
     const { nowMs } = bench;
     bench.frame('t0');
-    bench.feed.tick(nowMs + 1);
+    bench.feed.present(nowMs + 1);
     bench.frame('t1');
-    bench.feed.tick(nowMs + 2);
+    bench.feed.present(nowMs + 2);
     expect(bench.frames).toEqual([1, 1]);
     const [left] = bench.views.views.value;
     expect([left?.canvas.width, left?.newest.value?.takenAtMs]).toEqual([64, nowMs]);
     bench.frame('t0', nowMs + 30);
-    bench.feed.tick(nowMs + 3);
+    bench.feed.present(nowMs + 3);
     // It waits for the other camera's.
     expect(bench.frames).toEqual([1, 1]);
     bench.frame('t1', nowMs + 30);
-    bench.feed.tick(nowMs + 4);
+    bench.feed.present(nowMs + 4);
     expect(bench.frames).toEqual([2, 2]);
     expect([bench.open, bench.closed]).toEqual([0, 4]);
     const stats = bench.feed.stats(nowMs + 4);
@@ -133,7 +133,7 @@ describe('the videos’ feed', () => {
     const bench = new Bench({ synchronised: false }).begin();
     for (const instantMs of [0, 30]) {
       bench.frame('t1', bench.nowMs + instantMs);
-      bench.feed.tick(bench.nowMs + instantMs);
+      bench.feed.present(bench.nowMs + instantMs);
     }
     expect(bench.frames).toEqual([undefined, 2]);
   });
@@ -144,12 +144,12 @@ describe('the videos’ feed', () => {
     bench.views.switches.toggle(1);
     bench.say('cloud', cloudAt(nowMs, 7));
     bench.frame('t0');
-    bench.feed.tick(nowMs);
+    bench.feed.present(nowMs);
     bench.frame('t0', nowMs + 40);
-    bench.feed.tick(nowMs);
+    bench.feed.present(nowMs);
     expect(bench.frames[0]).toBe(1);
     bench.say('cloud', cloudAt(nowMs + 40, 8));
-    bench.feed.tick(nowMs);
+    bench.feed.present(nowMs);
     expect(bench.frames[0]).toBe(2);
     // Only what waits in the compositor is measured.
     expect(bench.feed.stats(nowMs).spreadMs).toBe(null);
@@ -167,7 +167,7 @@ describe('the videos’ feed', () => {
     expect(bench.views.views.value.map(({ fault }) => fault.value)).toEqual([null, null]);
     bench.frame('t0');
     bench.frame('t1');
-    bench.feed.tick(bench.nowMs);
+    bench.feed.present(bench.nowMs);
     expect(bench.frames).toEqual([1, 1]);
   });
 

@@ -91,7 +91,7 @@ export class VideoFeed {
   }
 
   /** Draws what is to be shown from now on. Call it for each display frame. */
-  tick(nowMs: number): void {
+  present(nowMs: number): void {
     const presentation = this.#compositor.tick(nowMs);
     if (presentation === null) return;
     const { client, views, presented } = this.#parts;
@@ -116,7 +116,7 @@ export class VideoFeed {
 
   /** Call this a few times a second. */
   measure(nowMs: number): void {
-    this.#figures.tick(nowMs);
+    this.#figures.update(nowMs);
   }
 
   stats(nowMs: number): VideoStats {

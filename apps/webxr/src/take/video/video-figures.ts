@@ -59,8 +59,8 @@ export class VideoFigures {
     counts.age.add(ageMs);
   }
 
-  /** Call this a few times a second. */
-  tick(nowMs: number): void {
+  /** Updates the rates. Call this a few times a second. */
+  update(nowMs: number): void {
     for (const { frames, rate } of this.#videos.values()) rate.update(frames, nowMs);
   }
 

@@ -8,7 +8,7 @@ import { type Lookout, ReturnDrive } from '../return-drive.ts';
 import { defaultReturnOptions, type ReturnOptions } from '../return-options.ts';
 import { Unicycle } from './unicycle.ts';
 
-export const TICK_MS = 20;
+export const STEP_MS = 20;
 export const ramps = {
   accelerationMps2: 1,
   decelerationMps2: 2,
@@ -46,8 +46,8 @@ export class ReturningRobot {
   odometry = true;
   /** What the driver's hand asks for; `null`: it says nothing. */
   hand: { x: number; z: number } | null = null;
-  /** Called after each tick. */
-  onTick: (() => void) | null = null;
+  /** Called after each step. */
+  onAdvance: (() => void) | null = null;
   #lease = '';
   #sequence = 0;
 
@@ -69,7 +69,7 @@ export class ReturningRobot {
     this.motion = new MotionSupervisor(this.guard, {
       ...{ ramps, guards: [looks], driverGuards: [blind], unattended: this.back },
     });
-    this.tick();
+    this.advance();
   }
 
   /** A driver takes the lease. */
@@ -86,20 +86,21 @@ export class ReturningRobot {
     this.guard.operatorGone('driver');
   }
 
-  tick(): void {
-    this.base.go(this.velocity, TICK_MS / 1000);
-    this.nowMs += TICK_MS;
+  /** One step. */
+  advance(): void {
+    this.base.go(this.velocity, STEP_MS / 1000);
+    this.nowMs += STEP_MS;
     if (this.odometry) this.back.moved(this.base.pose, this.nowMs);
     if (this.hand !== null) {
       this.back.heard(this.nowMs);
       this.guard.onCommand('driver', this.#command(this.hand), this.nowMs);
     }
     this.velocity = this.motion.velocityAt(this.nowMs);
-    this.onTick?.();
+    this.onAdvance?.();
   }
 
   wait(seconds: number): void {
-    for (let i = 0; i < Math.round((seconds * 1000) / TICK_MS); i++) this.tick();
+    for (let i = 0; i < Math.round((seconds * 1000) / STEP_MS); i++) this.advance();
   }
 
   drive(x: number, z: number, seconds: number): void {
