@@ -34,10 +34,20 @@ export interface ClientParts {
 }
 
 export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkEvents {
-  const { emitter, receiver, pictures, sound } = parts;
+  const { emitter } = parts;
   const tracks = new VideoTracks((track) => emitter.emit('videoTrack', track));
   return {
     ...forwardedEvents(emitter),
+    ...sessionEvents(client, parts, tracks),
+    ...driveEvents(client, parts),
+    ...mediaEvents(parts, tracks),
+  };
+}
+
+/** The beginning and end of sessions and paths, on which parts begin anew. */
+function sessionEvents(client: LinkedClient, parts: ClientParts, tracks: VideoTracks) {
+  const { emitter, receiver, pictures, sound } = parts;
+  return {
     onPhase: (phase) => {
       if (phase !== 'live') {
         client.driver.reset();
@@ -63,8 +73,14 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
       client.stops.onSession();
       emitter.emit('session', generation);
     },
+  } satisfies Partial<RobotLinkEvents>;
+}
+
+/** What the robot says of driving and of its emergency stop. */
+function driveEvents(client: LinkedClient, { emitter, tellFormats }: ClientParts) {
+  return {
     onWelcome: (welcome) => {
-      parts.tellFormats();
+      tellFormats();
       client.driver.onLimits(welcome.limits);
       emitter.emit('welcome', welcome);
     },
@@ -79,6 +95,12 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
     },
     onEstopAck: (press) => client.stops.onAck(press),
     onLatencyFrame: (frame) => client.latency.onRobotFrame(frame),
+  } satisfies Partial<RobotLinkEvents>;
+}
+
+/** Clouds, pictures, videos and sound. */
+function mediaEvents({ emitter, receiver, pictures, sound }: ClientParts, tracks: VideoTracks) {
+  return {
     onCloudStream: (stream) => receiver.beginStream(stream),
     onCameras: (cameras) => {
       pictures.reset();
@@ -95,5 +117,5 @@ export function linkEvents(client: LinkedClient, parts: ClientParts): RobotLinkE
     onSoundLine: (line) => sound.connect(line),
     onVideoTrack: (track) => tracks.add(track),
     onPicture: (picture, nowMs) => pictures.add(picture, nowMs),
-  };
+  } satisfies Partial<RobotLinkEvents>;
 }

@@ -21,6 +21,7 @@ import {
   ProtocolError,
   type Quantity,
   type Reading,
+  type RobotSessionMessage,
   robotControlCodec,
   robotSessionCodec,
   type Samples,
@@ -97,6 +98,14 @@ export interface RobotSessionEvents {
   onRobotFault(message: string): void;
 }
 
+/** What to do with each message of the `session` channel. */
+type SessionHandlers = {
+  readonly [Type in RobotSessionMessage['type']]: (
+    message: Extract<RobotSessionMessage, { type: Type }>,
+    nowMs: number,
+  ) => void;
+};
+
 /** What the robot has sent in this session. {@link RobotLink} creates one for each session. */
 export class RobotSession {
   /** The robot's first message; `null` until it arrives. */
@@ -135,6 +144,51 @@ export class RobotSession {
   malformed = 0;
   #probeId = 0;
   readonly #events: RobotSessionEvents;
+  readonly #handlers: SessionHandlers = {
+    welcome: (welcome, nowMs) => {
+      this.welcome = welcome;
+      this.#grantEnds(welcome.access?.expiresInS, nowMs);
+      this.#events.onWelcome(welcome);
+    },
+    expires: ({ inS }, nowMs) => {
+      this.#grantEnds(inS, nowMs);
+      this.#events.onGrantExpires(inS);
+    },
+    lease: (lease) => {
+      this.lease = lease;
+      this.#events.onLease(lease);
+    },
+    operators: (operators) => {
+      this.operators = operators;
+      this.#events.onOperators(operators);
+    },
+    rejected: (rejected) => this.#events.onRejected(rejected),
+    estop: (estop) => {
+      this.estop = estop;
+      this.#events.onEstop(estop);
+    },
+    latencyFrame: (frame) => this.#events.onLatencyFrame(frame),
+    cloudStream: (stream) => this.#events.onCloudStream(stream),
+    cameras: ({ cameras }) => {
+      this.pictures.cameras = cameras.length;
+      this.#events.onCameras(cameras);
+    },
+    sensors: ({ sensors }) => this.#events.onSensors(sensors),
+    rings: (rings) => this.#events.onRings(rings),
+    videos: ({ videos }) => this.#events.onVideos(videos),
+    robotModel: (parts) => this.model.takeParts(parts),
+    quantity: (quantity) => {
+      this.quantities.set(quantity.number, quantity);
+      this.#events.onQuantity(quantity);
+    },
+    alarm: (alarm) => {
+      if (alarm.level === 'ok') this.alarms.delete(alarm.number);
+      else this.alarms.set(alarm.number, alarm);
+      this.#events.onAlarm(alarm);
+    },
+    sound: (sound) => this.#events.onSound(sound),
+    fault: ({ message }) => this.#events.onRobotFault(message),
+  };
 
   /** @param events called for each message */
   constructor(events: RobotSessionEvents) {
@@ -183,69 +237,8 @@ export class RobotSession {
 
   #onSession(data: MessageData, nowMs: number): void {
     const message = decodeJson(robotSessionCodec, data);
-    switch (message.type) {
-      case 'welcome':
-        this.welcome = message;
-        this.#grantEnds(message.access?.expiresInS, nowMs);
-        this.#events.onWelcome(message);
-        return;
-      case 'expires':
-        this.#grantEnds(message.inS, nowMs);
-        this.#events.onGrantExpires(message.inS);
-        return;
-      case 'lease':
-        this.lease = message;
-        this.#events.onLease(message);
-        return;
-      case 'operators':
-        this.operators = message;
-        this.#events.onOperators(message);
-        return;
-      case 'rejected':
-        this.#events.onRejected(message);
-        return;
-      case 'estop':
-        this.estop = message;
-        this.#events.onEstop(message);
-        return;
-      case 'latencyFrame':
-        this.#events.onLatencyFrame(message);
-        return;
-      case 'cloudStream':
-        this.#events.onCloudStream(message);
-        return;
-      case 'cameras':
-        this.pictures.cameras = message.cameras.length;
-        this.#events.onCameras(message.cameras);
-        return;
-      case 'sensors':
-        this.#events.onSensors(message.sensors);
-        return;
-      case 'rings':
-        this.#events.onRings(message);
-        return;
-      case 'videos':
-        this.#events.onVideos(message.videos);
-        return;
-      case 'robotModel':
-        this.model.takeParts(message);
-        return;
-      case 'quantity':
-        this.quantities.set(message.number, message);
-        this.#events.onQuantity(message);
-        return;
-      case 'alarm':
-        if (message.level === 'ok') this.alarms.delete(message.number);
-        else this.alarms.set(message.number, message);
-        this.#events.onAlarm(message);
-        return;
-      case 'sound':
-        this.#events.onSound(message);
-        return;
-      case 'fault':
-        this.#events.onRobotFault(message.message);
-        return;
-    }
+    const handle = this.#handlers[message.type] as (message: RobotSessionMessage, nowMs: number) => void;
+    handle(message, nowMs);
   }
 
   #grantEnds(inS: number | undefined, nowMs: number): void {

@@ -72,56 +72,84 @@ export function boundSctp(association: object, events: SctpBoundEvents): (tsn: n
   ]);
   if (typeof sctp.outboundStreamSeq !== 'object' || typeof sctp.lastSackedTsn !== 'number')
     throw new WeriftShapeError('no numbers in the SCTP association');
+  const numbers = new ReceivedNumbers(sctp);
+  sctp.markReceived = (tsn) => numbers.mark(tsn);
+  sctp.sendSack = () => numbers.sendSack();
+  boundSkips(sctp, numbers, events);
+  boundAcknowledgements(sctp, events);
+  boundResets(sctp);
+  return (tsn) => numbers.isRepeated(tsn);
+}
 
-  let window = new TsnWindow(0);
-  const repeated: number[] = [];
-  /** `null` before the association begins, which also sets its first number. */
-  const numbers = (): TsnWindow | null => {
-    const { lastReceivedTsn } = sctp;
-    if (lastReceivedTsn === undefined) return null;
-    if (window.last !== lastReceivedTsn) window = new TsnWindow(lastReceivedTsn);
-    // werift counts down from 0 to -1.
-    sctp.lastReceivedTsn = window.last;
-    return window;
-  };
+/** The numbers that have arrived at an association, in place of werift's list of them. */
+class ReceivedNumbers {
+  readonly #sctp: AssociationShape;
+  readonly #repeated: number[] = [];
+  #window = new TsnWindow(0);
 
-  const isRepeated = (tsn: number): boolean => {
-    if (numbers()?.has(tsn) !== true) return false;
-    sctp.sackNeeded = true;
-    sctp.sackImmediate = true;
-    if (repeated.length < MAX_REPEATED) repeated.push(tsn);
+  constructor(sctp: AssociationShape) {
+    this.#sctp = sctp;
+  }
+
+  /** Whether it has been received before. If so, the next acknowledgement says that. */
+  isRepeated(tsn: number): boolean {
+    if (this.#current()?.has(tsn) !== true) return false;
+    this.#sctp.sackNeeded = true;
+    this.#sctp.sackImmediate = true;
+    if (this.#repeated.length < MAX_REPEATED) this.#repeated.push(tsn);
     return true;
-  };
+  }
 
-  sctp.markReceived = (tsn) => {
-    const known = numbers();
+  /** @returns whether nothing more is to be done with it */
+  mark(tsn: number): boolean {
+    const known = this.#current();
     if (known?.add(tsn) !== true) return true;
-    sctp.lastReceivedTsn = known.last;
+    this.#sctp.lastReceivedTsn = known.last;
     return false;
-  };
+  }
 
-  sctp.sendSack = async () => {
-    const known = numbers();
+  /** The peer has given up every number up to this one. @returns false if that is nothing new */
+  skipTo(tsn: number): boolean {
+    const known = this.#current();
+    this.#sctp.sackNeeded = true;
+    this.#sctp.sackImmediate = true;
+    if (known?.skipTo(tsn) !== true) return false;
+    this.#sctp.lastReceivedTsn = known.last;
+    return true;
+  }
+
+  async sendSack(): Promise<void> {
+    const sctp = this.#sctp;
+    const known = this.#current();
     if (sctp.isStopped || !sctp.sackNeeded || known === null) return;
     const bytes = writeSack({
       last: known.last,
       room: sctp.advertisedRwnd,
       blocks: known.blocks(MAX_BLOCKS),
-      repeated,
+      repeated: this.#repeated,
     });
-    repeated.length = 0;
+    this.#repeated.length = 0;
     sctp.sackNeeded = false;
     sctp.sackImmediate = false;
     sctp.sackPacketCount = 0;
     await sctp.sendChunk({ bytes }).catch(() => undefined);
-  };
+  }
 
+  /** `null` before the association begins, which also sets its first number. */
+  #current(): TsnWindow | null {
+    const { lastReceivedTsn } = this.#sctp;
+    if (lastReceivedTsn === undefined) return null;
+    if (this.#window.last !== lastReceivedTsn) this.#window = new TsnWindow(lastReceivedTsn);
+    // werift counts down from 0 to -1.
+    this.#sctp.lastReceivedTsn = this.#window.last;
+    return this.#window;
+  }
+}
+
+/** Opens no more than {@link MAX_STREAMS} of the streams that a FORWARD TSN (RFC 3758) names. */
+function boundSkips(sctp: AssociationShape, numbers: ReceivedNumbers, events: SctpBoundEvents): void {
   sctp.receiveForwardTsnChunk = ({ cumulativeTsn, streams }) => {
-    const known = numbers();
-    sctp.sackNeeded = true;
-    sctp.sackImmediate = true;
-    if (known?.skipTo(cumulativeTsn) !== true) return;
-    sctp.lastReceivedTsn = known.last;
+    if (!numbers.skipTo(cumulativeTsn)) return;
     let room = MAX_STREAMS - Object.keys(sctp.inboundStreams).length;
     // Each stream once, whatever the list says.
     for (const [streamId, sequence] of new Map(streams)) {
@@ -141,7 +169,10 @@ export function boundSctp(association: object, events: SctpBoundEvents): (tsn: n
       sctp.advertisedRwnd += stream?.pruneChunks(cumulativeTsn) ?? 0;
     }
   };
+}
 
+/** Believes no acknowledgement of what was never sent. */
+function boundAcknowledgements(sctp: AssociationShape, events: SctpBoundEvents): void {
   const receiveSackChunk = sctp.receiveSackChunk.bind(sctp);
   sctp.receiveSackChunk = async (chunk) => {
     const next = sctp.outboundQueue[0]?.tsn ?? sctp.localTsn;
@@ -156,7 +187,10 @@ export function boundSctp(association: object, events: SctpBoundEvents): (tsn: n
     if (!isOld) clipBlocks(chunk.gaps, sent - acknowledged);
     await receiveSackChunk(chunk);
   };
+}
 
+/** Resets only streams that there are, each once. */
+function boundResets(sctp: AssociationShape): void {
   const receiveReconfigParam = sctp.receiveReconfigParam.bind(sctp);
   sctp.receiveReconfigParam = (parameter) => {
     if (parameter.type === OUTGOING_RESET && parameter.streams !== undefined) {
@@ -166,5 +200,4 @@ export function boundSctp(association: object, events: SctpBoundEvents): (tsn: n
     }
     return receiveReconfigParam(parameter);
   };
-  return isRepeated;
 }

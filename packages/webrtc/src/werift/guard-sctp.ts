@@ -60,20 +60,54 @@ export function guardSctp(
   if (typeof sctp.inboundStreams !== 'object')
     throw new WeriftShapeError('no streams in the SCTP association');
   mendSctp(transport);
-  let exceeded = false;
-  const onExcess = (excess: Excess) => {
-    if (exceeded) return;
-    exceeded = true;
-    // Frees what was held.
-    sctp.inboundStreams = {};
-    refusals.add(excess);
-    onFault(new ExcessError(excess));
-  };
-  const isRepeated = boundSctp(sctp, { onExcess, onFalseAck: () => refusals.add('sctp-false-ack') });
+  const gate = new ExcessGate(sctp, refusals, onFault);
+  const isRepeated = boundSctp(sctp, {
+    onExcess: (excess) => gate.shut(excess),
+    onFalseAck: () => refusals.add('sctp-false-ack'),
+  });
+  guardPackets(sctp, gate, refusals, budget);
+  guardChunks(sctp, gate, isRepeated);
+  guardMessages(shape, gate, refusals, onFault);
+  markUnordered(shape);
+}
 
+/** Lets nothing more through once the peer has exceeded what an association may hold. */
+class ExcessGate {
+  readonly #sctp: AssociationShape;
+  readonly #refusals: Refusals;
+  readonly #onFault: (error: unknown) => void;
+  #isShut = false;
+
+  constructor(sctp: AssociationShape, refusals: Refusals, onFault: (error: unknown) => void) {
+    this.#sctp = sctp;
+    this.#refusals = refusals;
+    this.#onFault = onFault;
+  }
+
+  get isShut(): boolean {
+    return this.#isShut;
+  }
+
+  /** Counts and reports the first excess only. */
+  shut(excess: Excess): void {
+    if (this.#isShut) return;
+    this.#isShut = true;
+    // Frees what was held.
+    this.#sctp.inboundStreams = {};
+    this.#refusals.add(excess);
+    this.#onFault(new ExcessError(excess));
+  }
+}
+
+function guardPackets(
+  sctp: AssociationShape,
+  gate: ExcessGate,
+  refusals: Refusals,
+  budget: PeerBudget,
+): void {
   const handleData = sctp.handleData.bind(sctp);
   sctp.handleData = async (packet) => {
-    if (exceeded) return;
+    if (gate.isShut) return;
     if (!isSctpPacket(packet)) {
       refusals.add('sctp-malformed');
     } else if (!budget.take('sctp', sctpWork(packet), performance.now())) {
@@ -85,34 +119,48 @@ export function guardSctp(
       await handleData(packet).catch(() => refusals.add('sctp-failed'));
     }
   };
+}
 
+function guardChunks(sctp: AssociationShape, gate: ExcessGate, isRepeated: (tsn: number) => boolean): void {
   const receiveDataChunk = sctp.receiveDataChunk.bind(sctp);
   sctp.receiveDataChunk = (chunk) => {
-    if (exceeded || isRepeated(chunk.tsn)) return;
+    if (gate.isShut || isRepeated(chunk.tsn)) return;
     const excess = excessOf(chunk, { streams: sctp.inboundStreams, lastTsn: sctp.lastReceivedTsn });
     if (excess === null) receiveDataChunk(chunk);
-    else onExcess(excess);
+    else gate.shut(excess);
   };
+}
+
+function guardMessages(
+  transport: TransportShape,
+  gate: ExcessGate,
+  refusals: Refusals,
+  onFault: (error: unknown) => void,
+): void {
+  const { sctp } = transport;
   let openings = 0;
   sctp.onReceive.allUnsubscribe();
   sctp.onReceive.subscribe((streamId, payloadProtocol, data) => {
-    if (!isUserMessage(payloadProtocol, data, shape.dataChannels[streamId] !== undefined)) {
+    if (!isUserMessage(payloadProtocol, data, transport.dataChannels[streamId] !== undefined)) {
       refusals.add('message-malformed');
       return;
     }
     const opens = payloadProtocol === PayloadProtocol.dcep && data[0] === DCEP_OPEN;
     if (opens && ++openings > MAX_OPENINGS) {
-      onExcess('too-many-channels');
+      gate.shut('too-many-channels');
       return;
     }
-    shape.datachannelReceive(streamId, payloadProtocol, data).catch(onFault);
+    transport.datachannelReceive(streamId, payloadProtocol, data).catch(onFault);
   });
+}
 
-  // werift announces unordered channels with a limit as ordered ones.
+/** werift announces unordered channels with a limit as ordered ones. */
+function markUnordered(transport: TransportShape): void {
+  const { sctp } = transport;
   const send = sctp.send;
   sctp.send = (streamId, payloadProtocol, data, options) => {
     const isOpen = payloadProtocol === PayloadProtocol.dcep && data[0] === DCEP_OPEN && data.length > 1;
-    if (isOpen && shape.dataChannels[streamId]?.ordered === false) {
+    if (isOpen && transport.dataChannels[streamId]?.ordered === false) {
       data.writeUInt8(data.readUInt8(1) | UNORDERED, 1);
     }
     return send(streamId, payloadProtocol, data, options);

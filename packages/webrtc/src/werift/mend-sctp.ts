@@ -64,7 +64,13 @@ export function mendSctp(transport: RTCSctpTransport): void {
   ]);
   if (!Array.isArray(sctp.sentQueue) || !Array.isArray(sctp.outboundQueue))
     throw new WeriftShapeError('no queues in the SCTP association');
+  giveUpWorthless(sctp);
+  endLifetimes(shape);
+  repeatForwards(sctp);
+  popAllMessages(sctp);
+}
 
+function giveUpWorthless(sctp: AssociationShape): void {
   sctp.maybeAbandon = (chunk) => {
     if (chunk.abandoned) return true;
     // It has arrived. If the first has, too, although the peer does not count it, the peer has dropped them again.
@@ -75,10 +81,14 @@ export function mendSctp(transport: RTCSctpTransport): void {
     for (const other of abandonMessage(chunk, queues)) sctp.flightSizeDecrease(other);
     return true;
   };
+}
 
+/** Ends the lifetime of a channel's messages, also of those that wait to be sent. */
+function endLifetimes(transport: TransportShape): void {
+  const { sctp } = transport;
   const send = sctp.send;
   sctp.send = (streamId, payloadProtocol, data, options) => {
-    const lifeTimeMs = shape.dataChannels[streamId]?.maxPacketLifeTime ?? null;
+    const lifeTimeMs = transport.dataChannels[streamId]?.maxPacketLifeTime ?? null;
     if (options?.expiry === undefined || lifeTimeMs === null)
       return send(streamId, payloadProtocol, data, options);
     const expiry = (Date.now() + lifeTimeMs) / 1000;
@@ -91,7 +101,10 @@ export function mendSctp(transport: RTCSctpTransport): void {
     sctp.localTsn = (sctp.localTsn - dropped) >>> 0;
     return transmitOnce();
   };
+}
 
+/** Tells the peer what was given up until it has acknowledged that. */
+function repeatForwards(sctp: AssociationShape): void {
   const givenUp = new GivenUp();
   const update = sctp.updateAdvancedPeerAckPoint.bind(sctp);
   sctp.updateAdvancedPeerAckPoint = () => {
@@ -107,7 +120,10 @@ export function mendSctp(transport: RTCSctpTransport): void {
       if (sctp.timer3Handle === undefined) sctp.timer3Start();
     } else if (due !== null) sctp.forwardTsnChunk = due;
   };
+}
 
+/** Hands over each message that is due, also if numbers between them belong to other channels. */
+function popAllMessages(sctp: AssociationShape): void {
   const getInboundStream = sctp.getInboundStream.bind(sctp);
   const mended = new WeakSet<InboundStream>();
   sctp.getInboundStream = (streamId) => {

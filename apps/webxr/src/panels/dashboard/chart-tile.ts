@@ -23,111 +23,128 @@ const VALUE_MS = 100;
 const LEAST_MS = 50;
 const MOST_MS = 2000;
 
-/** @param recorded read anew each time, because a robot may describe it again */
-export function chartTile(recorded: () => RecordedSeries | undefined): Tile {
-  const element = part('chart');
-  const figures = part('figures');
-  const [now, least, most] = [part('now', 'output'), part('least'), part('most')] as [
-    HTMLElement,
-    HTMLElement,
-    HTMLElement,
-  ];
-  now.ariaLive = 'off';
-  figures.append(now, least, most);
-  const plotted = part('plot');
-  plotted.ariaHidden = 'true';
-  element.append(figures, plotted);
-  const curve = new Curve();
-  let unit = '';
-  let stale = false;
-  let windowS = 30;
-  let curveDueMs = 0;
-  let columnMs = LEAST_MS;
-  let drawnStale: boolean | null = null;
-  const plot = new uPlot(
-    {
-      width: LEAST_WIDTH,
-      height: HEIGHT,
-      padding: [6, 16, 0, 0],
-      legend: { show: false },
-      cursor: { show: false },
-      select: { show: false } as uPlot.Select,
-      scales: {
-        x: { time: false, range: () => [-windowS, 0] },
-        y: { range: (_, low, high) => padded(low, high) },
-      },
-      axes: [
-        {
-          stroke: TEXT,
-          grid: GRID,
-          ticks: TICKS,
-          font: FONT,
-          size: 26,
-          space: 60,
-          values: (_, splits) => splits.map((at) => (at === 0 ? 'now' : `−${spanWords(-at)}`)),
-          incrs: [5, 10, 30, 60, 120, 300, 600, 1200],
-        },
-        {
-          stroke: TEXT,
-          grid: GRID,
-          ticks: TICKS,
-          font: FONT,
-          size: AXIS_WIDTH,
-          space: 26,
-          values: (_, splits) => splits.map((at) => String(Number(at.toPrecision(6)))),
-        },
-      ],
-      series: [
-        {},
-        { stroke: () => (stale ? STALE_LINE : LINE), width: 1.5, points: { show: false }, spanGaps: false },
-      ],
-    },
-    [[], []],
-    plotted,
-  );
-  const resizing = new ResizeObserver(([entry]) => {
-    const width = Math.max(LEAST_WIDTH, Math.floor(entry?.contentRect.width ?? 0));
-    curve.columns = Math.max(1, width - AXIS_WIDTH);
-    if (width !== plot.width) plot.setSize({ width, height: HEIGHT });
-  });
-  resizing.observe(plotted);
+export class ChartTile implements Tile {
+  readonly element = part('chart');
+  readonly #recorded: () => RecordedSeries | undefined;
+  readonly #now = part('now', 'output');
+  readonly #least = part('least');
+  readonly #most = part('most');
+  readonly #curve = new Curve();
+  readonly #plot: uPlot;
+  readonly #resizing: ResizeObserver;
+  #unit = '';
+  #stale = false;
+  #windowS = 30;
+  #curveDueMs = 0;
+  #columnMs = LEAST_MS;
+  #drawnStale: boolean | null = null;
 
-  function write(frame: TileFrame): void {
-    const described = recorded();
-    const shown = shownAt(described?.series, frame.moment);
-    unit = described?.unit ?? '';
-    stale = shown?.stale ?? true;
-    element.dataset.stale = String(stale);
-    const value = shown === null ? '–' : withUnit(shown.value, unit);
-    setText(now, stale && shown !== null ? `${value} (${ageText(shown.ageMs)} old)` : value);
+  /** @param recorded read anew each time, because a robot may describe it again */
+  constructor(recorded: () => RecordedSeries | undefined) {
+    this.#recorded = recorded;
+    const figures = part('figures');
+    this.#now.ariaLive = 'off';
+    figures.append(this.#now, this.#least, this.#most);
+    const plotted = part('plot');
+    plotted.ariaHidden = 'true';
+    this.element.append(figures, plotted);
+    const options = chartOptions(
+      () => this.#windowS,
+      () => this.#stale,
+    );
+    this.#plot = new uPlot(options, [[], []], plotted);
+    this.#resizing = new ResizeObserver(([entry]) => this.#fit(entry?.contentRect.width ?? 0));
+    this.#resizing.observe(plotted);
   }
 
+  everyMs(): number {
+    return Math.min(this.#columnMs, VALUE_MS);
+  }
+
+  update(frame: TileFrame): void {
+    this.#writeNow(frame);
+    this.#columnMs = Math.min(Math.max(frame.windowMs / this.#plot.width, LEAST_MS), MOST_MS);
+    // A window that was chosen just now, or a robot that returned, is shown at once.
+    const isSame = this.#windowS === frame.windowMs / 1000 && this.#drawnStale === this.#stale;
+    if (isSame && frame.nowMs < this.#curveDueMs) return;
+    this.#curveDueMs = frame.nowMs + this.#columnMs;
+    this.#drawnStale = this.#stale;
+    this.#drawCurve(frame);
+  }
+
+  dispose(): void {
+    this.#resizing.disconnect();
+    this.#plot.destroy();
+  }
+
+  #fit(contentWidth: number): void {
+    const width = Math.max(LEAST_WIDTH, Math.floor(contentWidth));
+    this.#curve.columns = Math.max(1, width - AXIS_WIDTH);
+    if (width !== this.#plot.width) this.#plot.setSize({ width, height: HEIGHT });
+  }
+
+  #writeNow(frame: TileFrame): void {
+    const described = this.#recorded();
+    const shown = shownAt(described?.series, frame.moment);
+    this.#unit = described?.unit ?? '';
+    this.#stale = shown?.stale ?? true;
+    this.element.dataset.stale = String(this.#stale);
+    const value = shown === null ? '–' : withUnit(shown.value, this.#unit);
+    const isOld = this.#stale && shown !== null;
+    setText(this.#now, isOld ? `${value} (${ageText(shown.ageMs)} old)` : value);
+  }
+
+  #drawCurve({ moment: { instantMs, robotNowMs }, windowMs }: TileFrame): void {
+    const endMs = instantMs ?? robotNowMs;
+    const described = this.#recorded();
+    this.#windowS = windowMs / 1000;
+    const range = described?.series.range(endMs - windowMs, endMs) ?? null;
+    setText(this.#least, range === null ? 'min –' : `min ${numberText(range.least, this.#unit)}`);
+    setText(this.#most, range === null ? 'max –' : `max ${numberText(range.most, this.#unit)}`);
+    if (described === undefined) return;
+    described.series.curve(endMs - windowMs, endMs, this.#curve);
+    this.#plot.setData([this.#curve.xs, this.#curve.ys]);
+  }
+}
+
+/** @param windowS how far back the curve reaches now, s @param isStale whether it is drawn as stale */
+function chartOptions(windowS: () => number, isStale: () => boolean): uPlot.Options {
   return {
-    element,
-    everyMs: () => Math.min(columnMs, VALUE_MS),
-    update(frame) {
-      write(frame);
-      columnMs = Math.min(Math.max(frame.windowMs / plot.width, LEAST_MS), MOST_MS);
-      // A window that was chosen just now, or a robot that returned, is shown at once.
-      const isSame = windowS === frame.windowMs / 1000 && drawnStale === stale;
-      if (isSame && frame.nowMs < curveDueMs) return;
-      curveDueMs = frame.nowMs + columnMs;
-      drawnStale = stale;
-      const { instantMs, robotNowMs } = frame.moment;
-      const endMs = instantMs ?? robotNowMs;
-      const described = recorded();
-      windowS = frame.windowMs / 1000;
-      const range = described?.series.range(endMs - frame.windowMs, endMs) ?? null;
-      setText(least, range === null ? 'min –' : `min ${numberText(range.least, unit)}`);
-      setText(most, range === null ? 'max –' : `max ${numberText(range.most, unit)}`);
-      if (described === undefined) return;
-      described.series.curve(endMs - frame.windowMs, endMs, curve);
-      plot.setData([curve.xs, curve.ys]);
+    width: LEAST_WIDTH,
+    height: HEIGHT,
+    padding: [6, 16, 0, 0],
+    legend: { show: false },
+    cursor: { show: false },
+    select: { show: false } as uPlot.Select,
+    scales: {
+      x: { time: false, range: () => [-windowS(), 0] },
+      y: { range: (_, low, high) => padded(low, high) },
     },
-    dispose() {
-      resizing.disconnect();
-      plot.destroy();
-    },
+    axes: [
+      {
+        stroke: TEXT,
+        grid: GRID,
+        ticks: TICKS,
+        font: FONT,
+        size: 26,
+        space: 60,
+        values: (_, splits) => splits.map((at) => (at === 0 ? 'now' : `−${spanWords(-at)}`)),
+        incrs: [5, 10, 30, 60, 120, 300, 600, 1200],
+      },
+      {
+        stroke: TEXT,
+        grid: GRID,
+        ticks: TICKS,
+        font: FONT,
+        size: AXIS_WIDTH,
+        space: 26,
+        values: (_, splits) => splits.map((at) => String(Number(at.toPrecision(6)))),
+      },
+    ],
+    series: [
+      {},
+      { stroke: () => (isStale() ? STALE_LINE : LINE), width: 1.5, points: { show: false }, spanGaps: false },
+    ],
   };
 }
 

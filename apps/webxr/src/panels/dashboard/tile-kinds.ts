@@ -2,10 +2,10 @@
 import type { RobotSession } from '@farpoint/operator';
 import type { MapTiles } from '../../ground/telemetry/map-tiles.ts';
 import { OWN, type TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
-import { chartTile } from './chart-tile.ts';
+import { ChartTile } from './chart-tile.ts';
 import { diagnosticsTile } from './diagnostics-tile.ts';
 import type { PlacedTile } from './layout.ts';
-import { mapTile } from './map-tile.ts';
+import { MapTile } from './map-tile.ts';
 import type { Tile } from './tile.ts';
 import { topicsTile } from './topics-tile.ts';
 import { ownValues, valueTile } from './value-tile.ts';
@@ -42,7 +42,7 @@ export function tileKinds({ recorder, mapTiles, session }: TileSources): TileKin
       title: unit === '' ? label : `${label}, ${unit}`,
       size: 'medium',
       shown: field === null ? SHOWN_CURVES.includes(key) : !HIDDEN_FIELDS.includes(field),
-      make: () => chartTile(() => recorder.series.get(key)),
+      make: () => new ChartTile(() => recorder.series.get(key)),
     }),
   );
   return [
@@ -50,7 +50,7 @@ export function tileKinds({ recorder, mapTiles, session }: TileSources): TileKin
     value('battery', 'Battery'),
     value('heading', 'Heading'),
     value('position', 'Position'),
-    { id: 'map', title: 'Map', size: 'large', shown: true, make: () => mapTile(recorder, mapTiles) },
+    { id: 'map', title: 'Map', size: 'large', shown: true, make: () => new MapTile(recorder, mapTiles) },
     {
       id: 'diagnostics',
       title: 'Diagnostics',

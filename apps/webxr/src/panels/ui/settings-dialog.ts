@@ -10,75 +10,99 @@ import { elements } from './elements.ts';
 /** Sets up the dialog. @param pointScale follows the slider while it moves */
 export function initSettingsDialog(pointScale: Signal<number>): void {
   const { settings: dialog, settingsOpen } = elements;
-  const form = dialog.querySelector('form')!;
-  const field = (name: string): HTMLInputElement => form.elements.namedItem(name) as HTMLInputElement;
-  const service = (): ReturnType<typeof parseSignalingUrl> => {
-    const value = field('signaling').value.trim();
-    if (value === '') return { url: ownSignalingUrl(pageOrigin()) };
-    return parseSignalingUrl(value, location.protocol === 'https:');
-  };
-  /** Shows the token of the service in the field above. */
-  const showToken = (): void => {
-    const at = service();
-    field('token').value = 'url' in at ? (loadStored().tokens?.get(tokenOrigin(at.url)) ?? '') : '';
-  };
-  let tokenTyped = false;
+  const form = new SettingsForm(dialog.querySelector('form')!);
   settingsOpen.addEventListener('click', () => {
-    const stored = loadStored();
-    field('signaling').value = stored.signaling ?? '';
-    field('name').value = stored.name ?? '';
-    field('pointScale').value = String(stored.pointScale ?? 1);
-    field('synchronised').checked = stored.synchronised ?? true;
-    field('cues').checked = stored.cues ?? true;
-    fillHeadsetFields(form, parseHeadset(stored.headset));
-    field('mapTiles').value = stored.mapTiles ?? '';
-    field('mapAttribution').value = stored.mapAttribution ?? '';
-    tokenTyped = false;
-    showToken();
+    form.fill();
     dialog.showModal();
   });
-  field('signaling').addEventListener('input', () => {
-    const at = service();
-    field('signaling').setCustomValidity('fault' in at ? at.fault : '');
-    if (!tokenTyped) showToken();
-  });
-  field('mapTiles').addEventListener('input', () => {
-    const text = field('mapTiles').value.trim();
-    const parsed = text === '' ? null : parseTileTemplate(text, pageOrigin());
-    field('mapTiles').setCustomValidity(parsed !== null && 'fault' in parsed ? parsed.fault : '');
-  });
-  field('token').addEventListener('input', () => {
-    tokenTyped = true;
-  });
-  field('pointScale').addEventListener('input', () => {
-    pointScale.value = Number(field('pointScale').value);
-  });
+  form.listen(pointScale);
   dialog.addEventListener('close', () => {
-    if (dialog.returnValue !== 'save') {
-      pointScale.value = clampScale(loadStored().pointScale);
-      return;
-    }
-    save(service());
+    if (dialog.returnValue === 'save') form.save();
+    else pointScale.value = clampScale(loadStored().pointScale);
   });
+}
 
-  function save(at: ReturnType<typeof service>): void {
+/** The fields of the dialog. */
+class SettingsForm {
+  readonly #form: HTMLFormElement;
+  #tokenTyped = false;
+
+  constructor(form: HTMLFormElement) {
+    this.#form = form;
+  }
+
+  /** Writes the stored settings into the fields. */
+  fill(): void {
+    const stored = loadStored();
+    this.#field('signaling').value = stored.signaling ?? '';
+    this.#field('name').value = stored.name ?? '';
+    this.#field('pointScale').value = String(stored.pointScale ?? 1);
+    this.#field('synchronised').checked = stored.synchronised ?? true;
+    this.#field('cues').checked = stored.cues ?? true;
+    fillHeadsetFields(this.#form, parseHeadset(stored.headset));
+    this.#field('mapTiles').value = stored.mapTiles ?? '';
+    this.#field('mapAttribution').value = stored.mapAttribution ?? '';
+    this.#tokenTyped = false;
+    this.#showToken();
+  }
+
+  /** Checks fields while they change. */
+  listen(pointScale: Signal<number>): void {
+    this.#field('signaling').addEventListener('input', () => {
+      const at = this.#service();
+      this.#field('signaling').setCustomValidity('fault' in at ? at.fault : '');
+      if (!this.#tokenTyped) this.#showToken();
+    });
+    this.#field('mapTiles').addEventListener('input', () => {
+      const text = this.#field('mapTiles').value.trim();
+      const parsed = text === '' ? null : parseTileTemplate(text, pageOrigin());
+      this.#field('mapTiles').setCustomValidity(parsed !== null && 'fault' in parsed ? parsed.fault : '');
+    });
+    this.#field('token').addEventListener('input', () => {
+      this.#tokenTyped = true;
+    });
+    this.#field('pointScale').addEventListener('input', () => {
+      pointScale.value = Number(this.#field('pointScale').value);
+    });
+  }
+
+  /** Stores what is in the fields, and loads the page again. */
+  save(): void {
+    const at = this.#service();
     const { tokens = new Map() } = loadStored();
+    const token = this.#field('token').value.trim();
     store({
-      signaling: field('signaling').value,
-      tokens: 'url' in at ? withToken(tokens, tokenOrigin(at.url), field('token').value.trim()) : tokens,
-      name: field('name').value,
-      pointScale: clampScale(Number(field('pointScale').value)),
-      synchronised: field('synchronised').checked,
-      cues: field('cues').checked,
-      headset: readHeadsetFields(form),
-      mapTiles: field('mapTiles').value.trim(),
-      mapAttribution: field('mapAttribution').value.trim(),
+      signaling: this.#field('signaling').value,
+      tokens: 'url' in at ? withToken(tokens, tokenOrigin(at.url), token) : tokens,
+      name: this.#field('name').value,
+      pointScale: clampScale(Number(this.#field('pointScale').value)),
+      synchronised: this.#field('synchronised').checked,
+      cues: this.#field('cues').checked,
+      headset: readHeadsetFields(this.#form),
+      mapTiles: this.#field('mapTiles').value.trim(),
+      mapAttribution: this.#field('mapAttribution').value.trim(),
     });
     forgetVisitTokens();
     // These parameters in the page's address would override what was just saved.
     const address = new URL(location.href);
     for (const name of ['signaling', 'token', 'name', 'sync', 'cues']) address.searchParams.delete(name);
     location.replace(address);
+  }
+
+  #field(name: string): HTMLInputElement {
+    return this.#form.elements.namedItem(name) as HTMLInputElement;
+  }
+
+  #service(): ReturnType<typeof parseSignalingUrl> {
+    const value = this.#field('signaling').value.trim();
+    if (value === '') return { url: ownSignalingUrl(pageOrigin()) };
+    return parseSignalingUrl(value, location.protocol === 'https:');
+  }
+
+  /** Shows the token of the service in the field above. */
+  #showToken(): void {
+    const at = this.#service();
+    this.#field('token').value = 'url' in at ? (loadStored().tokens?.get(tokenOrigin(at.url)) ?? '') : '';
   }
 }
 

@@ -34,6 +34,25 @@ export interface HeadsetButtons extends PressedButtons {
   readonly recentre: boolean;
 }
 
+/** Which buttons are held, on any controller that they belong to. */
+interface HeldButtons {
+  estop: boolean;
+  latencyTest: boolean;
+  nextRobot: boolean;
+  nextView: boolean;
+  recentre: boolean;
+  trigger: boolean;
+}
+
+const NOTHING_HELD: Readonly<HeldButtons> = {
+  estop: false,
+  latencyTest: false,
+  nextRobot: false,
+  nextView: false,
+  recentre: false,
+  trigger: false,
+};
+
 export class HeadsetInput implements DriveInput {
   readonly name = 'headset';
   readonly wish: DriveWish = { forward: 0, left: 0 };
@@ -46,11 +65,7 @@ export class HeadsetInput implements DriveInput {
   readonly #otherHand: Hand;
   #mustOpen = false;
   #hand: string | null = null;
-  #estop = false;
-  #latency = false;
-  #nextRobot = false;
-  #nextView = false;
-  #recentre = false;
+  #heldBefore: Readonly<HeldButtons> = NOTHING_HELD;
 
   /** @param driveHand the hand that drives. A controller that is of no hand drives, too. */
   constructor(driveHand: Hand = 'right') {
@@ -72,34 +87,9 @@ export class HeadsetInput implements DriveInput {
     tracks: Tracks<Source>,
     grabbing = false,
   ): HeadsetButtons {
-    let driving: Source | null = null;
-    let estop = false;
-    let latency = false;
-    let nextRobot = false;
-    let nextView = false;
-    let recentre = false;
-    let trigger = false;
+    const held = { ...NOTHING_HELD };
     this.turnStick = 0;
-    for (const source of sources) {
-      const buttons = buttonsOf(source);
-      if (buttons === undefined) continue;
-      estop ||= buttons[BY_BUTTON]?.pressed === true;
-      trigger ||= (buttons[TRIGGER]?.value ?? 0) > 0.5;
-      const isAx = buttons[AX_BUTTON]?.pressed === true;
-      const isStickPressed = buttons[STICK_PRESS]?.pressed === true;
-      if (source.handedness === this.#otherHand) {
-        nextView ||= isAx;
-        recentre ||= isStickPressed;
-        const deflection = source.gamepad?.axes[2];
-        // The last state of a controller that fell asleep would turn the view for ever.
-        if (typeof deflection === 'number' && tracks(source)) this.turnStick = deflection;
-        continue;
-      }
-      latency ||= isAx;
-      nextRobot ||= isStickPressed;
-      if ((buttons[SQUEEZE]?.value ?? 0) <= 0.5) continue;
-      if (driving === null || source.handedness === this.#hand) driving = source;
-    }
+    let driving = this.#readSources(sources, tracks, held);
     this.#mustOpen = (this.#mustOpen || grabbing) && driving !== null;
     if (this.#mustOpen) driving = null;
     if (driving === null || tracks(driving)) this.readMs = nowMs;
@@ -110,22 +100,52 @@ export class HeadsetInput implements DriveInput {
     // Some runtimes report unused axes as null; shapeAxis treats these as centred. Forward is −1, right is +1.
     this.wish.forward = -shapeAxis(axes?.[3], DEFAULT_STICK_RESPONSE) + 0;
     this.wish.left = -shapeAxis(axes?.[2], DEFAULT_STICK_RESPONSE) + 0;
-    const pressed = {
-      estop: estop && !this.#estop,
-      latencyTest: latency && !this.#latency,
+    return this.#pressedSince(held);
+  }
+
+  /** Notes which buttons are held, and the other hand's stick. @returns the controller that is squeezed to drive */
+  #readSources<Source extends XrController>(
+    sources: Iterable<Source>,
+    tracks: Tracks<Source>,
+    held: HeldButtons,
+  ): Source | null {
+    let driving: Source | null = null;
+    for (const source of sources) {
+      const buttons = buttonsOf(source);
+      if (buttons === undefined) continue;
+      held.estop ||= buttons[BY_BUTTON]?.pressed === true;
+      held.trigger ||= (buttons[TRIGGER]?.value ?? 0) > 0.5;
+      const isAx = buttons[AX_BUTTON]?.pressed === true;
+      const isStickPressed = buttons[STICK_PRESS]?.pressed === true;
+      if (source.handedness === this.#otherHand) {
+        held.nextView ||= isAx;
+        held.recentre ||= isStickPressed;
+        const deflection = source.gamepad?.axes[2];
+        // The last state of a controller that fell asleep would turn the view for ever.
+        if (typeof deflection === 'number' && tracks(source)) this.turnStick = deflection;
+        continue;
+      }
+      held.latencyTest ||= isAx;
+      held.nextRobot ||= isStickPressed;
+      if ((buttons[SQUEEZE]?.value ?? 0) <= 0.5) continue;
+      if (driving === null || source.handedness === this.#hand) driving = source;
+    }
+    return driving;
+  }
+
+  #pressedSince(held: HeldButtons): HeadsetButtons {
+    const before = this.#heldBefore;
+    this.#heldBefore = held;
+    return {
+      estop: held.estop && !before.estop,
+      latencyTest: held.latencyTest && !before.latencyTest,
       // Pushing a stick easily presses it too.
-      nextRobot: nextRobot && !this.#nextRobot && !this.held,
-      nextView: nextView && !this.#nextView,
-      recentre: recentre && !this.#recentre,
+      nextRobot: held.nextRobot && !before.nextRobot && !this.held,
+      nextView: held.nextView && !before.nextView,
+      recentre: held.recentre && !before.recentre,
       // A fist clenched in fright presses both the grip and the trigger.
-      releaseHeld: trigger && !this.held,
+      releaseHeld: held.trigger && !this.held,
     };
-    this.#estop = estop;
-    this.#latency = latency;
-    this.#nextRobot = nextRobot;
-    this.#nextView = nextView;
-    this.#recentre = recentre;
-    return pressed;
   }
 
   /** The hands count as open until a reading has found them open. */
