@@ -1,15 +1,16 @@
 /** `pnpm bench bridge`: the robot in the reference profile, through the bridge, to a page's streaming socket. */
 
-import { type ChildProcess, fork } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
-import { BridgeProcess, LocalStack } from '@farpoint/local-stack';
+import { BridgeProcess, LocalStack, type RobotSpec } from '@farpoint/local-stack';
 import { bytesOfPoints, MAX_POINT_DATA_BYTES, POINTS_PER_PACKET, packetCountOf } from '@farpoint/protocol';
 import { BitRate } from '@farpoint/timing';
-import { type BridgeFrame, nextMessage, nowMs, profile, wait } from './bridge-profile.ts';
-import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
+import { type Arrival, type BridgeFrame, PageReader, readBridgeFrames } from './bridge-page.ts';
+import { profile } from './bridge-profile.ts';
+import { cpuSecondsOfTree } from './cpu-time.ts';
+import { type MeasuredSpan, measuredSpan, wait } from './measured-span.ts';
 import { readPacketLog, type SentTimes } from './packet-log.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { type Distribution, distribution, rounded } from './stats.ts';
@@ -54,166 +55,200 @@ interface RunResult {
   bridgeRssMbEnd: number;
 }
 
+interface Options {
+  points: number;
+  fps: number;
+  seconds: number;
+  /** Of the second run; 0 without one. */
+  mbps: number;
+  profile: boolean;
+  json: boolean;
+}
+
 export const bench: Bench = {
   name: 'bridge',
   summary: 'the reference profile through the bridge to a page’s streaming socket',
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        points: { type: 'string' },
-        fps: { type: 'string' },
-        seconds: { type: 'string' },
-        mbps: { type: 'string', default: '100' },
-        profile: { type: 'boolean', default: false },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
-    });
-    if (values.help) return console.log(USAGE);
-    const usual = values.profile
-      ? { points: '7500', fps: '18', seconds: '30' }
-      : { points: '100000', fps: '10', seconds: '60' };
-    const points = numberOption('points', values.points ?? usual.points, POINTS_PER_PACKET);
-    const fps = numberOption('fps', values.fps ?? usual.fps, 1);
-    const seconds = numberOption('seconds', values.seconds ?? usual.seconds, 1);
-    if (values.profile) return profile({ points, fps, seconds, json: values.json ?? false });
-    const mbps = numberOption('mbps', values.mbps, 0);
-
-    const first = await run(packetCountOf(points), fps, seconds);
+    const options = readOptions(argv);
+    if (options === null) return;
+    if (options.profile) return profile(options);
+    const { points, fps, seconds, mbps, json } = options;
+    const first = await run({ packets: packetCountOf(points), fps, seconds });
     const packets = Math.floor(
       BitRate.toBytesPerSecond(BitRate.fromMbps(mbps)) / WIRE_BYTES_PER_PACKET / fps,
     );
-    const sustained = packets === 0 ? null : await run(packets, fps, seconds);
+    const sustained = packets === 0 ? null : await run({ packets, fps, seconds });
     const runs = sustained === null ? [first] : [first, sustained];
-    printTable(
-      ['', 'p50', 'p95', 'p99', 'max'],
-      runs.flatMap((r) => [
-        [`emit at ${r.mbps} Mbit/s, ms`, ...distributionCells(r.emitMs)],
-        [`send to read at ${r.mbps} Mbit/s, ms`, ...distributionCells(r.sendToReadMs)],
-      ]),
-    );
-    printTable(
-      [
-        'wire Mbit/s',
-        'frames/s',
-        'points',
-        'loss',
-        'partial',
-        'robot, cores',
-        'bridge, cores',
-        'RSS max, MB',
-      ],
-      runs.map((r) => [
-        r.mbps,
-        r.framesPerSecond,
-        r.pointsPerFrame,
-        r.lossRate,
-        r.framesPartial,
-        r.robotCpu,
-        r.bridgeCpu,
-        r.bridgeRssMbMax,
-      ]),
-    );
-    if (values.json) {
+    print(runs);
+    if (json) {
       const bridgeRssMbMax = Math.max(...runs.map((r) => r.bridgeRssMbMax));
       printJson({ bench: 'bridge', ...first, bridgeRssMbMax, sustained });
     }
   },
 };
 
-async function run(packets: number, fps: number, seconds: number): Promise<RunResult> {
+/** @returns `null` if only the usage was requested @throws {Error} naming the option */
+function readOptions(argv: string[]): Options | null {
+  const { values } = parseArgs({
+    args: argv,
+    options: {
+      points: { type: 'string' },
+      fps: { type: 'string' },
+      seconds: { type: 'string' },
+      mbps: { type: 'string', default: '100' },
+      profile: { type: 'boolean', default: false },
+      json: { type: 'boolean' },
+      help: { type: 'boolean' },
+    },
+  });
+  if (values.help) {
+    console.log(USAGE);
+    return null;
+  }
+  const usual = values.profile
+    ? { points: '7500', fps: '18', seconds: '30' }
+    : { points: '100000', fps: '10', seconds: '60' };
+  return {
+    points: numberOption('points', values.points ?? usual.points, POINTS_PER_PACKET),
+    fps: numberOption('fps', values.fps ?? usual.fps, 1),
+    seconds: numberOption('seconds', values.seconds ?? usual.seconds, 1),
+    mbps: values.profile ? 0 : numberOption('mbps', values.mbps, 0),
+    profile: values.profile,
+    json: values.json ?? false,
+  };
+}
+
+function print(runs: readonly RunResult[]): void {
+  printTable(
+    ['', 'p50', 'p95', 'p99', 'max'],
+    runs.flatMap((r) => [
+      [`emit at ${r.mbps} Mbit/s, ms`, ...distributionCells(r.emitMs)],
+      [`send to read at ${r.mbps} Mbit/s, ms`, ...distributionCells(r.sendToReadMs)],
+    ]),
+  );
+  printTable(
+    ['wire Mbit/s', 'frames/s', 'points', 'loss', 'partial', 'robot, cores', 'bridge, cores', 'RSS max, MB'],
+    runs.map((r) => [
+      r.mbps,
+      r.framesPerSecond,
+      r.pointsPerFrame,
+      r.lossRate,
+      r.framesPartial,
+      r.robotCpu,
+      r.bridgeCpu,
+      r.bridgeRssMbMax,
+    ]),
+  );
+}
+
+/** What the robot sends. */
+interface Load {
+  /** Of each frame. */
+  packets: number;
+  fps: number;
+  seconds: number;
+}
+
+async function run(load: Load): Promise<RunResult> {
   const folder = mkdtempSync(join(tmpdir(), 'farpoint-bridge-'));
   const [sentFile, frameFile] = [join(folder, 'sent.csv'), join(folder, 'frames.jsonl')];
   const env = { FARPOINT_LOG_LEVEL: 'warn' };
+  const { packets, fps, seconds } = load;
   const mbps = BitRate.toMbps(BitRate.fromBytesPerSecond(packets * WIRE_BYTES_PER_PACKET * fps));
   console.error(`${packets * POINTS_PER_PACKET} points at ${fps} frames/s: ${mbps.toFixed(1)} Mbit/s`);
   const stack = await LocalStack.start({ robots: [], env });
   let bridge: BridgeProcess | null = null;
-  let reader: ChildProcess | null = null;
-  let memory: NodeJS.Timeout | undefined;
+  let reader: PageReader | null = null;
   try {
-    await stack.startRobot({
-      id: 'sim-1',
-      name: 'Simulated robot',
-      reference: true,
-      args: [
-        '--fps',
-        String(fps),
-        '--packet-log',
-        sentFile,
-        '--max-points',
-        String(packets * POINTS_PER_PACKET),
-        // Slightly more than the frames need, so that pacing leaves a pause before the next frame.
-        '--rate-control',
-        'fixed',
-        '--plan',
-        'paper',
-        '--bitrate-mbps',
-        (mbps * 1.05).toFixed(2),
-      ],
-    });
+    await stack.startRobot(robotSpec(load, mbps, sentFile));
     bridge = await BridgeProcess.start(stack, {
       env,
       args: ['--stats', frameFile, '--start-bits-per-second', '200e6', '--max-bits-per-second', '200e6'],
     });
-    // In a session of its own, so that its priority takes effect (sched(7), autogroup).
-    reader = fork(new URL('./bridge-reader.ts', import.meta.url), [String(bridge.ports.streaming)], {
-      detached: true,
-    });
-    await nextMessage(reader);
+    reader = new PageReader(bridge);
+    await reader.connected();
     await wait(WARM_UP_MS);
-    const [robotPid, bridgePid] = [stack.robot('sim-1').pid, bridge.process.pid];
-    const cpu = () => ({ robot: cpuSecondsOfTree(robotPid), bridge: cpuSecondsOfTree(bridgePid) });
-    const rss: number[] = [rssMb(bridgePid)];
-    memory = setInterval(() => rss.push(rssMb(bridgePid)), RSS_EVERY_MS);
-    const [beganMs, before] = [nowMs(), cpu()];
-    await wait(seconds * 1000);
-    const [endedMs, after] = [nowMs(), cpu()];
-    clearInterval(memory);
-    const arrivals = nextMessage<{ arrivals: { atMs: number; bytes: number }[] }>(reader);
-    reader.send('end');
-    const read = (await arrivals).arrivals;
+    const use = await useDuring(stack.robot('sim-1').pid, bridge.process.pid, seconds);
+    const read = await reader.end();
     await bridge.stop();
     await stack.robot('sim-1').stop();
-    const records = readFileSync(frameFile, 'utf8')
-      .trimEnd()
-      .split('\n')
-      .map((line) => JSON.parse(line) as BridgeFrame);
-    const times = join3(records, read, readPacketLog(sentFile), beganMs, endedMs);
-    const elapsedMs = endedMs - beganMs;
-    const received = times.points / POINTS_PER_PACKET;
-    const wireMbps = BitRate.toMbps(BitRate.of(received * WIRE_BYTES_PER_PACKET, elapsedMs));
-    const robotCpu = coresBetween(before.robot, after.robot, elapsedMs);
-    const bridgeCpu = coresBetween(before.bridge, after.bridge, elapsedMs);
-    const perMbps = (cores: number | null) => (cores === null ? null : Number((cores / wireMbps).toFixed(5)));
-    return {
-      mbps: Number(wireMbps.toFixed(2)),
-      seconds: Number((elapsedMs / 1000).toFixed(2)),
-      pointsPerFrame: Math.round(times.points / times.frames),
-      framesPerSecond: Number(((times.frames * 1000) / elapsedMs).toFixed(2)),
-      emitMs: rounded(distribution(times.emitMs), 2),
-      handOverMs: rounded(distribution(times.handOverMs), 2),
-      sendToReadMs: rounded(distribution(times.sendToReadMs), 2),
-      frames: times.frames,
-      framesPartial: times.partial,
-      framesUnsent: times.unsent,
-      lossRate: Number((1 - times.points / times.expectedPoints).toFixed(6)),
-      robotCpu,
-      bridgeCpu,
-      robotCpuPerMbps: perMbps(robotCpu),
-      bridgeCpuPerMbps: perMbps(bridgeCpu),
-      bridgeRssMbStart: rss[0] as number,
-      bridgeRssMbMax: Math.max(...rss),
-      bridgeRssMbEnd: rss.at(-1) as number,
-    };
+    const { beginMs, endMs } = use.span;
+    const times = join3(readBridgeFrames(frameFile), read, readPacketLog(sentFile), beginMs, endMs);
+    return resultOf(times, use);
   } finally {
-    clearInterval(memory);
     reader?.kill();
     await bridge?.stop();
     await stack.stop();
     rmSync(folder, { recursive: true, force: true });
   }
+}
+
+function robotSpec({ packets, fps }: Load, mbps: number, packetLog: string): RobotSpec {
+  return {
+    id: 'sim-1',
+    name: 'Simulated robot',
+    reference: true,
+    args: [
+      '--fps',
+      String(fps),
+      '--packet-log',
+      packetLog,
+      '--max-points',
+      String(packets * POINTS_PER_PACKET),
+      // Slightly more than the frames need, so that pacing leaves a pause before the next frame.
+      '--rate-control',
+      'fixed',
+      '--plan',
+      'paper',
+      '--bitrate-mbps',
+      (mbps * 1.05).toFixed(2),
+    ],
+  };
+}
+
+/** What the programs used. */
+interface Use {
+  span: MeasuredSpan<'robot' | 'bridge'>;
+  /** Memory of the bridge, again and again, MB. */
+  rssMb: number[];
+}
+
+async function useDuring(robotPid: number, bridgePid: number, seconds: number): Promise<Use> {
+  const cpu = () => ({ robot: cpuSecondsOfTree(robotPid), bridge: cpuSecondsOfTree(bridgePid) });
+  const rss: number[] = [rssMb(bridgePid)];
+  const memory = setInterval(() => rss.push(rssMb(bridgePid)), RSS_EVERY_MS);
+  try {
+    return { span: await measuredSpan(cpu, () => wait(seconds * 1000)), rssMb: rss };
+  } finally {
+    clearInterval(memory);
+  }
+}
+
+function resultOf(times: Joined, { span, rssMb }: Use): RunResult {
+  const received = times.points / POINTS_PER_PACKET;
+  const wireMbps = BitRate.toMbps(BitRate.of(received * WIRE_BYTES_PER_PACKET, span.elapsedMs));
+  const { robot: robotCpu, bridge: bridgeCpu } = span.cores;
+  const perMbps = (cores: number | null) => (cores === null ? null : Number((cores / wireMbps).toFixed(5)));
+  return {
+    mbps: Number(wireMbps.toFixed(2)),
+    seconds: Number((span.elapsedMs / 1000).toFixed(2)),
+    pointsPerFrame: Math.round(times.points / times.frames),
+    framesPerSecond: Number(((times.frames * 1000) / span.elapsedMs).toFixed(2)),
+    emitMs: rounded(distribution(times.emitMs), 2),
+    handOverMs: rounded(distribution(times.handOverMs), 2),
+    sendToReadMs: rounded(distribution(times.sendToReadMs), 2),
+    frames: times.frames,
+    framesPartial: times.partial,
+    framesUnsent: times.unsent,
+    lossRate: Number((1 - times.points / times.expectedPoints).toFixed(6)),
+    robotCpu,
+    bridgeCpu,
+    robotCpuPerMbps: perMbps(robotCpu),
+    bridgeCpuPerMbps: perMbps(bridgeCpu),
+    bridgeRssMbStart: rssMb[0] as number,
+    bridgeRssMbMax: Math.max(...rssMb),
+    bridgeRssMbEnd: rssMb.at(-1) as number,
+  };
 }
 
 interface Joined {
@@ -233,7 +268,7 @@ interface Joined {
  */
 function join3(
   records: readonly BridgeFrame[],
-  read: readonly { atMs: number; bytes: number }[],
+  read: readonly Arrival[],
   sent: SentTimes,
   fromMs: number,
   toMs: number,

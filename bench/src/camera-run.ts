@@ -8,8 +8,9 @@ import { commandDelays } from './command-delay.ts';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { type LatencySeries, latencySeries } from './latency-series.ts';
 import { queueQuantiles } from './link-analysis.ts';
-import { clockOffsetOf, monotonicMs, readRobotSamples, readUplink, scrape } from './link-run.ts';
+import { clockOffsetOf, readRobotSamples, readUplink, scrape } from './link-run.ts';
 import { startLiveStack } from './live-stack.ts';
+import { monotonicMs, wait } from './measured-span.ts';
 import { driveInCircles } from './page.ts';
 import { type PresentationFigures, presentationFigures } from './presentation-figures.ts';
 import { type Distribution, distribution } from './stats.ts';
@@ -207,8 +208,4 @@ async function byCamera(adminUrl: string, name: string, cameras: number): Promis
 
 function cameraName(index: number): string {
   return `Camera ${index + 1}`;
-}
-
-function wait(ms: number): Promise<void> {
-  return new Promise((resolve) => setTimeout(resolve, ms));
 }

@@ -12,7 +12,8 @@ import { findPeer, PEER_REMEDY, Peer, type PeerKind, testDomain } from '@farpoin
 import { LocalStack } from '@farpoint/local-stack';
 import { SignaledOperator } from '@farpoint/robot-node/testing';
 import { VELOCITY_QOS, velocityWriter } from '@farpoint/ros';
-import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
+import { cpuSecondsOfTree } from './cpu-time.ts';
+import { type MeasuredSpan, measuredSpan, monotonicMs, wait } from './measured-span.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { FrameColours, readFrameLog, residentPeakMb } from './robot-frames.ts';
 import { type Distribution, distribution, rounded } from './stats.ts';
@@ -35,75 +36,95 @@ export const bench: Bench = {
   name: 'dds',
   summary: 'a ROS 2 node on another DDS implementation: latency of clouds to packets, velocities, round trip',
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        peer: { type: 'string', default: 'fastdds' },
-        side: { type: 'string', default: '480' },
-        hz: { type: 'string', default: '10' },
-        seconds: { type: 'string', default: '20' },
-        mbps: { type: 'string', default: '20' },
-        reliability: { type: 'string', default: 'best-effort' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
-    });
-    if (values.help) return console.log(USAGE);
-    const kind = PEERS[values.peer];
-    if (kind === undefined)
-      throw new Error(`--peer is \`${values.peer}\`, not ${Object.keys(PEERS).join(' or ')}`);
-    const { reliability } = values;
-    if (reliability !== 'reliable' && reliability !== 'best-effort')
-      throw new Error(`--reliability is \`${reliability}\`, not reliable or best-effort`);
+    const options = readOptions(argv);
+    if (options === null) return;
     const { ok, output } = buildAddon();
     if (!ok) throw new Error(`the addon does not build:\n${output}`);
-    const command = findPeer(kind);
-    if (command === null) throw new Error(`no ${kind} here: ${PEER_REMEDY[kind]}`);
-    const run: Run = {
-      kind,
-      command,
-      reliability,
-      side: numberOption('side', values.side, 1),
-      hz: numberOption('hz', values.hz, 0.1),
-      seconds: numberOption('seconds', values.seconds, 1),
-      mbps: numberOption('mbps', values.mbps, 1),
-    };
-    const result = await measure(run);
-    printTable(
-      ['ms', 'p50', 'p95', 'p99', 'max'],
-      [
-        ['cloud to packets', ...distributionCells(result.latencyMs)],
-        ['command to Twist', ...distributionCells(result.driveMs)],
-        ['Twist there and back', ...distributionCells(result.roundTripMs)],
-      ],
-    );
-    printTable(
-      ['frames/s', 'torn', 'robot, MB', 'robot, cores', 'node, cores', 'Twists', 'commands'],
-      [
-        [
-          result.framesPerSecond,
-          result.torn,
-          result.rssMbMax,
-          result.robotCpu,
-          result.peerCpu,
-          result.twists,
-          result.commands,
-        ],
-      ],
-    );
-    const { command: _, ...settings } = run;
-    if (values.json) printJson({ bench: 'dds', ...settings, points: run.side * run.side, ...result });
+    const command = findPeer(options.kind);
+    if (command === null) throw new Error(`no ${options.kind} here: ${PEER_REMEDY[options.kind]}`);
+    const { json, ...settings } = options;
+    const result = await measure({ command, ...settings });
+    print(result);
+    if (json) {
+      const points = settings.side * settings.side;
+      printJson({ bench: 'dds', ...settings, points, ...result });
+    }
   },
 };
 
-interface Run {
+/** @returns `null` if only the usage was requested @throws {Error} naming the option */
+function readOptions(argv: string[]): (Settings & { json: boolean | undefined }) | null {
+  const { values } = parseArgs({
+    args: argv,
+    options: {
+      peer: { type: 'string', default: 'fastdds' },
+      side: { type: 'string', default: '480' },
+      hz: { type: 'string', default: '10' },
+      seconds: { type: 'string', default: '20' },
+      mbps: { type: 'string', default: '20' },
+      reliability: { type: 'string', default: 'best-effort' },
+      json: { type: 'boolean' },
+      help: { type: 'boolean' },
+    },
+  });
+  if (values.help) {
+    console.log(USAGE);
+    return null;
+  }
+  const kind = PEERS[values.peer];
+  if (kind === undefined)
+    throw new Error(`--peer is \`${values.peer}\`, not ${Object.keys(PEERS).join(' or ')}`);
+  const { reliability } = values;
+  if (reliability !== 'reliable' && reliability !== 'best-effort')
+    throw new Error(`--reliability is \`${reliability}\`, not reliable or best-effort`);
+  return {
+    kind,
+    reliability,
+    side: numberOption('side', values.side, 1),
+    hz: numberOption('hz', values.hz, 0.1),
+    seconds: numberOption('seconds', values.seconds, 1),
+    mbps: numberOption('mbps', values.mbps, 1),
+    json: values.json,
+  };
+}
+
+function print(result: DdsResult): void {
+  printTable(
+    ['ms', 'p50', 'p95', 'p99', 'max'],
+    [
+      ['cloud to packets', ...distributionCells(result.latencyMs)],
+      ['command to Twist', ...distributionCells(result.driveMs)],
+      ['Twist there and back', ...distributionCells(result.roundTripMs)],
+    ],
+  );
+  printTable(
+    ['frames/s', 'torn', 'robot, MB', 'robot, cores', 'node, cores', 'Twists', 'commands'],
+    [
+      [
+        result.framesPerSecond,
+        result.torn,
+        result.rssMbMax,
+        result.robotCpu,
+        result.peerCpu,
+        result.twists,
+        result.commands,
+      ],
+    ],
+  );
+}
+
+interface Settings {
   kind: PeerKind;
-  command: string[];
   side: number;
   hz: number;
   seconds: number;
   mbps: number;
   reliability: 'reliable' | 'best-effort';
+}
+
+interface Run extends Settings {
+  /** Starts the node. */
+  command: string[];
 }
 
 interface DdsResult {
@@ -138,65 +159,70 @@ async function measure({ command, side, hz, seconds, mbps, reliability }: Run): 
   let stack: LocalStack | null = null;
   try {
     const roundTripMs = await roundTrips(domain);
+    const rate = ['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', String(mbps)];
+    const args = ['--config', config, '--frame-log', frameLog, ...rate];
     stack = await LocalStack.start({
-      robots: [
-        {
-          id: ROBOT,
-          name: 'Robot in a ROS 2 graph',
-          args: [
-            '--config',
-            config,
-            '--frame-log',
-            frameLog,
-            '--rate-control',
-            'fixed',
-            '--plan',
-            'paper',
-            '--bitrate-mbps',
-            String(mbps),
-          ],
-        },
-      ],
+      robots: [{ id: ROBOT, name: 'Robot in a ROS 2 graph', args }],
       env: { FARPOINT_LOG_LEVEL: 'warn' },
     });
-    const robotPid = stack.robot(ROBOT).pid;
-    const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
-    const colours = new FrameColours();
-    const driving = new Driving(operator, peer, await operator.client.takeLease());
-    await sleep(WARM_UP_MS);
-    operator.client.onCloudPacket = (payload) => colours.add(payload);
-    driving.forget();
-    const cpu = () => [cpuSecondsOfTree(robotPid), cpuSecondsOfTree(peer.pid)] as const;
-    const [beginMs, cpuBefore] = [nowMs(), cpu()];
-    await sleep(seconds * 1000);
-    const [endMs, cpuAfter] = [nowMs(), cpu()];
-    const rssMbMax = residentPeakMb(robotPid);
-    driving.stop();
-    operator.client.onCloudPacket = null;
-    await operator.close();
+    const driven = await drive(stack, peer, seconds);
     await stack.stop();
-
-    const elapsedMs = endMs - beginMs;
-    const frames = readFrameLog(frameLog).filter(({ readyMs }) => readyMs >= beginMs && readyMs < endMs);
-    return {
-      // The stamp is the time at which the node began to make the message; the robot converts it to its own clock.
-      latencyMs: rounded(distribution(frames.map(({ capturedMs, readyMs }) => readyMs - capturedMs)), 2),
-      driveMs: rounded(distribution(driving.latenciesMs), 2),
-      roundTripMs,
-      framesPerSecond: Number(((frames.length * 1000) / elapsedMs).toFixed(2)),
-      frames: frames.length,
-      torn: colours.torn,
-      rssMbMax,
-      robotCpu: coresBetween(cpuBefore[0], cpuAfter[0], elapsedMs),
-      peerCpu: coresBetween(cpuBefore[1], cpuAfter[1], elapsedMs),
-      commands: driving.commands,
-      twists: driving.latenciesMs.length,
-    };
+    return resultOf(driven, roundTripMs, frameLog);
   } finally {
     await stack?.stop();
     await peer.kill();
     rmSync(folder, { recursive: true, force: true });
   }
+}
+
+/** What the operator found. */
+interface Driven {
+  span: MeasuredSpan<'robot' | 'peer'>;
+  colours: FrameColours;
+  driving: Driving;
+  rssMbMax: number;
+}
+
+/** Connects an operator, who drives all the while, and measures once the robot has found its pace. */
+async function drive(stack: LocalStack, peer: Peer, seconds: number): Promise<Driven> {
+  const robotPid = stack.robot(ROBOT).pid;
+  const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
+  const colours = new FrameColours();
+  const driving = new Driving(operator, peer, await operator.client.takeLease());
+  await wait(WARM_UP_MS);
+  operator.client.onCloudPacket = (payload) => colours.add(payload);
+  driving.forget();
+  const cpu = () => ({ robot: cpuSecondsOfTree(robotPid), peer: cpuSecondsOfTree(peer.pid) });
+  const span = await measuredSpan(cpu, () => wait(seconds * 1000));
+  const rssMbMax = residentPeakMb(robotPid);
+  driving.stop();
+  operator.client.onCloudPacket = null;
+  await operator.close();
+  return { span, colours, driving, rssMbMax };
+}
+
+function resultOf(
+  { span, colours, driving, rssMbMax }: Driven,
+  roundTripMs: Distribution,
+  frameLog: string,
+): DdsResult {
+  const frames = readFrameLog(frameLog).filter(
+    ({ readyMs }) => readyMs >= span.beginMs && readyMs < span.endMs,
+  );
+  return {
+    // The stamp is the time at which the node began to make the message; the robot converts it to its own clock.
+    latencyMs: rounded(distribution(frames.map(({ capturedMs, readyMs }) => readyMs - capturedMs)), 2),
+    driveMs: rounded(distribution(driving.latenciesMs), 2),
+    roundTripMs,
+    framesPerSecond: Number(((frames.length * 1000) / span.elapsedMs).toFixed(2)),
+    frames: frames.length,
+    torn: colours.torn,
+    rssMbMax,
+    robotCpu: span.cores.robot,
+    peerCpu: span.cores.peer,
+    commands: driving.commands,
+    twists: driving.latenciesMs.length,
+  };
 }
 
 function configuration(domain: number, reliability: string): string {
@@ -223,7 +249,7 @@ class Driving {
     this.#timer = setInterval(() => {
       // Thousandths of a metre per second, from 0.05 m/s up.
       this.#speed = 50 + ((this.#speed + 1) % 100);
-      this.#sentMs.set(this.#speed, nowMs());
+      this.#sentMs.set(this.#speed, monotonicMs());
       this.commands++;
       client.drive(lease, this.#speed / 1000);
     }, COMMAND_MS);
@@ -259,20 +285,13 @@ async function roundTrips(domain: number): Promise<Distribution> {
   // The first ones include discovery.
   for (let i = 0; i < 300; i++) {
     const had = heard;
-    const begin = nowMs();
+    const begin = monotonicMs();
     publisher.publish(bytes);
-    while (heard === had && nowMs() - begin < 1000) await new Promise((resolve) => setImmediate(resolve));
-    if (i >= 50 && heard > had) times.push(nowMs() - begin);
-    await sleep(5);
+    while (heard === had && monotonicMs() - begin < 1000)
+      await new Promise((resolve) => setImmediate(resolve));
+    if (i >= 50 && heard > had) times.push(monotonicMs() - begin);
+    await wait(5);
   }
   await graph.close();
   return rounded(distribution(times), 2);
-}
-
-function nowMs(): number {
-  return Number(process.hrtime.bigint()) / 1e6;
-}
-
-function sleep(ms: number): Promise<void> {
-  return new Promise((resolve) => setTimeout(resolve, ms));
 }

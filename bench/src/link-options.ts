@@ -30,6 +30,8 @@ shows the whole green cloud (mtpMs) or its first points (mtpFirstMs). Figures co
 /** About a thousand points per display frame, for a sample and for a whole cloud. */
 const DRAW_EVERY = { points64: '8', auto: '192' } as const;
 
+export type LinkOptions = NonNullable<ReturnType<typeof readLinkOptions>>;
+
 /** @returns `null` if only the usage was requested @throws {Error} naming the option */
 export function readLinkOptions(argv: string[]) {
   const { values } = parseArgs({

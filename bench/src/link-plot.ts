@@ -2,7 +2,7 @@
 import { BitRate } from '@farpoint/timing';
 import { BIN_MS, type LinkBin, type RobotSample, type TimeSpan } from './link-analysis.ts';
 import type { LatencySample } from './link-run.ts';
-import { renderChart } from './plot/chart.ts';
+import { renderChart, type Series } from './plot/chart.ts';
 
 export interface LinkPlot {
   title: string;
@@ -14,18 +14,16 @@ export interface LinkPlot {
   outages: readonly TimeSpan[];
 }
 
-export function plotLink({ title, subtitle, zeroMs, bins, robot, latencies, outages }: LinkPlot): string {
+export function plotLink(plot: LinkPlot): string {
+  const { title, subtitle, zeroMs, robot } = plot;
   const seconds = (timeMs: number) => (timeMs - zeroMs) / 1000;
-  const binTimes = bins.map(({ timeMs }) => seconds(timeMs));
   const robotTimes = robot.map(({ timeMs }) => seconds(timeMs));
-  const mbps = (bytes: number) => BitRate.toMbps(BitRate.of(bytes, BIN_MS));
-  const answered = latencies.filter(({ mtpMs }) => mtpMs !== null);
-  const spans = outages.map(({ fromMs, toMs }) => ({
+  const spans = plot.outages.map(({ fromMs, toMs }) => ({
     from: seconds(fromMs),
     to: seconds(toMs),
     label: 'no service',
   }));
-  const xLabel = 'time, s';
+  const axes = { xLabel: 'time, s', spans };
   return renderChart({
     title,
     subtitle,
@@ -33,57 +31,60 @@ export function plotLink({ title, subtitle, zeroMs, bins, robot, latencies, outa
     panelWidth: 960,
     panelHeight: 230,
     panels: [
+      { ...axes, title: 'Bit rate', yLabel: 'Mbit/s', series: bitRates(plot, seconds) },
+      { ...axes, title: 'Latency', yLabel: 'ms', series: latencySeries(plot, seconds) },
       {
-        title: 'Bit rate',
-        xLabel,
-        yLabel: 'Mbit/s',
-        spans,
-        series: [
-          {
-            label: 'capacity',
-            x: binTimes,
-            y: bins.map((bin) => bin.capacityMbps ?? Number.NaN),
-            shape: 'area',
-          },
-          { label: 'delivered', x: binTimes, y: bins.map((bin) => mbps(bin.deliveredBytes)) },
-          {
-            label: 'estimate',
-            x: robotTimes,
-            y: robot.map((sample) => BitRate.toMbps(sample.estimateBitsPerSecond)),
-          },
-          ...(bins.some((bin) => bin.crossBytes > 0)
-            ? [{ label: 'competing flow', x: binTimes, y: bins.map((bin) => mbps(bin.crossBytes)) }]
-            : []),
-        ],
-      },
-      {
-        title: 'Latency',
-        xLabel,
-        yLabel: 'ms',
-        spans,
-        series: [
-          {
-            label: 'motion to photon, whole cloud',
-            x: answered.map(({ timeMs }) => seconds(timeMs)),
-            y: answered.map(({ mtpMs }) => mtpMs as number),
-          },
-          { label: 'queue of the link', x: binTimes, y: bins.map(({ queueMsMax }) => queueMsMax) },
-        ],
-      },
-      {
+        ...axes,
         title: 'Points a frame',
-        xLabel,
         yLabel: 'points',
-        spans,
         series: [{ label: 'points', x: robotTimes, y: robot.map(({ pointsPerFrame }) => pointsPerFrame) }],
       },
       {
+        ...axes,
         title: 'Frames a second',
-        xLabel,
         yLabel: 'frames/s',
-        spans,
         series: [{ label: 'planned', x: robotTimes, y: robot.map(({ framesPerSecond }) => framesPerSecond) }],
       },
     ],
   });
+}
+
+/** @param seconds time on the plot's axis */
+function bitRates({ bins, robot }: LinkPlot, seconds: (timeMs: number) => number): Series[] {
+  const times = bins.map(({ timeMs }) => seconds(timeMs));
+  const mbps = (bytes: number) => BitRate.toMbps(BitRate.of(bytes, BIN_MS));
+  const series: Series[] = [
+    {
+      label: 'capacity',
+      x: times,
+      y: bins.map((bin) => bin.capacityMbps ?? Number.NaN),
+      shape: 'area',
+    },
+    { label: 'delivered', x: times, y: bins.map((bin) => mbps(bin.deliveredBytes)) },
+    {
+      label: 'estimate',
+      x: robot.map(({ timeMs }) => seconds(timeMs)),
+      y: robot.map((sample) => BitRate.toMbps(sample.estimateBitsPerSecond)),
+    },
+  ];
+  if (bins.some((bin) => bin.crossBytes > 0))
+    series.push({ label: 'competing flow', x: times, y: bins.map((bin) => mbps(bin.crossBytes)) });
+  return series;
+}
+
+/** @param seconds time on the plot's axis */
+function latencySeries({ bins, latencies }: LinkPlot, seconds: (timeMs: number) => number): Series[] {
+  const answered = latencies.filter(({ mtpMs }) => mtpMs !== null);
+  return [
+    {
+      label: 'motion to photon, whole cloud',
+      x: answered.map(({ timeMs }) => seconds(timeMs)),
+      y: answered.map(({ mtpMs }) => mtpMs as number),
+    },
+    {
+      label: 'queue of the link',
+      x: bins.map(({ timeMs }) => seconds(timeMs)),
+      y: bins.map(({ queueMsMax }) => queueMsMax),
+    },
+  ];
 }

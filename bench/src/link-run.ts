@@ -2,6 +2,7 @@
 import { readFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
 import type { LinkBin, PageSample, RobotSample } from './link-analysis.ts';
+import { monotonicMs } from './measured-span.ts';
 
 export interface LatencySample {
   /** When the operator acted, on the robot's clock, ms. */
@@ -30,11 +31,6 @@ export interface PageRun {
   latencies: LatencySample[];
 }
 
-/** The robot's and the link's clock: CLOCK_MONOTONIC. */
-export function monotonicMs(): number {
-  return Number(process.hrtime.bigint()) / 1e6;
-}
-
 /** What to add to the page's `performance.now()` to get {@link monotonicMs}. Both clocks are on this machine. */
 export async function clockOffsetOf(page: Page): Promise<number> {
   let best = { tookMs: Number.POSITIVE_INFINITY, offset: 0 };
@@ -53,70 +49,71 @@ export async function clockOffsetOf(page: Page): Promise<number> {
  */
 export async function drivePage(page: Page, seconds: number): Promise<PageRun> {
   const offset = await clockOffsetOf(page);
-  const { series, latencies } = await page.evaluate(async (ms) => {
-    const { farpoint } = window;
-    const pause = (time: number) => new Promise((resolve) => setTimeout(resolve, time));
-    const end = performance.now() + ms;
-    const series: PageSample[] = [];
-    const latencies: PageLatency[] = [];
-    const timer = setInterval(() => {
-      const { packetsReceived, packetsLost, framesDrawn, pointsDrawn } = farpoint.stats();
-      const { session, link, holder } = farpoint.state();
-      series.push({
-        timeMs: performance.now(),
-        packetsReceived,
-        packetsLost,
-        framesDrawn,
-        pointsDrawn,
-        session,
-        link,
-      });
-      if (session === 'live' && holder === 'nobody') farpoint.requestLease();
-    }, 100);
-    const driving = (async () => {
-      // Let go from time to time: after an interruption, the robot wants the grip to be released once.
-      while (performance.now() < end) {
-        await farpoint.drive({ forward: 0.4, left: 0.5 }, 900);
-        await pause(100);
-      }
-    })();
-    for (let i = 0; performance.now() < end; i++) {
-      // The golden ratio's sequence is spread evenly over the camera's period.
-      await pause(60 + ((i * 0.618034) % 1) * 80);
-      const timeMs = performance.now();
-      const result = await farpoint.latencyTest().catch(() => null);
-      if (result === null) await pause(100);
-      latencies.push({
-        timeMs,
-        mtpMs: result?.mtpMs ?? null,
-        firstMs: result?.firstMs ?? null,
-        arrivedMs: result?.arrivedMs ?? 0,
-        robot: result?.robot ?? null,
-      });
-    }
-    await driving;
-    clearInterval(timer);
-    return { series, latencies };
-  }, seconds * 1000);
+  const { series, latencies } = await page.evaluate(driveAndTest, seconds * 1000);
   const shift = <T extends { timeMs: number }>(samples: readonly T[]) =>
     samples.map((sample) => ({ ...sample, timeMs: sample.timeMs + offset }));
-  return {
-    series: shift(series),
-    latencies: shift(latencies).map(({ timeMs, mtpMs, firstMs, arrivedMs, robot }) => ({
+  return { series: shift(series), latencies: shift(latencies).map(latencySampleOf) };
+}
+
+/** Runs in the page, alone: nothing outside its braces exists there. */
+async function driveAndTest(ms: number): Promise<{ series: PageSample[]; latencies: PageLatency[] }> {
+  const { farpoint } = window;
+  const pause = (time: number) => new Promise((resolve) => setTimeout(resolve, time));
+  const end = performance.now() + ms;
+  const series: PageSample[] = [];
+  const latencies: PageLatency[] = [];
+  const timer = setInterval(() => {
+    const { packetsReceived, packetsLost, framesDrawn, pointsDrawn } = farpoint.stats();
+    const { session, link, holder } = farpoint.state();
+    series.push({
+      timeMs: performance.now(),
+      packetsReceived,
+      packetsLost,
+      framesDrawn,
+      pointsDrawn,
+      session,
+      link,
+    });
+    if (session === 'live' && holder === 'nobody') farpoint.requestLease();
+  }, 100);
+  const driving = (async () => {
+    // Let go from time to time: after an interruption, the robot wants the grip to be released once.
+    while (performance.now() < end) {
+      await farpoint.drive({ forward: 0.4, left: 0.5 }, 900);
+      await pause(100);
+    }
+  })();
+  for (let i = 0; performance.now() < end; i++) {
+    // The golden ratio's sequence is spread evenly over the camera's period.
+    await pause(60 + ((i * 0.618034) % 1) * 80);
+    const timeMs = performance.now();
+    const result = await farpoint.latencyTest().catch(() => null);
+    if (result === null) await pause(100);
+    latencies.push({
       timeMs,
-      mtpMs,
-      firstMs,
-      parts:
-        mtpMs === null || robot === null
-          ? null
-          : {
-              command: robot.commandMs - timeMs,
-              captureWait: robot.captureMs - robot.commandMs,
-              delivery: timeMs + arrivedMs - robot.captureMs,
-              display: mtpMs - arrivedMs,
-            },
-    })),
-  };
+      mtpMs: result?.mtpMs ?? null,
+      firstMs: result?.firstMs ?? null,
+      arrivedMs: result?.arrivedMs ?? 0,
+      robot: result?.robot ?? null,
+    });
+  }
+  await driving;
+  clearInterval(timer);
+  return { series, latencies };
+}
+
+/** @param latency with its time on the robot's clock */
+function latencySampleOf({ timeMs, mtpMs, firstMs, arrivedMs, robot }: PageLatency): LatencySample {
+  const parts =
+    mtpMs === null || robot === null
+      ? null
+      : {
+          command: robot.commandMs - timeMs,
+          captureWait: robot.captureMs - robot.commandMs,
+          delivery: timeMs + arrivedMs - robot.captureMs,
+          display: mtpMs - arrivedMs,
+        };
+  return { timeMs, mtpMs, firstMs, parts };
 }
 
 interface PageLatency {

@@ -8,7 +8,6 @@ import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { MAX_VIDEOS } from '@farpoint/protocol';
 import { openRecording } from '@farpoint/recording';
-import { buildAddon } from '@farpoint/shared-memory/build';
 import {
   CAMERA,
   encodedVideos,
@@ -18,7 +17,7 @@ import {
   videoArgs,
 } from './recorded-videos.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
-import { type LayoutResult, measure } from './shm.ts';
+import { buildSharedMemory, type LayoutResult, measure, type ShmRun } from './shm-run.ts';
 
 const USAGE = `pnpm bench recording [--size 480] [--fps 30] [--captured-fps 30] [--seconds 60] [--mbps 20] [--pictures 0] [--videos 0] [--encoder x264enc] [--compression none] [--folder FOLDER] [--json]
 
@@ -30,178 +29,229 @@ Lost frames of a video: gaps in the capture times in the file. Main: the robot's
 Latency: from when the camera starts to write a frame until the robot has its packets ready. Memory: of the robot process, in
 the first and the last fifth of the run. Afterwards the file is read back and every message is counted.`;
 
+interface Options {
+  size: number;
+  fps: number;
+  seconds: number;
+  mbps: number;
+  picturesPerSecond: number;
+  videos: number;
+  capturedFps: string;
+  encoder: string;
+  compression: string;
+  /** Where the session's own folder is made. */
+  folder: string;
+  json: boolean | undefined;
+}
+
 export const bench: Bench = {
   name: 'recording',
   summary: 'recording a session: added latency, memory over time, a count of every message',
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        size: { type: 'string', default: '480' },
-        fps: { type: 'string', default: '30' },
-        'captured-fps': { type: 'string', default: '30' },
-        seconds: { type: 'string', default: '60' },
-        mbps: { type: 'string', default: '20' },
-        pictures: { type: 'string', default: '0' },
-        videos: { type: 'string', default: '0' },
-        encoder: { type: 'string', default: 'x264enc' },
-        compression: { type: 'string', default: 'none' },
-        folder: { type: 'string' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
-    });
-    if (values.help) return console.log(USAGE);
-    const [size, fps] = [numberOption('size', values.size, 16), numberOption('fps', values.fps, 1)];
-    const [seconds, mbps] = [
-      numberOption('seconds', values.seconds, 5),
-      numberOption('mbps', values.mbps, 1),
-    ];
-    const { compression } = values;
-    const picturesPerSecond = numberOption('pictures', values.pictures);
-    const pictures = picturesPerSecond > 0;
-    const pictureArgs = pictures
-      ? ['--pictures-of-cloud', '--pictures-per-second', String(picturesPerSecond)]
-      : [];
-    const videos = numberOption('videos', values.videos);
-    if (!Number.isInteger(videos) || videos > MAX_VIDEOS)
-      throw new Error(`--videos is \`${values.videos}\`, not 0 to ${MAX_VIDEOS}`);
-    const { ok, output } = buildAddon();
-    if (!ok) throw new Error(`the addon does not build:\n${output}`);
-    const folder = mkdtempSync(join(values.folder ?? tmpdir(), 'farpoint-bench-recording-'));
+    const options = readOptions(argv);
+    if (options === null) return;
+    buildSharedMemory();
+    const folder = mkdtempSync(join(options.folder, 'farpoint-bench-recording-'));
     const path = join(folder, 'session.mcap');
-    const sourceArgs = [...pictureArgs, ...(videos > 0 ? videoArgs(folder, videos, values.encoder) : [])];
     try {
-      console.error('without a recording');
-      const plain = await measure('farpoint', {
-        size,
-        fps,
-        mbps,
-        seconds: Math.min(seconds, 20),
-        pictures,
-        videos,
-        robotArgs: sourceArgs,
-      });
-      console.error(`with one, ${seconds} s`);
-      const memoryMb: number[] = [];
-      let encoded = NOTHING_ENCODED;
-      const recorded = await measure('farpoint', {
-        size,
-        fps,
-        mbps,
-        seconds,
-        pictures,
-        videos,
-        robotArgs: [
-          ...sourceArgs,
-          '--record',
-          path,
-          '--record-clouds',
-          'both',
-          '--record-max',
-          'none',
-          '--record-captured-fps',
-          values['captured-fps'],
-          '--record-sent-fps',
-          '120',
-          '--record-compression',
-          compression,
-        ],
-        onSecond: (pid) => memoryMb.push(residentMb(pid)),
-        onEnd: async (adminUrl) => {
-          if (videos > 0) encoded = await encodedVideos(adminUrl);
-        },
-      });
+      const runs = await measureBoth(options, folder, path);
       const file = await readBack(path);
-      const fifth = Math.max(1, Math.floor(memoryMb.length / 5));
-      const result = {
-        bench: 'recording',
-        points: size * size,
-        fps,
-        seconds,
-        mbps,
-        compression,
-        picturesPerSecond,
-        videoCameras: videos,
-        capturedFps: Number(values['captured-fps']),
-        latencyMs: recorded.latencyMs,
-        latencyMsWithout: plain.latencyMs,
-        addedMs: {
-          p50: difference(recorded, plain, 'p50'),
-          p95: difference(recorded, plain, 'p95'),
-          p99: difference(recorded, plain, 'p99'),
-        },
-        framesPerSecond: recorded.framesPerSecond,
-        framesPerSecondWithout: plain.framesPerSecond,
-        ...(pictures ? {} : { torn: recorded.torn }),
-        videoSkipped: encoded.skipped,
-        rssMbMax: recorded.rssMbMax,
-        rssMbBegin: mean(memoryMb.slice(0, fifth)),
-        rssMbEnd: mean(memoryMb.slice(-fifth)),
-        robotCpu: recorded.robotCpu,
-        robotCpuWithout: plain.robotCpu,
-        robotMainCpu: recorded.robotMainCpu,
-        robotMainCpuWithout: plain.robotMainCpu,
-        fileMbPerSecond: Math.round(statSync(path).size / 1e6 / (file.recordedSeconds || 1)),
-        ...file,
-      };
-      printTable(
-        ['latency, ms', 'p50', 'p95', 'p99', 'max'],
-        [
-          ['without', ...distributionCells(plain.latencyMs)],
-          ['recorded', ...distributionCells(recorded.latencyMs)],
-        ],
-      );
-      printTable(
-        [
-          'frames/s',
-          'robot, cores',
-          'without',
-          'of it main',
-          'without',
-          'MB at begin',
-          'MB at end',
-          'MB most',
-          'file, MB/s',
-        ],
-        [
-          [
-            result.framesPerSecond,
-            result.robotCpu,
-            result.robotCpuWithout,
-            result.robotMainCpu,
-            result.robotMainCpuWithout,
-            result.rssMbBegin,
-            result.rssMbEnd,
-            result.rssMbMax,
-            result.fileMbPerSecond,
-          ],
-        ],
-      );
-      printTable(
-        ['topic', 'recorded', 'dropped', 'MB'],
-        Object.entries(file.topics).map(([name, { messages, dropped, mb }]) => [name, messages, dropped, mb]),
-      );
-      if (file.videos.length > 0) {
-        printTable(
-          ['video', 'recorded', 'lost', 'kept, %', 'skipped by the encoder', 'frames/s', 'kB/s'],
-          file.videos.map(({ name, frames, lost, keptShare, framesPerSecond, bytesPerSecond }, i) => [
-            name,
-            frames,
-            lost,
-            keptShare * 100,
-            encoded.skipped[i],
-            framesPerSecond,
-            bytesPerSecond / 1000,
-          ]),
-        );
-      }
-      if (values.json) printJson(result);
+      const result = figuresOf(options, runs, file, statSync(path).size);
+      printRuns(runs, result);
+      printFile(file, runs.skipped);
+      if (options.json) printJson(result);
     } finally {
       rmSync(folder, { recursive: true, force: true });
     }
   },
 };
+
+/** @returns `null` if only the usage was requested @throws {Error} naming the option */
+function readOptions(argv: string[]): Options | null {
+  const { values } = parseArgs({
+    args: argv,
+    options: {
+      size: { type: 'string', default: '480' },
+      fps: { type: 'string', default: '30' },
+      'captured-fps': { type: 'string', default: '30' },
+      seconds: { type: 'string', default: '60' },
+      mbps: { type: 'string', default: '20' },
+      pictures: { type: 'string', default: '0' },
+      videos: { type: 'string', default: '0' },
+      encoder: { type: 'string', default: 'x264enc' },
+      compression: { type: 'string', default: 'none' },
+      folder: { type: 'string', default: tmpdir() },
+      json: { type: 'boolean' },
+      help: { type: 'boolean' },
+    },
+  });
+  if (values.help) {
+    console.log(USAGE);
+    return null;
+  }
+  const options = {
+    size: numberOption('size', values.size, 16),
+    fps: numberOption('fps', values.fps, 1),
+    seconds: numberOption('seconds', values.seconds, 5),
+    mbps: numberOption('mbps', values.mbps, 1),
+    picturesPerSecond: numberOption('pictures', values.pictures),
+    videos: numberOption('videos', values.videos),
+  };
+  if (!Number.isInteger(options.videos) || options.videos > MAX_VIDEOS)
+    throw new Error(`--videos is \`${values.videos}\`, not 0 to ${MAX_VIDEOS}`);
+  const { 'captured-fps': capturedFps, encoder, compression, folder, json } = values;
+  return { ...options, capturedFps, encoder, compression, folder, json };
+}
+
+interface Runs {
+  plain: LayoutResult;
+  recorded: LayoutResult;
+  /** Of the robot that records, each second, MB. */
+  memoryMb: number[];
+  /** Pictures that its encoders skipped, by camera. */
+  skipped: number[];
+}
+
+/** Measures without a recording, then with one. @param path of the recording */
+async function measureBoth(options: Options, folder: string, path: string): Promise<Runs> {
+  const { size, fps, mbps, seconds, picturesPerSecond, videos } = options;
+  const pictures = picturesPerSecond > 0;
+  const robotArgs = [
+    ...(pictures ? ['--pictures-of-cloud', '--pictures-per-second', String(picturesPerSecond)] : []),
+    ...(videos > 0 ? videoArgs(folder, videos, options.encoder) : []),
+  ];
+  const run: ShmRun = { size, fps, mbps, seconds, pictures, videos, robotArgs };
+  console.error('without a recording');
+  const plain = await measure('farpoint', { ...run, seconds: Math.min(seconds, 20) });
+  console.error(`with one, ${seconds} s`);
+  const memoryMb: number[] = [];
+  let encoded = NOTHING_ENCODED;
+  const recorded = await measure('farpoint', {
+    ...run,
+    robotArgs: [...robotArgs, ...recordArgs(options, path)],
+    onSecond: (pid) => memoryMb.push(residentMb(pid)),
+    onEnd: async (adminUrl) => {
+      if (videos > 0) encoded = await encodedVideos(adminUrl);
+    },
+  });
+  return { plain, recorded, memoryMb, skipped: encoded.skipped };
+}
+
+function recordArgs({ capturedFps, compression }: Options, path: string): string[] {
+  return [
+    '--record',
+    path,
+    '--record-clouds',
+    'both',
+    '--record-max',
+    'none',
+    '--record-captured-fps',
+    capturedFps,
+    '--record-sent-fps',
+    '120',
+    '--record-compression',
+    compression,
+  ];
+}
+
+type Figures = ReturnType<typeof figuresOf>;
+
+/** @returns what `--json` prints */
+function figuresOf(options: Options, runs: Runs, file: ReadBack, fileBytes: number) {
+  const { plain, recorded, memoryMb } = runs;
+  const { size, fps, seconds, mbps, compression, picturesPerSecond } = options;
+  const fifth = Math.max(1, Math.floor(memoryMb.length / 5));
+  return {
+    bench: 'recording',
+    points: size * size,
+    fps,
+    seconds,
+    mbps,
+    compression,
+    picturesPerSecond,
+    videoCameras: options.videos,
+    capturedFps: Number(options.capturedFps),
+    latencyMs: recorded.latencyMs,
+    latencyMsWithout: plain.latencyMs,
+    addedMs: {
+      p50: difference(recorded, plain, 'p50'),
+      p95: difference(recorded, plain, 'p95'),
+      p99: difference(recorded, plain, 'p99'),
+    },
+    framesPerSecond: recorded.framesPerSecond,
+    framesPerSecondWithout: plain.framesPerSecond,
+    ...(picturesPerSecond > 0 ? {} : { torn: recorded.torn }),
+    videoSkipped: runs.skipped,
+    rssMbMax: recorded.rssMbMax,
+    rssMbBegin: mean(memoryMb.slice(0, fifth)),
+    rssMbEnd: mean(memoryMb.slice(-fifth)),
+    robotCpu: recorded.robotCpu,
+    robotCpuWithout: plain.robotCpu,
+    robotMainCpu: recorded.robotMainCpu,
+    robotMainCpuWithout: plain.robotMainCpu,
+    fileMbPerSecond: Math.round(fileBytes / 1e6 / (file.recordedSeconds || 1)),
+    ...file,
+  };
+}
+
+function printRuns({ plain, recorded }: Runs, result: Figures): void {
+  printTable(
+    ['latency, ms', 'p50', 'p95', 'p99', 'max'],
+    [
+      ['without', ...distributionCells(plain.latencyMs)],
+      ['recorded', ...distributionCells(recorded.latencyMs)],
+    ],
+  );
+  printTable(
+    [
+      'frames/s',
+      'robot, cores',
+      'without',
+      'of it main',
+      'without',
+      'MB at begin',
+      'MB at end',
+      'MB most',
+      'file, MB/s',
+    ],
+    [
+      [
+        result.framesPerSecond,
+        result.robotCpu,
+        result.robotCpuWithout,
+        result.robotMainCpu,
+        result.robotMainCpuWithout,
+        result.rssMbBegin,
+        result.rssMbEnd,
+        result.rssMbMax,
+        result.fileMbPerSecond,
+      ],
+    ],
+  );
+}
+
+/** @param skipped by the encoders, by camera */
+function printFile({ topics, videos }: ReadBack, skipped: readonly number[]): void {
+  printTable(
+    ['topic', 'recorded', 'dropped', 'MB'],
+    Object.entries(topics).map(([name, { messages, dropped, mb }]) => [name, messages, dropped, mb]),
+  );
+  if (videos.length === 0) return;
+  printTable(
+    ['video', 'recorded', 'lost', 'kept, %', 'skipped by the encoder', 'frames/s', 'kB/s'],
+    videos.map(({ name, frames, lost, keptShare, framesPerSecond, bytesPerSecond }, i) => [
+      name,
+      frames,
+      lost,
+      keptShare * 100,
+      skipped[i],
+      framesPerSecond,
+      bytesPerSecond / 1000,
+    ]),
+  );
+}
+
+type ReadBack = Awaited<ReturnType<typeof readBack>>;
 
 /** Reads every message. Missing messages show in the recorder's own counts. */
 async function readBack(path: string) {

@@ -6,7 +6,8 @@ import { parseArgs } from 'node:util';
 import { LocalStack } from '@farpoint/local-stack';
 import { SignaledOperator } from '@farpoint/robot-node/testing';
 import { Ros1Peers } from '@farpoint/ros/testing/ros1';
-import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
+import { cpuSecondsOfTree } from './cpu-time.ts';
+import { measuredSpan, wait } from './measured-span.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { readFrameLog, residentPeakMb } from './robot-frames.ts';
 import { distribution, rounded } from './stats.ts';
@@ -22,8 +23,6 @@ Loopback.`;
 const FORMS = ['points', 'picture', 'images'] as const;
 const ROBOT = 'ros-1';
 const WARM_UP_MS = 2000;
-const nowMs = () => Number(process.hrtime.bigint()) / 1e6;
-const sleep = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
 
 export const bench: Bench = {
   name: 'ros1',
@@ -86,23 +85,20 @@ async function measure(python: string, { as, hz, seconds, mbps }: Options) {
     });
     const robotPid = stack.robot(ROBOT).pid;
     const operator = await SignaledOperator.connect(stack.signalingUrl, ROBOT);
-    await sleep(WARM_UP_MS);
-    const cpu = () => [cpuSecondsOfTree(robotPid), cpuSecondsOfTree(node.pid)] as const;
-    const [beginMs, cpuBefore] = [nowMs(), cpu()];
-    await sleep(seconds * 1000);
-    const [endMs, cpuAfter] = [nowMs(), cpu()];
+    await wait(WARM_UP_MS);
+    const cpu = () => ({ robot: cpuSecondsOfTree(robotPid), node: cpuSecondsOfTree(node.pid) });
+    const { beginMs, endMs, elapsedMs, cores } = await measuredSpan(cpu, () => wait(seconds * 1000));
     const rssMbMax = residentPeakMb(robotPid);
     await operator.close();
     await stack.stop();
-    const elapsedMs = endMs - beginMs;
     const frames = readFrameLog(frameLog).filter(({ readyMs }) => readyMs >= beginMs && readyMs < endMs);
     return {
       latencyMs: rounded(distribution(frames.map(({ capturedMs, readyMs }) => readyMs - capturedMs)), 2),
       framesPerSecond: Number(((frames.length * 1000) / elapsedMs).toFixed(2)),
       frames: frames.length,
       rssMbMax,
-      robotCpu: coresBetween(cpuBefore[0], cpuAfter[0], elapsedMs),
-      nodeCpu: coresBetween(cpuBefore[1], cpuAfter[1], elapsedMs),
+      robotCpu: cores.robot,
+      nodeCpu: cores.node,
     };
   } finally {
     await stack?.stop();
