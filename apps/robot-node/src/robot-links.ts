@@ -1,0 +1,203 @@
+/** How a robot's systems are linked: what each takes from those before it. `robot.ts` calls these in order. */
+import type { TopicReading } from '@farpoint/ros';
+import type { Logger } from '@farpoint/service';
+import type { Refusal } from '@farpoint/webrtc';
+import type { SignalingClient } from './admit/signaling/signaling-client.ts';
+import { DriveCore } from './drive-core.ts';
+import type { TimedBaseState } from './ground/base.ts';
+import { monotonicMs } from './ground/clock.ts';
+import type { RobotCounters } from './ground/robot-counters.ts';
+import type { StageTimer } from './ground/stage-timer.ts';
+import type { Drive } from './motion/open-drive.ts';
+import type { RobotStops } from './motion/stops/robot-stops.ts';
+import { hasSound, type RobotOptions } from './program/robot-configuration.ts';
+import type { RobotParts } from './robot-parts.ts';
+import { failureReading } from './send/clouds/cloud-sensor.ts';
+import { MOTORS_TOPIC } from './sense/base/sim-topics.ts';
+import { openSessions } from './serve/open-sessions.ts';
+import { openReferenceProfile } from './serve/reference/open-reference-profile.ts';
+import type { ReferenceProfile } from './serve/reference/reference-profile.ts';
+import { RobotStreams, type StreamsAudience } from './serve/robot-streams.ts';
+import type { OperatorSession } from './serve/session/operator-session.ts';
+import type { OperatorSessions } from './serve/session/operator-sessions.ts';
+import type { RobotSessionHost } from './serve/session/robot-session-host.ts';
+import { welcome } from './serve/session/welcome.ts';
+import type { MeasurementLogs } from './tell/measurement-logs.ts';
+import { RobotReports } from './tell/robot-reports.ts';
+import type { TelemetryBoard } from './tell/telemetry-board.ts';
+import { TelemetrySender } from './tell/telemetry-sender.ts';
+
+/** What all of them have in common. */
+export interface RobotContext {
+  options: RobotOptions;
+  parts: RobotParts;
+  signaling: SignalingClient;
+  counters: RobotCounters;
+  stages: StageTimer;
+  logs: MeasurementLogs;
+  board: TelemetryBoard;
+  log: Logger;
+}
+
+/** Sensors, cameras and sound, on their way to those who watch. @param ends what they tell to systems that come later */
+export function linkStreams(
+  { options, parts, counters, stages, logs, board, log }: RobotContext,
+  audience: StreamsAudience,
+  ends: {
+    host: () => RobotSessionHost;
+    onState: (state: TimedBaseState) => void;
+    onFailure: (error: Error) => void;
+  },
+): RobotStreams {
+  const streams: RobotStreams = new RobotStreams(
+    options,
+    { ...parts, counters, stages, frameLog: logs.frames, log },
+    audience,
+    {
+      onState: ends.onState,
+      onFault: ({ name }, detail) => log.warn({ sensor: name, detail }, 'the source has a fault'),
+      onRings: (sensor) => ends.host().tellRings(sensor),
+      onVideosChanged: () => ends.host().tellVideos(),
+      onFailure: (sensor, error) => {
+        // The robot cannot continue without its first sensor. Without another it shows less, but continues.
+        if (sensor === streams.sensors.first) {
+          ends.onFailure(error);
+          return;
+        }
+        log.error({ err: error, sensor: sensor.name }, 'a sensor has failed: the robot goes on without it');
+        board.take(failureReading(sensor), monotonicMs());
+        streams.budgets.update();
+      },
+    },
+  );
+  return streams;
+}
+
+/** All that decides whether the robot moves. */
+export function linkCore(
+  { options, parts, counters, signaling, logs, log }: RobotContext,
+  { budgets, sensors, cameras }: RobotStreams,
+  audience: StreamsAudience,
+): DriveCore {
+  return new DriveCore(options, {
+    ...parts,
+    budgets,
+    counters,
+    signaling,
+    commandLog: logs.commands,
+    operators: () => audience.operators,
+    alsoHeard: () => audience.reference?.operator,
+    sensors: () => sensors,
+    videos: () => cameras.videos,
+    now: monotonicMs,
+    log,
+  });
+}
+
+/** Operators' sessions. */
+export function linkSessions(
+  context: RobotContext,
+  streams: RobotStreams,
+  { host, paths }: DriveCore,
+): OperatorSessions {
+  const { options, parts, signaling, counters, logs, board, log } = context;
+  const { grants, robotKey, audit, videos } = parts;
+  return openSessions(options, {
+    grants,
+    robotKey,
+    audit,
+    peer: {
+      ...peerOptions(context),
+      videos: videos.map(({ codecs }) => codecs),
+      sound: hasSound(options),
+    },
+    streams,
+    host,
+    paths,
+    packetLog: logs.packets,
+    signaling,
+    counters,
+    log,
+    welcome: (operator) => {
+      const { quantities, alarms } = board;
+      const told = { ...options, quantities, alarms: alarms.raised, nowS: Date.now() / 1000 };
+      welcome(operator, told, streams.sensors, streams.cameras.videos);
+    },
+  });
+}
+
+/** The interface to the reference system's operators; `null` if it is not enabled. */
+export function linkReference(
+  context: RobotContext,
+  { sendLoop, budgets }: RobotStreams,
+  { host }: DriveCore,
+): ReferenceProfile | null {
+  const { options, logs, log } = context;
+  const parts = { peer: peerOptions(context), packetLog: logs.packets, sendLoop, budgets };
+  return openReferenceProfile(options, parts, host, log);
+}
+
+/** Hears what the sources, the wheels and a simulated base tell about themselves. @returns takes one more reading */
+export function linkReadings(
+  { parts: { captures, sink, base }, board }: RobotContext,
+  { fix, odometry }: Drive,
+  ends: { onState: (state: TimedBaseState) => void; onFailure: (error: Error) => void },
+): (reading: TopicReading) => void {
+  const add = (reading: TopicReading) => {
+    fix?.take(reading, monotonicMs());
+    board.take(reading, monotonicMs());
+  };
+  for (const each of captures) each.onReading = add;
+  sink.tellReadings?.(add);
+  if (base !== null) {
+    base.onState = (state) => ends.onState(odometry.take(state));
+    base.onReadings = (told, motors) => {
+      told.forEach(add);
+      board.sample(MOTORS_TOPIC, motors, monotonicMs());
+    };
+    base.onFailure = ends.onFailure;
+  }
+  return add;
+}
+
+/** What operators are told again and again, and what is measured. */
+export function linkReports(
+  { options, parts, counters, stages, board, log }: RobotContext,
+  { status }: Drive,
+  operators: ReadonlyMap<string, OperatorSession>,
+  state: () => TimedBaseState | null,
+): RobotReports {
+  return new RobotReports({
+    operators,
+    counters,
+    telemetry: new TelemetrySender(operators, status, stages, board, parts.obstacles),
+    board,
+    status,
+    recording: parts.recording,
+    log,
+    state,
+    statisticsFile: options.statisticsFile,
+    now: monotonicMs,
+  });
+}
+
+/** Options for the connection with any operator. */
+function peerOptions({ options, counters }: RobotContext) {
+  const { portRange, icePolicy, connectTimeoutMs } = options;
+  const onRefused = (reason: Refusal) => counters.datagramsRefused.add(reason);
+  return { portRange, icePolicy, connectTimeoutMs, onRefused };
+}
+
+/** Closes what is left once the wheels stand and the sessions have ended. */
+export async function closeLinked(
+  { parts: { sink, base, obstacles, recording }, signaling, logs }: RobotContext,
+  streams: RobotStreams,
+  { returns }: Drive,
+  stops: RobotStops,
+): Promise<void> {
+  for (const part of [sink, base]) await part?.close();
+  streams.sendLoop.close();
+  await signaling.close();
+  for (const part of [stops, obstacles, returns, streams, recording]) await part?.close();
+  logs.write();
+}
