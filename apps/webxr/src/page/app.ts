@@ -1,11 +1,9 @@
 /** The page: shows on the screen what the robot sends, and sends the robot what the operator's hands do. */
 import type { RobotClient, RobotClientOptions, TransformSupport } from '@farpoint/operator';
-import { computed, effect, untracked } from '@preact/signals-core';
 import { PanelPlacements } from '../ground/panels/panel-placements.ts';
 import { loadPlacements, storePlacements } from '../ground/panels/stored-panels.ts';
 import type { Settings } from '../ground/settings.ts';
 import { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
-import { giveCues } from '../panels/cues/cues.ts';
 import { elements } from '../panels/ui/elements.ts';
 import { OperatorInputs } from '../panels/ui/operator-inputs.ts';
 import { NearFieldDisplay } from '../panels/ui/show-near-field.ts';
@@ -18,22 +16,18 @@ import type { CloudAppearance } from '../state/cloud-appearance.ts';
 import type { Notices } from '../state/notices.ts';
 import { PageState } from '../state/page-state.ts';
 import { openAppearance } from '../state/stored-appearance.ts';
-import { tellNotices } from '../state/tell-notices.ts';
-import { AwayRelease } from '../take/drive/away-release.ts';
 import { ReleaseHold } from '../take/drive/release-hold.ts';
 import { SoundPlayer } from '../take/sound/sound-player.ts';
 import { viewAgeMs } from '../words/motion-words.ts';
 import { PageStatistics, type PageStats } from '../words/page-stats.ts';
 import { leavingWords } from '../words/words.ts';
-import { applyAppearance } from './apply-appearance.ts';
 import { FrameLoop } from './frame-loop.ts';
 import type { HeadsetControls } from './headset-controls.ts';
 import { openClient } from './open-client.ts';
-import { openHeadset } from './open-headset.ts';
 import { PagePanels } from './page-panels.ts';
 import { PageViews } from './page-views.ts';
-
-const [DRIVE_TICK_MS, STATUS_TICK_MS] = [25, 250];
+import { followRobot, showPage } from './show-page.ts';
+import { SteadyWork } from './steady-work.ts';
 
 export class App {
   readonly settings: Settings;
@@ -55,7 +49,6 @@ export class App {
   wrist: WristPanel | null = null;
   #headset: HeadsetControls | null = null;
   readonly #release = new ReleaseHold();
-  readonly #left = new AwayRelease();
 
   /** @param openLink of tests @throws {Error} without WebGL 2 */
   constructor(
@@ -110,20 +103,7 @@ export class App {
       nextHeadsetView: () => this.#headset?.nextView(),
     });
     const readHeadset = () => this.#headset?.read();
-    const { held, cloud, clouds, videos, remembered } = views;
-    this.frames = new FrameLoop({
-      settings,
-      client,
-      stage,
-      held,
-      cloud,
-      clouds,
-      videos,
-      stats,
-      vr,
-      readHeadset,
-      remembered,
-    });
+    this.frames = new FrameLoop({ settings, client, stage, views, stats, vr, readHeadset });
   }
 
   #openInputs(notices: Notices): OperatorInputs {
@@ -141,39 +121,38 @@ export class App {
   }
 
   start(): void {
-    this.#listen();
-    this.#panels.start();
-    this.client.start();
-    if (this.settings.robot !== null) this.client.choose(this.settings.robot);
-    this.#show();
-    setInterval(() => {
-      const nowMs = performance.now();
-      this.frames.measureGap(nowMs);
-      this.#inputs.poll(nowMs);
-      const away = this.#handsAway();
-      this.#panels.estop.update(nowMs, away);
-      const { driver } = this.client;
-      driver.suspended = away || this.state.driving.role.value === 'watch';
-      if (this.#left.decide(this.vr.active.value ? this.vr.hidden : document.hidden, nowMs))
-        driver.letGo(nowMs);
-      this.client.tick(performance.now());
-      showRobotModel(this.client, this.stage, this.appearance);
-      showDrivePath(this.client, this.stage);
-      showNavigation(this.client, this.stage, this.appearance, nowMs);
-      this.near.update(nowMs);
-    }, DRIVE_TICK_MS);
-    setInterval(() => {
-      const nowMs = performance.now();
-      this.stats.update(this.views.cloud, nowMs);
-      this.stats.remembered = this.views.remembered.updateMap(nowMs);
-      this.views.videoColour.update(nowMs);
-      this.views.videos.measure(nowMs);
-      this.state.looking.value = this.vr.active.value || !document.hidden;
-      this.state.sample();
-      this.#panels.cloudPanel.update();
-      this.frames.govern(nowMs);
-    }, STATUS_TICK_MS);
-    this.frames.start();
+    const { client, settings, state, stage, appearance, views, stats, vr, frames, near } = this;
+    const [inputs, panels] = [this.#inputs, this.#panels];
+    const releaseProgress = this.#release.progress;
+    const shown = {
+      client,
+      settings,
+      state,
+      stage,
+      appearance,
+      views,
+      stats,
+      vr,
+      inputs,
+      panels,
+      releaseProgress,
+    };
+    followRobot(shown);
+    panels.start();
+    client.start();
+    if (settings.robot !== null) client.choose(settings.robot);
+    const { panel, controls } = showPage(shown);
+    this.wrist = panel;
+    this.#headset = controls;
+    const { estop, cloudPanel } = panels;
+    const showRobot = (nowMs: number) => {
+      showRobotModel(client, stage, appearance);
+      showDrivePath(client, stage);
+      showNavigation(client, stage, appearance, nowMs);
+    };
+    const parts = { client, inputs, estop, cloudPanel, near, vr, state, stats, views, frames, showRobot };
+    new SteadyWork(parts, document).start();
+    frames.start();
   }
 
   /** Connects to this robot. A robot that was chosen before is stopped first. */
@@ -191,65 +170,5 @@ export class App {
     const ageMs = viewAgeMs(this.client, nowMs);
     const stats = this.stats.snapshot(this.client.stats(), cloud, { ...shown, viewAgeMs: ageMs });
     return { ...stats, view: predicted.figures, videoColour: videoColour.figures };
-  }
-
-  #show(): void {
-    const { state, stage, vr, client, appearance } = this;
-    const { clouds, remembered, cloud } = this.views;
-    state.sample();
-    this.#panels.show();
-    applyAppearance({
-      appearance,
-      sensors: state.sensors,
-      rings: state.rings,
-      clouds,
-      stage,
-      inVr: vr.active,
-      inTabletop: computed(() => stage.headset.view.value === 'tabletop'),
-      client,
-      remembered,
-    });
-    const { panel, controls } = openHeadset({
-      settings: this.settings.headset,
-      stage,
-      vr,
-      inputs: this.#inputs,
-      state,
-      appearance,
-      releaseProgress: this.#release.progress,
-    });
-    this.wrist = panel;
-    this.#headset = controls;
-    effect(() => {
-      cloud.sizeScale = state.pointScale.value;
-    });
-    effect(() => {
-      const active = vr.active.value;
-      untracked(() => this.#inputs.releaseAll());
-      if (!active) stage.resize();
-    });
-  }
-
-  /** Commands may come only from an operator who can see their effect. */
-  #handsAway(): boolean {
-    if (this.vr.active.value) return this.vr.hidden;
-    return document.hidden || !document.hasFocus();
-  }
-
-  #listen(): void {
-    const { client, stage } = this;
-    client.on('phase', (phase) => {
-      if (phase === 'none') stage.forgetPose();
-    });
-    client.on('session', () => {
-      this.stats.reset();
-      stage.forgetPose();
-    });
-    client.on('telemetry', ({ pose }) => {
-      stage.setBody(pose);
-      this.views.clouds.ground = pose.position.z;
-    });
-    tellNotices(client, this.state.notices);
-    if (this.settings.cues) giveCues(client, this.vr, () => performance.now());
   }
 }

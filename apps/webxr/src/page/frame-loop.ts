@@ -1,7 +1,6 @@
 /** The frame loop. Decides when a picture is drawn, and how coarsely if the machine cannot keep up. */
 import {
   ALL_FRAMES_PER_SECOND,
-  type CloudView,
   DisplayMeter,
   DrawGate,
   DrawingGovernor,
@@ -9,15 +8,13 @@ import {
   isSoftwareRenderer,
   WorstGap,
 } from '@farpoint/cloud-view';
-import type { HeldClouds, RobotClient } from '@farpoint/operator';
+import type { RobotClient } from '@farpoint/operator';
 import type { Settings } from '../ground/settings.ts';
-import type { RememberedWorld } from '../panels/ui/remembered-world.ts';
 import { followScene } from '../scene/view/follow-scene.ts';
-import type { SensorClouds } from '../scene/view/sensor-clouds.ts';
 import type { Stage } from '../scene/view/stage.ts';
 import type { VrSession } from '../scene/view/vr-session.ts';
-import type { VideoFeed } from '../take/video/video-feed.ts';
 import type { PageStatistics } from '../words/page-stats.ts';
+import type { PageViews } from './page-views.ts';
 
 /** What is said of a computer that draws all that comes. */
 const MOST_FRAMES_PER_SECOND = 240;
@@ -28,11 +25,7 @@ export interface FrameLoopParts {
   readonly settings: Settings;
   readonly client: RobotClient;
   readonly stage: Stage;
-  readonly held: HeldClouds;
-  readonly cloud: CloudView;
-  readonly clouds: SensorClouds;
-  readonly remembered: RememberedWorld;
-  readonly videos: VideoFeed;
+  readonly views: PageViews;
   readonly stats: PageStatistics;
   readonly vr: VrSession;
   /** Called before each picture in VR, because controllers send no events. */
@@ -58,7 +51,8 @@ export class FrameLoop {
   }
 
   start(): void {
-    const { client, clouds, settings, stage } = this.#parts;
+    const { client, settings, stage } = this.#parts;
+    const { clouds } = this.#parts.views;
     if (settings.drawEvery !== null) {
       client.drawEvery(settings.drawEvery, settings.drawEvery);
       clouds.every = settings.drawEvery;
@@ -81,7 +75,8 @@ export class FrameLoop {
 
   /** Call this a few times a second. Draws less if the machine cannot keep up, and follows the scene that is seen. */
   govern(nowMs: number): void {
-    const { client, clouds, stage, stats } = this.#parts;
+    const { client, stage, stats } = this.#parts;
+    const { clouds } = this.#parts.views;
     followScene(stage, clouds.all.peek());
     if (document.hidden || client.phase !== 'live') {
       this.#governor.pause();
@@ -96,7 +91,8 @@ export class FrameLoop {
 
   /** Draws as much as the governor says. */
   #thin(): void {
-    const { client, clouds, settings, stage, stats } = this.#parts;
+    const { client, settings, stage, stats } = this.#parts;
+    const { clouds } = this.#parts.views;
     const { scale, every } = this.#governor.step;
     stage.resolution = scale;
     // A sampled cloud is not thinned further: a few thousand points are not what slows the machine down.
@@ -119,7 +115,8 @@ export class FrameLoop {
   }
 
   #frame(nowMs: number): void {
-    const { client, held, cloud, clouds, remembered, videos, settings, stage, stats, vr } = this.#parts;
+    const { client, views, settings, stage, stats, vr } = this.#parts;
+    const { held, cloud, clouds, remembered, videos } = views;
     // Videos are shown beside the scene: they need not wait until it can be drawn again.
     const nowOnClockMs = performance.now();
     videos.present(nowOnClockMs);
