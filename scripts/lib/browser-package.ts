@@ -31,6 +31,19 @@ export interface BrowserPackage {
   assets?: readonly string[];
 }
 
+/** Declarations of a package without external dependencies must be complete. */
+const STRICT = [
+  '--ignoreConfig',
+  '--noEmit',
+  '--strict',
+  '--module',
+  'nodenext',
+  '--lib',
+  'es2024,dom,esnext.disposable',
+  '--types',
+  '',
+];
+
 /** @throws {Error} with the compiler's message */
 export async function buildBrowserPackage(spec: BrowserPackage): Promise<void> {
   const dist = join(spec.folder, 'dist');
@@ -102,10 +115,28 @@ function readManifest(folder: string): Manifest {
 
 function declare(spec: BrowserPackage, dist: string): void {
   const { folder, external = [] } = spec;
-  const out = join(dist, 'types');
   const root = resolve(folder, '../..');
+  const out = join(dist, 'types');
   const bundled = bundledIndexes(spec);
-  const config = join(dist, 'tsconfig.json');
+  emitDeclarations(folder, { root, out, bundled, config: join(dist, 'tsconfig.json') });
+  const declarations = new Declarations(root, out, bundled);
+  const index = declarations.place(join(folder, 'src/index.ts'));
+  declarations.publish(index);
+  declarations.removeUnpublished();
+  for (const file of declarations.published)
+    if (file.startsWith(dirname(index))) refuseHidden(file, declarations.hidden);
+  if (external.length === 0) compile(folder, [...STRICT, index]);
+}
+
+interface DeclarationFolders {
+  root: string;
+  out: string;
+  bundled: ReadonlyMap<string, string>;
+  /** Where the compiler's configuration is, while it runs. */
+  config: string;
+}
+
+function emitDeclarations(folder: string, { root, out, bundled, config }: DeclarationFolders): void {
   const compilerOptions = {
     composite: false,
     incremental: false,
@@ -121,46 +152,59 @@ function declare(spec: BrowserPackage, dist: string): void {
   writeFileSync(config, JSON.stringify({ extends: '../tsconfig.json', compilerOptions, include }));
   compile(folder, ['-p', config]);
   unlinkSync(config);
-  const place = (file: string) => join(out, relative(root, file).replace(/\.ts$/, '.d.ts'));
-  const reached = new Set<string>();
-  const hidden = new Set<string>();
-  const visit = (file: string): void => {
-    if (reached.has(file)) return;
-    reached.add(file);
+}
+
+/** The declarations that the compiler has made below one folder, as users of the package get them. */
+class Declarations {
+  readonly published = new Set<string>();
+  /** Types whose contents users cannot see. */
+  readonly hidden = new Set<string>();
+  readonly #root: string;
+  readonly #out: string;
+  readonly #bundled: ReadonlyMap<string, string>;
+
+  /** @param root of the workspace @param out where the compiler has put them @param bundled each package's index */
+  constructor(root: string, out: string, bundled: ReadonlyMap<string, string>) {
+    this.#root = root;
+    this.#out = out;
+    this.#bundled = bundled;
+  }
+
+  /** Where the declarations of a source file are. */
+  place(source: string): string {
+    return join(this.#out, relative(this.#root, source).replace(/\.ts$/, '.d.ts'));
+  }
+
+  /** Rewrites a declaration file, and all to which it refers. */
+  publish(file: string): void {
+    if (this.published.has(file)) return;
+    this.published.add(file);
     // A declaration file that was written by hand.
     if (!existsSync(file)) {
       mkdirSync(dirname(file), { recursive: true });
-      cpSync(join(root, relative(out, file)), file);
+      cpSync(join(this.#root, relative(this.#out, file)), file);
     }
-    const { text, opaque } = publicDeclaration(readFileSync(file, 'utf8'), (name) => {
-      const index = bundled.get(name);
-      return index === undefined
-        ? name
-        : `./${relative(dirname(file), place(index)).replace(/\.d\.ts$/, '.js')}`;
-    });
+    const { text, opaque } = publicDeclaration(readFileSync(file, 'utf8'), (name) =>
+      this.#addressOf(name, file),
+    );
     writeFileSync(file, text);
-    for (const type of opaque) hidden.add(type);
-    for (const path of references(text)) visit(join(dirname(file), path.replace(/\.js$/, '.d.ts')));
-  };
-  visit(place(join(folder, 'src/index.ts')));
-  for (const file of globSync('**/*.d.ts', { cwd: out })) {
-    if (!reached.has(join(out, file))) unlinkSync(join(out, file));
+    for (const type of opaque) this.hidden.add(type);
+    for (const path of references(text)) this.publish(join(dirname(file), path.replace(/\.js$/, '.d.ts')));
   }
-  const own = dirname(place(join(folder, 'src/index.ts')));
-  for (const file of reached) if (file.startsWith(own)) refuseHidden(file, hidden);
-  // Declarations of a package without external dependencies must be complete.
-  const strict = [
-    '--ignoreConfig',
-    '--noEmit',
-    '--strict',
-    '--module',
-    'nodenext',
-    '--lib',
-    'es2024,dom,esnext.disposable',
-    '--types',
-    '',
-  ];
-  if (external.length === 0) compile(folder, [...strict, place(join(folder, 'src/index.ts'))]);
+
+  removeUnpublished(): void {
+    for (const file of globSync('**/*.d.ts', { cwd: this.#out }).map((path) => join(this.#out, path))) {
+      if (!this.published.has(file)) unlinkSync(file);
+    }
+  }
+
+  /** The address of a package's declarations in a file; that of a package that is not bundled is its name. */
+  #addressOf(name: string, file: string): string {
+    const index = this.#bundled.get(name);
+    return index === undefined
+      ? name
+      : `./${relative(dirname(file), this.place(index)).replace(/\.d\.ts$/, '.js')}`;
+  }
 }
 
 /** @throws {Error} if the package's own declarations name a type whose contents users cannot see */

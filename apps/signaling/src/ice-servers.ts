@@ -1,5 +1,6 @@
 import { createHmac } from 'node:crypto';
 import type { IceServer } from '@farpoint/protocol';
+import type { SignalingOptions } from './options.ts';
 
 /** A TURN server that shares a secret with this service (coturn's `use-auth-secret`). */
 export interface TurnRest {
@@ -18,4 +19,14 @@ export function turnCredentials(turn: TurnRest, name: string, nowSeconds: number
   const username = `${Math.floor(nowSeconds) + turn.ttlSeconds}:${name}`;
   const credential = createHmac('sha1', turn.secret).update(username).digest('base64');
   return { urls: [...turn.urls], username, credential };
+}
+
+type IceOptions = Pick<SignalingOptions, 'iceServers' | 'turnUrls' | 'turnSecret' | 'turnTtlSeconds'>;
+
+/** The configured ICE servers, and the TURN servers with credentials for this robot or operator. */
+export function iceServersFor(name: string, options: IceOptions): IceServer[] {
+  const { iceServers, turnUrls: urls, turnSecret, turnTtlSeconds: ttlSeconds } = options;
+  if (turnSecret === null || urls.length === 0) return [...iceServers];
+  const turn = { urls, secret: turnSecret.reveal(), ttlSeconds };
+  return [...iceServers, turnCredentials(turn, name, Date.now() / 1000)];
 }

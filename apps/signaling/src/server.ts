@@ -20,7 +20,7 @@ import { systemClock } from './clock.ts';
 import { checkExposure } from './exposure.ts';
 import { FarpointHub } from './farpoint-hub.ts';
 import { forOwnNames, httpHandler, notFound } from './http-handler.ts';
-import { turnCredentials } from './ice-servers.ts';
+import { iceServersFor } from './ice-servers.ts';
 import { Listener, type UpgradeDecision } from './listener.ts';
 import { LiveSockets } from './live-sockets.ts';
 import { createObserver } from './metrics.ts';
@@ -110,22 +110,7 @@ class SignalingService implements RunningSignaling {
       listIntervalMs: options.listIntervalMs,
       listBytesPerSecond: options.listBytesPerSecond,
       access: () => this.#files,
-      iceServers: (name) => [
-        ...options.iceServers,
-        ...(options.turnSecret === null || options.turnUrls.length === 0
-          ? []
-          : [
-              turnCredentials(
-                {
-                  urls: options.turnUrls,
-                  secret: options.turnSecret.reveal(),
-                  ttlSeconds: options.turnTtlSeconds,
-                },
-                name,
-                Date.now() / 1000,
-              ),
-            ]),
-      ],
+      iceServers: (name) => iceServersFor(name, options),
       revocations: () => this.#revocations.lists,
       makeHandle: () => randomBytes(16).toString('base64url'),
       signInUrl: options.signInUrl,
@@ -147,11 +132,7 @@ class SignalingService implements RunningSignaling {
       admission: this.#admission,
       observer: this.#observer,
     });
-    health.add('connections', () => {
-      const { connections, robots, referenceRobots, sessions } = this.#counts();
-      const ok = this.#admission.total < options.maxConnections;
-      return { ok, detail: { ...connections, robots, referenceRobots, sessions } };
-    });
+    health.add('connections', () => this.#connectionsHealth());
     this.#http = httpHandler(createAdminHandler(health, metrics), options);
   }
 
@@ -284,6 +265,12 @@ class SignalingService implements RunningSignaling {
         : { status: 429, reason: 'too many connections from this address' };
     }
     return { accept: (socket) => this.#sockets.accept(socket, role, address, connect) };
+  }
+
+  #connectionsHealth() {
+    const { connections, robots, referenceRobots, sessions } = this.#counts();
+    const ok = this.#admission.total < this.#options.maxConnections;
+    return { ok, detail: { ...connections, robots, referenceRobots, sessions } };
   }
 
   #counts() {

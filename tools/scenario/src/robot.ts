@@ -12,7 +12,7 @@ import {
   unreadAudit,
   Wheels,
 } from '@farpoint/robot-node/testing/drive-core';
-import { silentLogger } from '@farpoint/service';
+import { type Logger, silentLogger } from '@farpoint/service';
 import { SimulatedBase, type WorldDescription } from '@farpoint/sim';
 import type { Connection } from './connection.ts';
 import type { EventLog } from './event-log.ts';
@@ -53,69 +53,22 @@ export class ScenarioRobot {
   #camera = true;
 
   constructor(parts: RobotParts) {
-    const { options, world, signaling, log, sight } = parts;
+    const { options, world, log } = parts;
     this.#parts = parts;
     this.base = new SimulatedBase(world);
     const realTime = new RealTimeBase(this.base);
     const wheels = new Wheels(realTime, options.limits.watchdogMs);
     this.wheels = new WheelRecord(options.limits.watchdogMs, log);
-    const quiet = silentLogger();
-    const obstacles = openObstacleGuard(
-      {
-        ...{ configuration: options.obstacleGuard, odometry: true, captures: [], names: ['camera'] },
-        grids: sight === null ? [] : [{ sensor: 0, reader: sight.reader }],
-      },
-      true,
-      quiet,
-    );
-    this.core = new DriveCore(options, {
-      sink: {
-        kind: 'simulated',
-        apply: (twist: Twist) => {
-          this.wheels.told(twist);
-          wheels.apply(twist, monotonicMs());
-        },
-        close: () => undefined,
-      },
-      recording: {
-        velocity: () => undefined,
-        command: (session, command, verdict) => this.wheels.judged(session, command, verdict),
-        latencyMeasured: () => undefined,
-      },
-      audit: unreadAudit(),
-      base: realTime,
-      ...{ obstacles, log: quiet, counters: this.counters, commandLog: undefined, now: monotonicMs },
-      operators: () => this.sessions,
-      alsoHeard: () => null,
-      budgets: { update: () => undefined },
-      sensors: () => ({ first: undefined as never }),
-      videos: () => ({ descriptions: [] }),
-      signaling: {
-        send: (message) => {
-          log.add('signaling', { type: message.type });
-          if (message.type !== 'session.offer') return true;
-          const session = this.sessions.get(message.session);
-          if (session !== undefined) signaling.post(() => this.onRestart?.(session));
-          return true;
-        },
-        check: () => undefined,
-      },
-    });
+    this.core = this.#openCore(realTime, wheels);
     const { motion } = this.core.host.drive;
     const report = motion.onIntervention;
     motion.onIntervention = (reason, nowMs) => {
       report?.(reason, nowMs);
       log.add('intervention', { reason });
     };
-    const advance = () => {
-      const now = monotonicMs();
-      wheels.advance(now);
-      this.core.driving.odometry.take({ ...realTime.state, timeMs: now });
-      sight?.look(this.base, now);
-    };
     this.#timers = [
       setInterval(() => this.#update(), UPDATE_EVERY_MS),
-      setInterval(advance, BASE_MS),
+      setInterval(() => this.#advance(realTime, wheels), BASE_MS),
       setInterval(() => this.#tell(realTime), TELEMETRY_MS),
       setInterval(() => this.#capture(), CAMERA_MS),
     ];
@@ -164,6 +117,60 @@ export class ScenarioRobot {
     this.#access.close();
     for (const session of [...this.sessions.values()]) session.end('closed', 'the robot is shutting down');
     this.core.host.drive.close();
+  }
+
+  #openCore(base: RealTimeBase, wheels: Wheels): DriveCore {
+    const { options, log } = this.#parts;
+    const quiet = silentLogger();
+    return new DriveCore(options, {
+      sink: {
+        kind: 'simulated',
+        apply: (twist: Twist) => {
+          this.wheels.told(twist);
+          wheels.apply(twist, monotonicMs());
+        },
+        close: () => undefined,
+      },
+      recording: {
+        velocity: () => undefined,
+        command: (session, command, verdict) => this.wheels.judged(session, command, verdict),
+        latencyMeasured: () => undefined,
+      },
+      audit: unreadAudit(),
+      base,
+      obstacles: openObstacles(this.#parts, quiet),
+      log: quiet,
+      counters: this.counters,
+      commandLog: undefined,
+      now: monotonicMs,
+      operators: () => this.sessions,
+      alsoHeard: () => null,
+      budgets: { update: () => undefined },
+      sensors: () => ({ first: undefined as never }),
+      videos: () => ({ descriptions: [] }),
+      signaling: {
+        send: (message) => {
+          log.add('signaling', { type: message.type });
+          if (message.type === 'session.offer') this.#offer(message.session);
+          return true;
+        },
+        check: () => undefined,
+      },
+    });
+  }
+
+  /** Offers the operator of a session a new path. */
+  #offer(id: string): void {
+    const session = this.sessions.get(id);
+    if (session !== undefined) this.#parts.signaling.post(() => this.onRestart?.(session));
+  }
+
+  /** Moves the simulated base to now, and lets the robot's guard see from there. */
+  #advance(base: RealTimeBase, wheels: Wheels): void {
+    const now = monotonicMs();
+    wheels.advance(now);
+    this.core.driving.odometry.take({ ...base.state, timeMs: now });
+    this.#parts.sight?.look(this.base, now);
   }
 
   #update(): void {
@@ -219,4 +226,18 @@ export class ScenarioRobot {
     });
     for (const session of this.sessions.values()) if (session.peer.connected) session.telemetry(text);
   }
+}
+
+function openObstacles({ options, sight }: RobotParts, log: Logger) {
+  return openObstacleGuard(
+    {
+      configuration: options.obstacleGuard,
+      odometry: true,
+      captures: [],
+      names: ['camera'],
+      grids: sight === null ? [] : [{ sensor: 0, reader: sight.reader }],
+    },
+    true,
+    log,
+  );
 }

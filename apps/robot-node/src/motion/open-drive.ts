@@ -111,19 +111,12 @@ export interface Drive {
  * the next run.
  */
 export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
-  const { limits, motion, takePolicy, estopRelease, afterGap, resumeWithinMs } = options;
+  const { limits, motion } = options;
   const { base, sink, recording, audit, obstacles, heard, count, log } = parts;
   const odometry = new BaseOdometry(limits, base !== null);
   const fence =
     options.fence == null ? null : openGeofence(options.fence, () => odometry.believed, base !== null);
-  const guard = new DriveGuard({
-    limits,
-    takePolicy,
-    estopRelease,
-    randomBytes: (bytes) => randomBytes(bytes),
-    // A shorter gap does not stop the robot.
-    letGoAfterMs: Math.max(limits.watchdogMs, resumeWithinMs),
-  });
+  const guard = openGuard(options);
   const { view, ramps } = motion;
   const blindTravel = view === null ? null : new BlindTravel(guard.view, view);
   const returns =
@@ -135,10 +128,7 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
     guards: [...obstacles.guards, ...(fence === null ? [] : [fence.geofence])],
     driverGuards: view === null || blindTravel === null ? [] : [new ViewAge(guard.view, view), blindTravel],
     unattended: returns?.drive ?? null,
-    letGoAfter:
-      afterGap === 'let-go'
-        ? { 'view-lost': { why: 'what you saw was too old', lastsMs: resumeWithinMs } }
-        : {},
+    letGoAfter: letGoDemands(options),
   });
   const report = new InterventionReport(log, count);
   supervisor.onIntervention = (reason, nowMs) => report.begins(reason, nowMs);
@@ -170,6 +160,24 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
       if (returns?.update(odometry, newestHeardMs(heard())) === true) station.apply();
     },
   };
+}
+
+function openGuard({ limits, takePolicy, estopRelease, resumeWithinMs }: DriveOptions): DriveGuard {
+  return new DriveGuard({
+    limits,
+    takePolicy,
+    estopRelease,
+    randomBytes: (bytes) => randomBytes(bytes),
+    // A shorter gap does not stop the robot.
+    letGoAfterMs: Math.max(limits.watchdogMs, resumeWithinMs),
+  });
+}
+
+/** After a gap in what the driver sees, the hand must let go first, if that is configured. */
+function letGoDemands({ afterGap, resumeWithinMs }: DriveOptions) {
+  return afterGap === 'let-go'
+    ? { 'view-lost': { why: 'what you saw was too old', lastsMs: resumeWithinMs } }
+    : {};
 }
 
 function openJournal(

@@ -168,78 +168,148 @@ class GuardedCamera implements Disposable {
 
 /** Drives on a stage. The same stage and options give the same run. Closes the stage. */
 export function guardedDrive(codec: Codec, stage: GuardedStage, options: GuardedDriveOptions): GuardedRun {
-  const { seed, random, speed, seconds, times = null } = options;
-  const { base, name, radius } = stage;
   using stack = new DisposableStack();
   stack.defer(() => stage.close());
   const cameras = stage.cameras.map((camera) => stack.use(new GuardedCamera(codec, camera)));
-  const guard = new ObstacleGuard(Footprint.disc(radius), cameras.length);
-  const isHole = (x: number, y: number) => stage.edgeAt(x, y) + radius <= 0;
-  const seen = new SeenThings(base.state.pose.position, isHole);
-  const asked = times?.around?.(guard) ?? guard;
-  const run: GuardedRun = {
-    ...{ world: name, seed, speed, seconds, metres: 0, contacts: [], fellAtS: null },
-    ...{ unseenContacts: [], fellUnseen: false },
-    nearestEdgeM: Number.POSITIVE_INFINITY,
-    ...{ freeCommands: 0, falseStops: 0, stops: 0, commands: 0 },
-  };
-  const wish = zeroTwist();
-  const command = zeroTwist();
-  const phase = random() * CLOUD_STEPS;
-  let curvature = 0;
-  let [stoppedS, turningS, turn] = [0, 0, 1];
-  let touching = false;
-  const steps = Math.round(seconds / STEP_S);
-  for (let step = 0; step < steps && run.fellAtS === null; step++) {
+  const robot = new GuardedRobot(stage, cameras, options);
+  const steps = Math.round(options.seconds / STEP_S);
+  for (let step = 0; step < steps && robot.run.fellAtS === null; step++) robot.step(step);
+  robot.run.metres = stage.base.state.odometryDistance;
+  return robot.run;
+}
+
+/** A robot with its driver, who only ever goes straight ahead or along an arc, and turns where it cannot go on. */
+class GuardedRobot {
+  readonly run: GuardedRun;
+  readonly #stage: GuardedStage;
+  readonly #cameras: readonly GuardedCamera[];
+  readonly #options: GuardedDriveOptions;
+  readonly #guard: ObstacleGuard;
+  readonly #asked: MotionGuard;
+  readonly #seen: SeenThings;
+  readonly #wish = zeroTwist();
+  readonly #command = zeroTwist();
+  /** Part of a period of its cameras by which they are ahead of the drive, steps. */
+  readonly #phase: number;
+  #curvature = 0;
+  #stoppedS = 0;
+  #turningS = 0;
+  #turn = 1;
+  #touching = false;
+
+  constructor(stage: GuardedStage, cameras: readonly GuardedCamera[], options: GuardedDriveOptions) {
+    const { seed, random, speed, seconds, times } = options;
+    const isHole = (x: number, y: number) => stage.edgeAt(x, y) + stage.radius <= 0;
+    this.#stage = stage;
+    this.#cameras = cameras;
+    this.#options = options;
+    this.#guard = new ObstacleGuard(Footprint.disc(stage.radius), cameras.length);
+    this.#seen = new SeenThings(stage.base.state.pose.position, isHole);
+    this.#asked = times?.around?.(this.#guard) ?? this.#guard;
+    this.#phase = random() * CLOUD_STEPS;
+    this.run = {
+      world: stage.name,
+      seed,
+      speed,
+      seconds,
+      metres: 0,
+      contacts: [],
+      unseenContacts: [],
+      fellAtS: null,
+      fellUnseen: false,
+      nearestEdgeM: Number.POSITIVE_INFINITY,
+      freeCommands: 0,
+      falseStops: 0,
+      stops: 0,
+      commands: 0,
+    };
+  }
+
+  step(step: number): void {
+    const { base } = this.#stage;
     const nowMs = step * STEP_S * 1000;
-    cameras.forEach((camera, sensor) => {
-      if (Math.floor(step + phase) % CLOUD_STEPS === 0) camera.capture(nowMs, step, seen);
-      const grid = camera.arrived(step);
-      if (grid !== null) guard.see(sensor, grid);
-    });
-    if (step % COMMAND_STEPS === 0) {
-      const { pose, yaw, twist } = base.state;
-      guard.moved({ x: pose.position.x, y: pose.position.y, yaw }, twist, nowMs);
-      if (step % 100 === 0) curvature = random() < 0.5 ? 0 : (random() * 2 - 1) * 1.2;
-      turningS = Math.max(0, turningS - STEP_S * COMMAND_STEPS);
-      wish.linear.x = turningS > 0 ? 0 : speed;
-      wish.angular.z = turningS > 0 ? turn : curvature * speed;
-      const began = times?.now() ?? 0;
-      const { factor } = asked.bound(wish, nowMs);
-      times?.boundMs.push(times.now() - began);
-      const stopped = factor === 0;
-      stoppedS = stopped ? stoppedS + STEP_S * COMMAND_STEPS : 0;
-      if (stoppedS > PATIENCE_S) {
-        [stoppedS, turningS, turn] = [0, 0.5 + 1.5 * random(), random() < 0.5 ? 1 : -1];
-      }
-      run.commands++;
-      if (stopped) run.stops++;
-      if (turningS === 0 && isFree(stage, wish.linear.x, wish.angular.z)) {
-        run.freeCommands++;
-        if (stopped) run.falseStops++;
-      }
-      command.linear.x = wish.linear.x * factor;
-      command.angular.z = wish.angular.z * factor;
-      base.setCommand(command);
-    }
+    this.#see(step, nowMs);
+    if (step % COMMAND_STEPS === 0) this.#drive(step, nowMs);
     const before = base.state.twist.linear.x;
     base.step(STEP_S);
-    const touched = stage.touched();
+    this.#noteContact(step, nowMs, before);
+    this.#noteEdge(step, nowMs);
+  }
+
+  #see(step: number, nowMs: number): void {
+    this.#cameras.forEach((camera, sensor) => {
+      if (Math.floor(step + this.#phase) % CLOUD_STEPS === 0) camera.capture(nowMs, step, this.#seen);
+      const grid = camera.arrived(step);
+      if (grid !== null) this.#guard.see(sensor, grid);
+    });
+  }
+
+  /** Wishes, asks the guard and commands the wheels. */
+  #drive(step: number, nowMs: number): void {
+    const { base } = this.#stage;
+    const { times = null } = this.#options;
+    const { pose, yaw, twist } = base.state;
+    this.#guard.moved({ x: pose.position.x, y: pose.position.y, yaw }, twist, nowMs);
+    this.#makeWish(step);
+    const began = times?.now() ?? 0;
+    const { factor } = this.#asked.bound(this.#wish, nowMs);
+    times?.boundMs.push(times.now() - began);
+    this.#losePatience(factor === 0);
+    this.#count(factor === 0);
+    this.#command.linear.x = this.#wish.linear.x * factor;
+    this.#command.angular.z = this.#wish.angular.z * factor;
+    base.setCommand(this.#command);
+  }
+
+  #makeWish(step: number): void {
+    const { random, speed } = this.#options;
+    if (step % 100 === 0) this.#curvature = random() < 0.5 ? 0 : (random() * 2 - 1) * 1.2;
+    this.#turningS = Math.max(0, this.#turningS - STEP_S * COMMAND_STEPS);
+    this.#wish.linear.x = this.#turningS > 0 ? 0 : speed;
+    this.#wish.angular.z = this.#turningS > 0 ? this.#turn : this.#curvature * speed;
+  }
+
+  /** After a while of standing before something, the driver turns. */
+  #losePatience(stopped: boolean): void {
+    const { random } = this.#options;
+    this.#stoppedS = stopped ? this.#stoppedS + STEP_S * COMMAND_STEPS : 0;
+    if (this.#stoppedS <= PATIENCE_S) return;
+    this.#stoppedS = 0;
+    this.#turningS = 0.5 + 1.5 * random();
+    this.#turn = random() < 0.5 ? 1 : -1;
+  }
+
+  #count(stopped: boolean): void {
+    const { run } = this;
+    run.commands++;
+    if (stopped) run.stops++;
+    if (this.#turningS !== 0 || !isFree(this.#stage, this.#wish.linear.x, this.#wish.angular.z)) return;
+    run.freeCommands++;
+    if (stopped) run.falseStops++;
+  }
+
+  #noteContact(step: number, nowMs: number, speed: number): void {
+    const { base, radius } = this.#stage;
+    const touched = this.#stage.touched();
     const { x, y } = base.state.pose.position;
-    if (touched && !touching) {
-      const lastMs = stage.isStill(x, y) ? Number.NEGATIVE_INFINITY : nowMs - MOVED_ON_MS;
-      const isKnown = nowMs - seen.thingSinceMs({ x, y }, radius, lastMs) > KNOWN_MS;
-      (isKnown ? run.contacts : run.unseenContacts).push({ atS: step * STEP_S, speed: before });
+    if (touched && !this.#touching) {
+      const lastMs = this.#stage.isStill(x, y) ? Number.NEGATIVE_INFINITY : nowMs - MOVED_ON_MS;
+      const isKnown = nowMs - this.#seen.thingSinceMs({ x, y }, radius, lastMs) > KNOWN_MS;
+      (isKnown ? this.run.contacts : this.run.unseenContacts).push({ atS: step * STEP_S, speed });
     }
-    touching = touched;
-    run.nearestEdgeM = Math.min(run.nearestEdgeM, stage.edgeAt(x, y));
+    this.#touching = touched;
+  }
+
+  #noteEdge(step: number, nowMs: number): void {
+    const { base, radius } = this.#stage;
+    const { run } = this;
+    const { x, y } = base.state.pose.position;
+    run.nearestEdgeM = Math.min(run.nearestEdgeM, this.#stage.edgeAt(x, y));
     if (run.nearestEdgeM < 0) {
       run.fellAtS = step * STEP_S;
-      run.fellUnseen = !(nowMs - seen.holeSinceMs({ x, y }, radius) > KNOWN_MS);
+      run.fellUnseen = !(nowMs - this.#seen.holeSinceMs({ x, y }, radius) > KNOWN_MS);
     }
   }
-  run.metres = base.state.odometryDistance;
-  return run;
 }
 
 /** Whether the arc is truly free: more than the guard's margin on all sides, as far as the robot needs to stop. */

@@ -5,7 +5,7 @@
 import { compose, type Pose, rotationMatrix, type Twist, zeroTwist } from '@farpoint/protocol';
 import { defaultGeofenceOptions, EarthFrame, Footprint, FREE } from '@farpoint/safety';
 import type { Codec } from '@farpoint/wasm-codec';
-import { openGeofence } from '../motion/geofence/open-geofence.ts';
+import { type OpenedGeofence, openGeofence } from '../motion/geofence/open-geofence.ts';
 import { GRID_SHAPE } from '../motion/obstacles/guarded-sensors.ts';
 import { ObstacleStation } from '../motion/obstacles/obstacle-station.ts';
 import { BaseOdometry } from '../sense/base/base-odometry.ts';
@@ -108,80 +108,124 @@ function look({ position, orientation }: Pose, wallX: number): Float32Array {
 
 /** Drives at the wall until the time is over or the robot is in it. Closes nothing. */
 export function driveAtWall(codec: Codec, drive: WallDrive): WallDriven {
-  const { mount, told = mount, source, odometry, feed, speed = 0.6, seconds = 6, setNow } = drive;
-  const { fenceM = null, fixTopic, wallM = START_M } = drive;
-  const way = Math.sign(speed);
-  const wallX = way * (RADIUS + wallM);
-  const memory = makeSharedGrid(GRID_SHAPE);
-  using clouds = new CloudGuard(codec, source.description, {
-    ...{ memory, shape: GRID_SHAPE, mount: opticalMount(told), odometry: true, ...BAND },
-  });
-  const station = new ObstacleStation({
-    configuration: {
-      ...{ mode: 'on', footprint: Footprint.disc(RADIUS).corners, ...BAND, marginM: 0.15, unseenMps: 0.3 },
-      brakes: { linear: BRAKES, angular: 3 },
-    },
-    grids: [{ sensor: 0, reader: new SharedGridReader(memory, GRID_SHAPE) }],
-    captures: [],
-    odometry,
-  });
-  const believed = new BaseOdometry({ maxLinear: Math.abs(speed), maxAngular: 1 }, false);
-  const opened =
-    fenceM === null
-      ? null
-      : openGeofence(
-          {
-            ...{ fence: { allowed: [], forbidden: [], slow: [], radiusM: fenceM }, errorM: 0 },
-            fix: fixTopic === undefined ? null : { topic: fixTopic, earth: EARTH },
-            limits: { ...defaultGeofenceOptions, radiusM: RADIUS, brakeMps2: BRAKES / 2 },
-          },
-          () => believed.believed,
-          false,
-        );
-  const fence = opened?.geofence ?? null;
-  const { capacity } = source.description;
-  const room: CaptureRoom = {
-    points: new Float32Array(capacity * 4),
-    ...{ depth: new Float32Array(), colour: new Uint32Array() },
-  };
-  const wish = zeroTwist();
-  wish.linear.x = speed;
-  const driven: WallDriven = {
-    gapM: wallM,
-    contactMps: null,
-    outsideM: Number.NEGATIVE_INFINITY,
-    fastestMps: 0,
-  };
-  let [x, now] = [0, 0];
-  for (let ms = 0; ms < seconds * 1000 && driven.contactMps === null; ms += STEP_MS) {
+  using robot = new WallRobot(codec, drive);
+  const { seconds = 6 } = drive;
+  for (let ms = 0; ms < seconds * 1000 && robot.driven.contactMps === null; ms += STEP_MS) robot.step(ms);
+  return robot.driven;
+}
+
+class WallRobot implements Disposable {
+  readonly driven: WallDriven;
+  readonly #drive: WallDrive;
+  readonly #wallX: number;
+  readonly #clouds: CloudGuard;
+  readonly #station: ObstacleStation;
+  readonly #believed: BaseOdometry;
+  readonly #fence: OpenedGeofence | null;
+  readonly #room: CaptureRoom;
+  readonly #wish = zeroTwist();
+  #x = 0;
+  #speed = 0;
+
+  constructor(codec: Codec, drive: WallDrive) {
+    const { mount, told = mount, source, odometry, speed = 0.6, wallM = START_M } = drive;
+    this.#drive = drive;
+    this.#wish.linear.x = speed;
+    this.#wallX = Math.sign(speed) * (RADIUS + wallM);
+    const memory = makeSharedGrid(GRID_SHAPE);
+    this.#clouds = new CloudGuard(codec, source.description, {
+      memory,
+      shape: GRID_SHAPE,
+      mount: opticalMount(told),
+      odometry: true,
+      ...BAND,
+    });
+    this.#station = new ObstacleStation({
+      configuration: {
+        mode: 'on',
+        footprint: Footprint.disc(RADIUS).corners,
+        ...BAND,
+        marginM: 0.15,
+        unseenMps: 0.3,
+        brakes: { linear: BRAKES, angular: 3 },
+      },
+      grids: [{ sensor: 0, reader: new SharedGridReader(memory, GRID_SHAPE) }],
+      captures: [],
+      odometry,
+    });
+    this.#believed = new BaseOdometry({ maxLinear: Math.abs(speed), maxAngular: 1 }, false);
+    this.#fence = openFence(drive, this.#believed);
+    this.#room = {
+      points: new Float32Array(source.description.capacity * 4),
+      depth: new Float32Array(),
+      colour: new Uint32Array(),
+    };
+    this.driven = { gapM: wallM, contactMps: null, outsideM: Number.NEGATIVE_INFINITY, fastestMps: 0 };
+  }
+
+  /** @param ms since the drive began */
+  step(ms: number): void {
+    const { source, setNow } = this.#drive;
     const nowMs = BEGAN_MS + ms;
     setNow(nowMs);
-    source.onReading = (reading) => opened?.fix?.take(reading, nowMs);
-    if (ms % CLOUD_MS === 0) {
-      const base = { position: { x, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
-      const twist = { ...zeroTwist(), linear: { x: now, y: 0, z: 0 } };
-      const points = look(compose(base, bodyMount(mount)), wallX);
-      feed({ nowMs, x, speed: now, base, twist, points });
-      const frame = source.capture(nowMs, { bitsPerSecond: 0, latencyTest: false }, room);
-      if (frame !== null) clouds.take(frame);
-    }
-    believed.take({ ...source.state, timeMs: nowMs });
-    station.update(believed, true);
+    source.onReading = (reading) => this.#fence?.fix?.take(reading, nowMs);
+    if (ms % CLOUD_MS === 0) this.#see(nowMs);
+    this.#believed.take({ ...source.state, timeMs: nowMs });
+    this.#station.update(this.#believed, true);
     // Nothing is asked of the robot before its sensor can have been seen.
-    const asked = ms < 1200 ? zeroTwist() : wish;
-    const bounds = [station.bound(asked, nowMs), fence?.bound(asked, nowMs) ?? FREE];
+    this.#move(ms < 1200 ? zeroTwist() : this.#wish, nowMs);
+    this.#measure();
+  }
+
+  #see(nowMs: number): void {
+    const { source, mount, feed } = this.#drive;
+    const [x, speed] = [this.#x, this.#speed];
+    const base = { position: { x, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
+    const twist = { ...zeroTwist(), linear: { x: speed, y: 0, z: 0 } };
+    const points = look(compose(base, bodyMount(mount)), this.#wallX);
+    feed({ nowMs, x, speed, base, twist, points });
+    const frame = source.capture(nowMs, { bitsPerSecond: 0, latencyTest: false }, this.#room);
+    if (frame !== null) this.#clouds.take(frame);
+  }
+
+  #move(asked: Twist, nowMs: number): void {
+    const bounds = [this.#station.bound(asked, nowMs), this.#fence?.geofence.bound(asked, nowMs) ?? FREE];
     const urgent = bounds.some((bound) => bound.urgent);
     const target = asked.linear.x * Math.min(...bounds.map(({ factor }) => factor));
-    believed.told({ ...zeroTwist(), linear: { x: target, y: 0, z: 0 } }, nowMs);
-    const most = ((urgent || Math.abs(target) < Math.abs(now) ? BRAKES : ACCELERATION) * STEP_MS) / 1000;
-    now += Math.max(-most, Math.min(most, target - now));
-    x += (now * STEP_MS) / 1000;
-    driven.gapM = Math.abs(wallX) - RADIUS - way * x;
-    if (fenceM !== null) driven.outsideM = Math.max(driven.outsideM, Math.abs(x) + RADIUS - fenceM);
-    driven.fastestMps = Math.max(driven.fastestMps, Math.abs(now));
-    if (driven.gapM <= 0) driven.contactMps = Math.abs(now);
+    this.#believed.told({ ...zeroTwist(), linear: { x: target, y: 0, z: 0 } }, nowMs);
+    const brakes = urgent || Math.abs(target) < Math.abs(this.#speed);
+    const most = ((brakes ? BRAKES : ACCELERATION) * STEP_MS) / 1000;
+    this.#speed += Math.max(-most, Math.min(most, target - this.#speed));
+    this.#x += (this.#speed * STEP_MS) / 1000;
   }
-  return driven;
+
+  #measure(): void {
+    const { driven } = this;
+    const { fenceM } = this.#drive;
+    driven.gapM = Math.abs(this.#wallX) - RADIUS - Math.sign(this.#wallX) * this.#x;
+    if (fenceM !== undefined)
+      driven.outsideM = Math.max(driven.outsideM, Math.abs(this.#x) + RADIUS - fenceM);
+    driven.fastestMps = Math.max(driven.fastestMps, Math.abs(this.#speed));
+    if (driven.gapM <= 0) driven.contactMps = Math.abs(this.#speed);
+  }
+
+  [Symbol.dispose](): void {
+    this.#clouds[Symbol.dispose]();
+  }
+}
+
+function openFence({ fenceM, fixTopic }: WallDrive, believed: BaseOdometry): OpenedGeofence | null {
+  if (fenceM === undefined) return null;
+  return openGeofence(
+    {
+      fence: { allowed: [], forbidden: [], slow: [], radiusM: fenceM },
+      errorM: 0,
+      fix: fixTopic === undefined ? null : { topic: fixTopic, earth: EARTH },
+      limits: { ...defaultGeofenceOptions, radiusM: RADIUS, brakeMps2: BRAKES / 2 },
+    },
+    () => believed.believed,
+    false,
+  );
 }
 
 /** When the drive begins, ms. */

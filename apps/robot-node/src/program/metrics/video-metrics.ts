@@ -4,39 +4,10 @@ import type { OperatorSession } from '../../serve/session/operator-session.ts';
 import type { MeasuredRobot } from './measured-robot.ts';
 
 /** Metrics of the cameras that are streamed as video. None if the robot has no such camera. */
-export function addVideoMetrics(
-  metrics: PulledMetrics,
-  { streams: { cameras }, operators }: MeasuredRobot,
-): void {
-  const { streams } = cameras.videos;
+export function addVideoMetrics(metrics: PulledMetrics, robot: MeasuredRobot): void {
+  const { streams } = robot.streams.cameras.videos;
   if (streams.length === 0) return;
-  const each = (read: (stream: VideoStream) => number) => () =>
-    streams.map((stream): [string, number] => [stream.camera.name, read(stream)]);
-
-  metrics.sums(
-    'video_frames',
-    'Frames encoded, by camera',
-    'camera',
-    each(({ counters }) => counters.frames),
-  );
-  metrics.sums(
-    'video_bytes',
-    'Bytes of the encoded frames, by camera',
-    'camera',
-    each(({ counters }) => counters.bytes),
-  );
-  metrics.sums(
-    'video_frames_skipped',
-    'Pictures that came but were not encoded, because all was too slow or they were damaged, by camera',
-    'camera',
-    each(({ dropped }) => dropped),
-  );
-  metrics.gauges(
-    'video_bits_per_second',
-    'Rate that the encoder is set to, by camera; 0 while nobody watches',
-    'camera',
-    each(({ format }) => format?.bitsPerSecond ?? 0),
-  );
+  addEncodedMetrics(metrics, streams);
   metrics.sums(
     'video_failures',
     'Times that a camera’s encoder, or the thread that feeds it, ended or hung, by reason',
@@ -47,7 +18,41 @@ export function addVideoMetrics(
     'video_frames_unsent',
     'Frames not sent, by reason, for operators connected now',
     'reason',
-    () => [...operators.values()].flatMap(({ videos: { sender } }) => Object.entries(sender?.drops ?? {})),
+    () =>
+      [...robot.operators.values()].flatMap(({ videos: { sender } }) => Object.entries(sender?.drops ?? {})),
+  );
+}
+
+type Streams = readonly VideoStream[];
+
+function byCamera(streams: Streams, read: (stream: VideoStream) => number): () => [string, number][] {
+  return () => streams.map((stream) => [stream.camera.name, read(stream)]);
+}
+
+function addEncodedMetrics(metrics: PulledMetrics, streams: Streams): void {
+  metrics.sums(
+    'video_frames',
+    'Frames encoded, by camera',
+    'camera',
+    byCamera(streams, ({ counters }) => counters.frames),
+  );
+  metrics.sums(
+    'video_bytes',
+    'Bytes of the encoded frames, by camera',
+    'camera',
+    byCamera(streams, ({ counters }) => counters.bytes),
+  );
+  metrics.sums(
+    'video_frames_skipped',
+    'Pictures that came but were not encoded, because all was too slow or they were damaged, by camera',
+    'camera',
+    byCamera(streams, ({ dropped }) => dropped),
+  );
+  metrics.gauges(
+    'video_bits_per_second',
+    'Rate that the encoder is set to, by camera; 0 while nobody watches',
+    'camera',
+    byCamera(streams, ({ format }) => format?.bitsPerSecond ?? 0),
   );
 }
 
