@@ -29,6 +29,7 @@ import { TileSampler } from './tile-sampler.ts';
 import { type UploadEvents, uploadPoints } from './upload-points.ts';
 import { WaitingBatches } from './waiting-batches.ts';
 
+/** Points that the ring has room for at first: it grows. */
 const FIRST_CAPACITY = 1 << 19;
 /** 128 MiB on the GPU. */
 const MAX_CAPACITY = 1 << 24;

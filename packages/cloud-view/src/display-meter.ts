@@ -2,8 +2,11 @@ import { sequenceDelta32 } from '@farpoint/protocol';
 
 /** At this rate and above, all that comes is wanted, clouds/s. */
 export const ALL_FRAMES_PER_SECOND = 60;
+// `pnpm bench first-drive` measures what these numbers give: docs/decisions/2026-11-28-first-drive.md.
+
 /** Fewer show no world that moves, whatever the computer, clouds/s. */
 const LEAST_FRAMES_PER_SECOND = 5;
+/** Over this time the clouds that are shown are counted, ms. */
 const WINDOW_MS = 1000;
 /** Behind: this share of what came was not shown, in so many windows in a row. */
 const BEHIND_SHARE = 0.25;

@@ -4,7 +4,10 @@
  * draws. No clock here.
  */
 
-/** Pictures that take less than this are drawn at every display frame, ms. */
+/**
+ * Pictures that take less than this are drawn at every display frame, ms. Half of a display interval at 60 a
+ * second.
+ */
 const CHEAP_MS = 8;
 /** Longest wait for a frame to become whole, ms. */
 const MAX_HOLD_MS = 50;

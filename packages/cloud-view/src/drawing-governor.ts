@@ -19,12 +19,25 @@ export const DRAWING_STEPS: readonly DrawingStep[] = [
   { scale: 0.5, every: 16 },
   { scale: 0.35, every: 16 },
 ];
-/** Where a computer that draws in software begins: coarse at once, and finer if it can, instead of late at first. */
+// `pnpm bench first-drive` measures what these numbers give: docs/decisions/2026-11-28-first-drive.md.
+
+/**
+ * Where a computer that draws in software begins: coarse at once, and finer if it can, instead of late at
+ * first. `pnpm bench first-drive`: whole resolution and all points 6 % of the time obeyed, half and 1 of 16
+ * points 95 %.
+ */
 const SOFTWARE_STEP = DRAWING_STEPS.length - 1;
 
+/**
+ * Fewer display frames a second for {@link SLOW_FOR_MS} ask for less, as many for {@link FAST_FOR_MS} allow
+ * more.
+ */
 const SLOW_FPS = 24;
 const FAST_FPS = 50;
-/** A timer that is so late keeps the operator's hand from being read, and one that is less late than that does not, ms. */
+/**
+ * A timer that is so late keeps the operator's hand from being read, and one that is less late than that does
+ * not, ms. A hand counts as read for 100 ms (grips.ts).
+ */
 const HITCH_MS = 80;
 const SMOOTH_MS = 55;
 const SLOW_FOR_MS = 1500;

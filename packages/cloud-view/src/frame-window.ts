@@ -30,6 +30,7 @@ export interface Relocation {
 
 /** Number of runs that out-of-order packets may not use. */
 const RUNS_KEPT = 3;
+/** Packets of the window that can be remembered: a power of two, so that a place is found with a mask. */
 const ENTRIES = 65_536;
 const ENTRY_MASK = ENTRIES - 1;
 

@@ -39,7 +39,11 @@ const FIRST_MAX: Readonly<Record<ColourMode, number>> = {
   ring: 1,
   lit: 1,
 };
-/** A coordinate's step moves a point's elevation by less than this, or the point says nothing about rings, radians. */
+/**
+ * A coordinate's step moves a point's elevation by less than this, or the point says nothing about rings,
+ * radians. 0.23°: the rings of a LiDAR with 128 are 0.35° apart
+ * (docs/decisions/2026-11-23-rings-by-elevation.md).
+ */
 const MOST_STEP_RAD = 0.004;
 /** Frame interval until it is known, and the longest that counts as one, s. */
 const FIRST_INTERVAL_S = 0.1;

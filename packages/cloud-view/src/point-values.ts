@@ -1,7 +1,7 @@
 /** The values that colours stand for, of single points on the CPU: the shader's formulas, for samples. */
 import type { Quaternion } from '@farpoint/operator';
 
-/** Weights of red, green and blue in brightness. */
+/** Weights of red, green and blue in brightness. ITU-R BT.601. */
 export const LUMA_WEIGHTS = [0.299, 0.587, 0.114] as const;
 
 /**

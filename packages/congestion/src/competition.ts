@@ -3,6 +3,8 @@ import { packetMs } from './delay-law.ts';
 import type { PathObservation } from './path-observer.ts';
 import { TcpShare } from './tcp-share.ts';
 
+// What these numbers give together with the others: see adaptive-rate-controller.ts.
+
 /** If the queue has stood for this long despite draining, somebody else is filling it, ms. */
 const STANDING_MS = 800;
 /** A queue shorter than this does not count as standing, ms. */
@@ -13,6 +15,10 @@ const COLLAPSE = 0.33;
 const PEAK_MS = 10_000;
 /** The fraction of the rate that is sent during a share test. */
 const TEST_PART = 0.5;
+/**
+ * When the first test comes, and the usual and the longest time between two, ms: each halves the rate for a
+ * moment.
+ */
 const TEST_FIRST_MS = 1000;
 const TEST_EVERY_MS = 4000;
 const TEST_SELDOM_MS = 8000;

@@ -1,6 +1,8 @@
 import { BitRate } from '@farpoint/timing';
 import type { PathObservation, PathObserver } from './path-observer.ts';
 
+// What these numbers give together with the others: see adaptive-rate-controller.ts.
+
 /** Size of a typical packet on the wire. */
 const PACKET_BYTES = 1250;
 /** The estimate becomes this fraction of the rate that arrived while the queue stood. */

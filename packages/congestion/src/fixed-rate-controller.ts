@@ -20,7 +20,10 @@ export interface FixedRateOptions {
   increase?: number;
 }
 
-/** Loss below this fraction counts as none: radio links lose a little without being full. */
+/**
+ * Loss below this fraction counts as none: radio links lose a little without being full. As in
+ * draft-ietf-rmcat-gcc-02, 6.
+ */
 const CLEAN_LOSS = 0.02;
 /** With fewer packets than this, a loss fraction means nothing. */
 const MIN_PACKETS = 20;

@@ -1,3 +1,5 @@
+// What these numbers give together with the others: see adaptive-rate-controller.ts.
+
 /** A loss fraction is judged over at least this many packets and this much time. */
 const LEAST_PACKETS = 60;
 const LEAST_MS = 180;

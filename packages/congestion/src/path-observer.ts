@@ -22,15 +22,22 @@ export interface PathObservation {
   oldestSentMs: number;
 }
 
+// What these numbers give together with the others: see adaptive-rate-controller.ts.
+
 /** Base delay and base round trip are minima over this window. Clocks differ by up to 100 ppm: 3 ms in 30 s. */
 const BASE_WINDOW_MS = 30_000;
 /** If the one-way delay grew by this much more than the round trip did, a clock has jumped, ms. */
 const CLOCK_JUMP_MS = 60;
+/**
+ * What has arrived over this time is the rate, ms: more than one message of Chromium, which comes every
+ * 50–62 ms.
+ */
 const RATE_WINDOW_MS = 95;
 /** The queue at the end of a message is the least delay of this many packets: one late packet is no queue. */
 const END_PACKETS = 4;
 /** A rate is computed from at least this many packets. */
 const RATE_PACKETS = 8;
+/** Messages that are remembered: the window holds all of them if one came every 3 ms. */
 const MESSAGES = 32;
 const NOISE_CLAMP_MS = 16;
 

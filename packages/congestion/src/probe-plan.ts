@@ -1,11 +1,17 @@
 import { BitRate } from '@farpoint/timing';
 import type { ProbeOutcome } from './probe-tester.ts';
 
-/** Length of a train: as time, and the minimum in bytes. */
+// What these numbers give together with the others: see adaptive-rate-controller.ts.
+
+/**
+ * Length of a train: as time, and the minimum in bytes. Six packets of 1,250 bytes: five tell a rate
+ * (probe-tester.ts).
+ */
 const TRAIN_MS = 15;
 const TRAIN_BYTES = 7500;
 /** Extra length for each ms of noise on the path, ms. */
 const TRAIN_PER_NOISE = 4;
+/** The wait between two trains, ms: it doubles with each that finds nothing, from the least to the most. */
 const LEAST_WAIT_MS = 250;
 const MOST_WAIT_MS = 1400;
 /**
@@ -14,7 +20,9 @@ const MOST_WAIT_MS = 1400;
  */
 const LEAST_IDLE_WAIT_MS = 1000;
 const MOST_IDLE_WAIT_MS = 5000;
+/** A cut that leaves less than this share may have been too deep: the next train comes soon. */
 const DEEP_CUT = 0.6;
+/** How much faster than the estimate a train is sent: usually, in the search, and after a success. */
 const FACTOR = 1.5;
 const FACTOR_AT_START = 3;
 const FACTOR_AFTER_SUCCESS = 2;

@@ -10,6 +10,9 @@ export interface ProbeOutcome {
   arrivedBitsPerSecond: number;
 }
 
+// What these numbers give together with the others: see adaptive-rate-controller.ts.
+
+/** With fewer packets that arrived, a train tells no rate. */
 const LEAST_PACKETS = 5;
 /** A requested train that has not been seen for this long is given up, ms. */
 const PATIENCE_MS = 400;

@@ -21,20 +21,29 @@ export type ReportState =
   | 'no-reports' // no report has come yet: a rate that harms hardly any path
   | 'silent'; // reports have stopped: a trickle
 
+// Receiver reports come once or twice a second (RFC 3550). Where a number names no other source,
+// docs/congestion.md has what they give together in the simulator, with reports every 0.5–1.5 s: 97 % of
+// 41 Mbit/s used with a queue of 2–8 ms, 92 % under 5 % loss. report-rate-controller.test.ts asks for less.
+
 /** Rate without any report, bit/s; and how long the start rate may last without a report, ms. */
 const BLIND_BITS_PER_SECOND = 500_000;
 const BLIND_AFTER_MS = 2000;
-/** Silence begins after this long without a report, or after three of the usual intervals. */
+/**
+ * Silence begins after this long without a report, or after three of the usual intervals. Three or more of
+ * RFC 3550 are missing then.
+ */
 const SILENT_AFTER_MS = 3000;
 /** Reports are combined until they cover this much. */
 const LEAST_MS = 200;
 const LEAST_PACKETS = 20;
+/** After this time fewer packets suffice, ms: a slow link has no more. */
 const PATIENCE_MS = 1000;
 /** While the delay is unknown, loss above this prevents growth. */
 const CLEAN_LOSS = 0.02;
 /** Above the least round trip, ms: a queue that has to be drained, and one that does not prevent growth. */
 const LONG_QUEUE_MS = 60;
 const SHORT_QUEUE_MS = 30;
+/** The base of the round trip is its minimum over this time, ms, as in path-observer.ts. */
 const BASE_WINDOW_MS = 30_000;
 /** After a cut, the rate is this fraction of what arrived. */
 const KEEP = 0.85;
@@ -46,8 +55,11 @@ const CREEP = 1.04;
 const NEAR = 0.9;
 /** If less than this fraction of the rate is used, nothing is known about higher rates. */
 const USED = 0.7;
+/** As in adaptive-rate-controller.ts. */
 const PACING = 1.1;
+/** Weight of the newest interval between two reports. */
 const SMOOTHING = 0.2;
+/** Weight of the newest change in the noise of the round trip; and the largest change that counts, ms. */
 const NOISE_SMOOTHING = 0.1;
 const NOISE_CLAMP_MS = 40;
 

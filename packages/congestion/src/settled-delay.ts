@@ -1,3 +1,5 @@
+// What these numbers give together with the others: see adaptive-rate-controller.ts.
+
 /** How many feedback messages are examined: about 0.7 s. */
 const MESSAGES = 10;
 /** A floor exists if this many of them fall to within this margin of the least delay, ms. */

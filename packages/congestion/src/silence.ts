@@ -1,3 +1,5 @@
+// What these numbers give together with the others: see adaptive-rate-controller.ts.
+
 /** Feedback counts as missing after this many of its intervals, and this much time, without any. */
 const INTERVALS = 4;
 const LEAST_MS = 500;

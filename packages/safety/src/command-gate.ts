@@ -62,8 +62,8 @@ interface OperatorState {
 }
 
 /**
- * The number of operators whose clock and counter are remembered. Beyond it, the operator that has been silent for
- * longest is forgotten.
+ * The number of operators whose clock and counter are remembered. Beyond it, the operator that has been
+ * silent for longest is forgotten. Far more than a robot takes: four, unless configured.
  */
 const MAX_OPERATORS = 64;
 /** So much longer than usual any command may take, ms: what was read longer ago is valid for less. */

@@ -1,3 +1,4 @@
+/** Parts of the window, whose end is known to a tenth of it. */
 const BUCKETS = 10;
 
 /**

@@ -7,6 +7,7 @@ interface Pending {
   reportedMs: number;
 }
 
+/** Characters of a detail, which the message bounds (packages/protocol). */
 const MAX_DETAIL = 512;
 
 /**

@@ -54,4 +54,5 @@ export class PoseFollower {
   }
 }
 
+/** Farther from one pose to the next, the robot is at another place, and nothing is blended, m. */
 const JUMP_M = 2;

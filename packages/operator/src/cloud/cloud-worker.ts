@@ -8,6 +8,7 @@ declare const self: DedicatedWorkerGlobalScope & {
   onrtctransform: ((event: RTCTransformEvent) => void) | null;
 };
 
+/** How often the page is told what was received, ms: it shows this a few times a second. */
 const REPORT_EVERY_MS = 100;
 
 const decoding = new CloudDecoding(loadCodec(), {

@@ -25,6 +25,7 @@ import type { FromCloudWorker } from './worker-messages.ts';
 export const FLUSH_AFTER_MS = 4;
 /** With this many undrawn batches the page is behind: fill buffers before handing them over. */
 export const BATCHES_AHEAD = 6;
+/** All batches: 40 may wait on the page (waiting-batches.ts), the others are being filled or on their way. */
 const MAX_BATCHES = 48;
 const HEADER_BYTES = 16;
 

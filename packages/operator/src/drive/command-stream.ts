@@ -13,8 +13,12 @@ import {
 } from '@farpoint/protocol';
 import { type DriveWish, intoTwist, REST, toTwist } from './velocity-mapping.ts';
 
+/** As often as a hand is read: six commands within the 150 ms of the robot's watchdog. */
 export const COMMANDS_PER_SECOND = 40;
-/** Number of commands sent after the grip is released, or is not read any more. */
+/**
+ * Number of commands sent after the grip is released, or is not read any more. Several, since each may be
+ * lost; without any, the robot's watchdog stops it.
+ */
 export const STOP_REPEATS = 4;
 /** Number of zero commands before motion after {@link CommandStream.restFirst}, since one may be lost. */
 export const FIRST_RESTS = 2;

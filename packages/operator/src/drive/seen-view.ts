@@ -2,7 +2,10 @@
 import { type Command, pointsOfBytes, sequenceDelta32, stampUsOf } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
 
-/** The screen is as old as the newest capture since which this share of a whole cloud's points was drawn. */
+/**
+ * The screen is as old as the newest capture since which this share of a whole cloud's points was drawn. A
+ * page may draw a part of every cloud only (docs/safety.md).
+ */
 const SEEN_SHARE = 0.5;
 /** So many frames of a sensor are remembered: a page that gets less than 1/16 of each cloud sees nothing. */
 const FRAMES_KEPT = 8;

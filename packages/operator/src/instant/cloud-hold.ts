@@ -5,6 +5,8 @@
 import { type Distribution, SampleWindow } from '../latency/sample-window.ts';
 import { SAME_INSTANT_US } from './capture-instant.ts';
 
+// `pnpm bench cameras` measures how far apart clouds and pictures are with these numbers (docs/cameras.md).
+
 /** For one who only watches, ms: nothing is lost by it. */
 const WATCHER_HOLD_MS = 200;
 /** For one who drives, ms beyond the time from one picture to the next … */

@@ -8,6 +8,8 @@ import { type AxisModel, type BaseModel, lagShare, STEP_MS, stepAxis } from './b
 import type { CommandHistory } from './command-history.ts';
 import type { TravelWindow } from './travel-window.ts';
 
+// `pnpm bench prediction` measures what these numbers give together (docs/prediction.md).
+
 /** Least motion in the window before an axis is fitted, m and rad. */
 const LEAST_TRAVEL_M = 0.12;
 const LEAST_TURN_RAD = 0.15;
@@ -16,8 +18,9 @@ const LINEAR_SCALE = 0.1;
 const ANGULAR_SCALE = 0.2;
 /** A trial must be better by this share. */
 const GAIN_SHARE = 0.002;
-/** Trials per report. */
+/** Trials per report. They take well under a millisecond (docs/prediction.md). */
 const TRIALS = 6;
+/** The longest delay that is tried, ms. */
 const MAX_DELAY_MS = 1500;
 
 type Part = 'gain' | 'lagS' | 'rise' | 'fall';

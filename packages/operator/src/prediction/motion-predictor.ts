@@ -20,9 +20,14 @@ import { ModelFit } from './model-fit.ts';
 import type { PredictionLimits, PredictionState, ReportedMotion } from './reported-motion.ts';
 import { TravelWindow } from './travel-window.ts';
 
+// `pnpm bench prediction` measures what these numbers give together (docs/prediction.md).
+
 /** With no report for so long, or none that young, the robot is shown where it was last seen, ms. */
 const STALE_MS = 700;
-/** How far the view may lead the robot, so that it answers at once: m and rad. */
+/**
+ * How far the view may lead the robot, m and rad: enough to move in the very frame, too little to matter as
+ * an error.
+ */
 const LEAD_M = 0.015;
 const LEAD_RAD = 0.0105;
 /** A pose beyond what the robot can have driven, by this much, is a jump to another place: m and rad. */
@@ -34,6 +39,7 @@ const TRUST = 0.5;
 const EXCITED_MS = 2000;
 /** Reports further apart say too little of the velocity between them, ms. */
 const GAP_MS = 400;
+/** The fastest report of this time relates the two clocks, ms: they differ by up to 100 ppm, 3 ms in 30 s. */
 const FASTEST_WINDOW_MS = 30_000;
 /** From a command's arrival to the wheels, and from a pose to its telemetry: a guess until it is identified, ms. */
 const USUAL_HANDLING_MS = 30;

@@ -11,6 +11,8 @@ export interface PoseSource {
   poseAt(atMs: number, into: BaseMotion): void;
 }
 
+// `pnpm bench prediction` measures what these numbers give together (docs/prediction.md).
+
 /** The most that one frame corrects, m and rad. */
 export const MOST_CORRECTION_M = 0.03;
 export const MOST_CORRECTION_RAD = (2 * Math.PI) / 180;

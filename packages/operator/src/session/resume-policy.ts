@@ -2,6 +2,7 @@
 export const LOST_AFTER_MS = 1000;
 /** The same shortly after a change of the network, when silence is less likely to be a coincidence, ms. */
 export const LOST_AFTER_CHANGE_MS = 300;
+/** For how long a change of the network explains silence, ms. */
 const CHANGE_COUNTS_MS = 5000;
 /** The path also counts as lost if the robot has not answered our clock probes for this long, ms: it hears nothing. */
 export const UNANSWERED_MS = 2500;

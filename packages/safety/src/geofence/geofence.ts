@@ -41,6 +41,8 @@ export const defaultGeofenceOptions: Readonly<GeofenceOptions> = Object.freeze({
   maxAgeMs: 500,
 });
 
+// geofence.property.test.ts drives random fences with these numbers: the robot leaves none of them.
+
 /** Towards the edge the robot slows with this share of its brakes: the rest is for what was not foreseen. */
 const COMFORT = 0.4;
 /** Nearer to the edge than this the robot may only move away from it, m. */
@@ -49,6 +51,7 @@ const EDGE_M = 0.03;
 const RETURN_MPS = 0.3;
 /** What leads back in comes nearer by this share of the way, at least. */
 const RETURN_SHARE = 0.2;
+/** The way is looked at in so many places: it must come nearer all along. */
 const RETURN_STEPS = 8;
 /** Slower counts as standing, m/s. */
 const STANDS_MPS = 0.01;

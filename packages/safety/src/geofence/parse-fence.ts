@@ -4,7 +4,7 @@ import type { Area, Place } from './area.ts';
 import { EarthFrame, type EarthOrigin } from './earth-frame.ts';
 import type { Fence, SlowArea } from './fence.ts';
 
-/** Together, so that every command can be judged in time. */
+/** Together, so that every command can be judged in time: 0.02 ms with 100 corners (docs/geofence.md). */
 export const MOST_CORNERS = 300;
 const MOST_AREAS = 100;
 /** A fence is around a robot: what is farther away is a mistake, m. */

@@ -11,6 +11,9 @@ export interface Arc {
   bend: number;
 }
 
+/**
+ * Steps that are tried. What is left after them does not count: the way is then called shorter than it is.
+ */
 const MOST_STEPS = 48;
 /** Closer is there, m. */
 const CLOSE_M = 0.001;

@@ -27,10 +27,12 @@ export interface Nearness {
   y: number;
 }
 
+/** Of a round footprint: its corners stick out by 0.9 % of the radius. */
 const DISC_CORNERS = 24;
 const MOST_CORNERS = 64;
 /** Of an edge: its beginning, its direction, its length. */
 const EDGE_NUMBERS = 5;
+/** What is farther from base_link is a mistake of the configuration, m. */
 const LARGEST_M = 10;
 
 /** A convex polygon around base_link. */

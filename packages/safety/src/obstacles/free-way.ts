@@ -28,10 +28,17 @@ export interface Sweep {
 
 /** The grown outline moves by at most this share of a cell between two looks, so that no cell is skipped. */
 const STEP_CELLS = 0.7;
+/**
+ * Steps that are looked at, so that a command costs a bounded time: 0.11 ms at the 95th percentile (pnpm
+ * bench guard).
+ */
 const MOST_STEPS = 128;
 /** Half the diagonal of a cell: how far from its centre its obstacle may be, cells. */
 const HALF_DIAGONAL = Math.SQRT1_2;
-/** A motion goes towards an obstacle if more than this share of it does. */
+/**
+ * A motion goes towards an obstacle if more than this share of it does. `pnpm bench guard-runs` counts
+ * contacts and false stops with this and the shares below.
+ */
 const TOWARDS = 0.35;
 /** And towards an edge of the floor: nothing holds a robot that slips. */
 const TOWARDS_EDGE = 0.1;

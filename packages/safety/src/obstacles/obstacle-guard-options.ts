@@ -43,11 +43,17 @@ export const defaultObstacleGuardOptions: Readonly<ObstacleGuardOptions> = {
   odometry: false,
 };
 
-/** How much of the margin is kept even when the robot creeps. */
+/**
+ * How much of the margin is kept even when the robot creeps. The robot gets through a narrow door with 10 of
+ * 15 cm.
+ */
 export const CREEPING_SHARE = 2 / 3;
 /** The highest speed within the rest of the margin, m/s. */
 export const CREEPING_MPS = 0.2;
-/** Slower than this, the robot stops; and it goes again when it may be faster than that, m/s. */
+/**
+ * Slower than this, the robot stops; and it goes again when it may be faster than that, m/s. The gap between
+ * them keeps it from jerking at the edge of a zone.
+ */
 export const STOP_BELOW_MPS = 0.04;
 export const GO_ABOVE_MPS = 0.1;
 /** Emergency braking ends when the robot could stop within this share of the way. */

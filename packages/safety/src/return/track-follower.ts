@@ -20,6 +20,8 @@ interface Leg {
   direction: -1 | 0 | 1;
 }
 
+// track-follower.test.ts drives random ways with these numbers, with turns on the spot and in reverse.
+
 /** It steers for the point that is so far along its track; in bends for a nearer one, m. */
 const MOST_LOOKAHEAD_M = 0.3;
 const LOOKAHEADS_M = [MOST_LOOKAHEAD_M, 0.15, 0.08];

@@ -10,6 +10,10 @@ import type { RosDriveReport, RosDriveRequest, RosDriveSetup } from './ros-drive
 import { RosVelocity } from './ros-velocity.ts';
 import { SinkBeat } from './sink-beat.ts';
 
+/**
+ * Silence is noticed, and the thread says that it lives, this often, ms: well within the 150 ms of the
+ * watchdog.
+ */
 const CHECK_EVERY_MS = 10;
 
 const port = parentPort;

@@ -15,11 +15,12 @@ import { SinkBeat } from './sink-beat.ts';
 import { wheelsReading } from './wheels-reading.ts';
 
 const THREAD = new URL('./ros-drive-worker.ts', import.meta.url);
-/** The thread beats every 10 ms. */
+/** The thread beats every 10 ms. When 25 of them are missing, it counts as hung, ms. */
 const HUNG_MS = 250;
 /** A thread that hangs for longer is replaced. */
 const REPLACE_MS = 1000;
 const CHECK_MS = 100;
+/** The wait before a thread that ended is started again, ms: doubles up to the most. */
 const FIRST_RETRY_MS = 250;
 const MOST_RETRY_MS = 10_000;
 /** A thread that has lived this long was well: the next wait is short again. */

@@ -13,6 +13,7 @@ import type { GuardTopicsReport, GuardTopicsRequest, GuardTopicsSetup } from './
 import { COLLISION_TYPES, demandedMps } from './guard-topics-messages.ts';
 
 const LASER_SCAN = 'sensor_msgs/msg/LaserScan';
+/** How often the thread says that it lives, ms: 50 times before it is replaced (guard-topics.ts). */
 const BEAT_MS = 20;
 const CLOCK = { now: monotonicMs, wallNs };
 

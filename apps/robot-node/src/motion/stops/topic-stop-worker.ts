@@ -19,6 +19,7 @@ export type TopicStopReport =
   /** The topic cannot be heard. */
   | { type: 'failed'; detail: string };
 
+/** How often publishers are counted, ms: a stop whose publisher has gone is soon silent. */
 const LOOK_MS = 20;
 
 const port = parentPort;

@@ -12,7 +12,10 @@ const LEAST_MESSAGES = 20_000;
 /** Margin on the measured rate of pictures. */
 const PICTURE_MARGIN = 1.1;
 
-/** What a video's packets take besides the encoder's bits, as a factor. */
+/**
+ * What a video's packets take besides the encoder's bits, as a factor. 76 bytes for each packet of up to
+ * 1,180 are 6.4 %, and the last packet of a frame is shorter.
+ */
 const VIDEO_OVERHEAD = 1.08;
 /** Sound takes at most this share of what messages leave. */
 const SOUND_SHARE = 1 / 3;

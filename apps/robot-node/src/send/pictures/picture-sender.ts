@@ -16,8 +16,8 @@ export interface PictureLink {
 }
 
 /**
- * No chunk is sent while more than this is queued, bytes. Messages share the association and would have to wait for
- * it.
+ * No chunk is sent while more than this is queued, bytes. Messages share the association and would have to
+ * wait for it. Two chunks of 1,160 bytes fit.
  */
 const MOST_BUFFERED = 2400;
 /** The longest time for which unused credit is saved, ms. */

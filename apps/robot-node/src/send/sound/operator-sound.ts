@@ -14,7 +14,10 @@ import { VoiceGate } from './voice-gate.ts';
 
 /** A receiver uses the reports to relate timestamps to time of day, ms. */
 const REPORT_MS = 1000;
-/** Sound that was switched off for want of room comes back with so much more room than it needs. */
+/**
+ * Sound that was switched off for want of room comes back with so much more room than it needs. It returns
+ * with room for 20 kbit/s instead of 16.
+ */
 const ROOM_TO_RETURN = 1.25;
 /** After the voice has closed, it is still heard at the robot for so long, ms: the jitter buffer and the device. */
 const TAIL_MS = 200;

@@ -28,6 +28,7 @@ export interface RobotSoundOptions {
   now: () => number;
 }
 
+/** Characters of a detail, which the message bounds (packages/protocol). */
 const MOST_DETAIL = 256;
 
 /**

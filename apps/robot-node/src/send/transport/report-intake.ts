@@ -12,7 +12,10 @@ import {
 } from '@farpoint/rtp';
 import type { RtpTransport } from './rtp-transport.ts';
 
-/** An operator's own counts take precedence over its RTCP for this long after the last of them, ms. */
+/**
+ * An operator's own counts take precedence over its RTCP for this long after the last of them, ms. After as
+ * long without reports, ReportRateController calls them missing.
+ */
 const OWN_SUMS_HOLD_MS = 3000;
 
 /** `changed`: the rate controller got new information. */

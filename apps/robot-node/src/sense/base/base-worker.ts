@@ -19,7 +19,10 @@ import { SimNavigation } from './sim-navigation.ts';
 import { SIM_DIAGNOSTICS, SIM_FIX, SIM_JOINTS, SIM_MOTORS } from './sim-topics.ts';
 import { Wheels } from './wheels.ts';
 
-/** Maximum age of the world that the sensors see. */
+/**
+ * Maximum age of the world that the sensors see. 10 ms instead of 4 leave more of the processor to frames
+ * (docs/decisions/2026-11-28-cost-of-a-frame.md).
+ */
 const ADVANCE_EVERY_MS = 10;
 /** The robot is told about every second of them. */
 const REPORT_MS = 2 * ADVANCE_EVERY_MS;

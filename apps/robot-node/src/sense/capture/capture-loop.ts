@@ -6,12 +6,16 @@ import { SourceRate } from '../sources/source-rate.ts';
 import type { CaptureReport, CaptureRequest, ReportSink } from './capture-messages.ts';
 import type { CapturePipeline } from './pipeline.ts';
 
+/** Shortest interval between two reports of the state, ms: fewer wake-ups of both threads. */
 const STATE_INTERVAL_MS = 20;
 /** An unchanged state is repeated at this interval, as a sign of life, ms. */
 const UNCHANGED_STATE_INTERVAL_MS = 100;
 /** Longest time between two calls for a source that is polled, ms. */
 const MAX_WAIT_MS = 10;
-/** The obstacle guard gets a cloud at least this often if the source has that many, ms. */
+/**
+ * The obstacle guard gets a cloud at least this often if the source has that many, ms. A sensor is silent
+ * after 400 ms.
+ */
 const LOOK_INTERVAL_MS = 50;
 /** A cloud from a source with its own timing is skipped if it has waited longer than this for an operator, ms. */
 const MAX_READY_AGE_MS = 50;

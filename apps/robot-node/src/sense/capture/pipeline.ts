@@ -27,9 +27,15 @@ import type { CapturePictures } from './capture-pictures.ts';
 const BUFFERS = 4;
 /** Weight of the latest frame in the moving average of the time per frame. */
 const SMOOTHING = 0.1;
-/** While nobody drives, clouds that are sent are judged at most this often, ms: operators see what is near the robot. */
+/**
+ * While nobody drives, clouds that are sent are judged at most this often, ms: operators see what is near the
+ * robot. Five times a second instead of ten: docs/decisions/2026-11-28-cost-of-a-frame.md.
+ */
 const JUDGED_EVERY_MS = 200;
-/** While the robot moves, and its clouds come faster than a camera's 30/s, not each is judged, ms. */
+/**
+ * While the robot moves, and its clouds come faster than a camera's 30/s, not each is judged, ms. At 30/s
+ * nothing changes: docs/decisions/2026-11-28-cost-of-a-frame.md.
+ */
 const GUARDED_EVERY_MS = 25;
 
 /** The clocks that capturing reads, ms. */
@@ -281,7 +287,11 @@ interface FrameFacts {
   captureCpuMs: number;
 }
 
-/** How much of the time that a frame waits for busy processors counts as its own, for a source that is asked. */
+/**
+ * How much of the time that a frame waits for busy processors counts as its own, for a source that is asked.
+ * `pnpm bench link`: with 0.85 and 1, the median is 1 and 3 ms earlier, for 4 and 8 frames a second less
+ * (docs/decisions/2026-11-28-cost-of-a-frame.md).
+ */
 const WAITING_SHARE = 0.75;
 
 /**

@@ -99,7 +99,10 @@ const UPWARD_MARGIN = 1.25;
  * must not fall behind.
  */
 const MOST_LOAD = 0.7;
-/** For a source without a fixed rate: on a fully loaded computer, each additional frame delays all of them. */
+/**
+ * For a source without a fixed rate: on a fully loaded computer, each additional frame delays all of them.
+ * 0.46 instead of 0.5: docs/decisions/2026-11-29-prompt-frames.md.
+ */
 const MOST_LOAD_AT_ANY_RATE = 0.46;
 /** What a coded frame needs, bits per point of the raw cloud. */
 interface CodedNeed {
@@ -116,7 +119,11 @@ const CODED_NEEDS: Readonly<Record<CodedFormat, CodedNeed>> = {
   // The step is fixed, so that only the number of points can change.
   unorganised: { whole: 16, good: 64, enough: 64 },
 };
-/** While somebody drives, a frame that takes longer to send than this, ms, is not made finer than good. */
+/**
+ * While somebody drives, a frame that takes longer to send than this, ms, is not made finer than good. At
+ * 41 Mbit/s the last fifth of its bytes costs 2.5 ms, and what it buys is hardly seen
+ * (docs/decisions/2026-11-29-prompt-frames.md).
+ */
 const PROMPT_MS = 10;
 /** A coded frame may turn out smaller than its budget by this factor; one that carries a probe train must not. */
 const CODED_SLACK = 1.06;

@@ -19,7 +19,10 @@ export interface BlankFloorCamera {
 const FARTHEST_M = 2.5;
 /** About so many pixels a row are enough. */
 const COLUMNS = 240;
-/** Of the nine cells of a patch, so many must have a pixel without depth; none may have anything else. */
+/**
+ * Of the nine cells of a patch, so many must have a pixel without depth; none may have anything else.
+ * `pnpm bench guard-runs` counts falls and false stops with these numbers, in its dock with holes.
+ */
 const BLANK_CELLS = 6;
 /** How far before a patch its floor must be seen: through cells without depth only. */
 const MOST_STEPS = 20;

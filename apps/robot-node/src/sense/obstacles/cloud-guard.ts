@@ -27,7 +27,10 @@ export interface CloudGuardOptions {
 
 /** A ray this low over a cell shows that it is free, metres. */
 const LOW_RAY_M = 0.15;
-/** Share of the points that an obstacle as large as a cell would have, which make an obstacle. */
+/**
+ * Share of the points that an obstacle as large as a cell would have, which make an obstacle.
+ * `pnpm bench guard-runs` counts contacts and false stops.
+ */
 const ENOUGH = 0.1;
 const [LEAST_POINTS, MOST_POINTS] = [2, 60];
 /** Of a sensor without a lens: the solid angle that it sees, sr. */

@@ -9,7 +9,10 @@ import { CloudGuard, type CloudGuardOptions } from './cloud-guard.ts';
 
 /** How often each floor camera looks, ms: what they see is remembered for seconds, and they count as silent after 400 ms. */
 const FLOOR_EVERY_MS = 100;
-/** The same while nobody drives. */
+/**
+ * The same while nobody drives. As often as clouds are judged then
+ * (docs/decisions/2026-11-28-cost-of-a-frame.md).
+ */
 const IDLE_FLOOR_EVERY_MS = 200;
 
 export interface SensorGuardOptions {

@@ -28,6 +28,7 @@ export interface CloudShmOptions {
   waitMs: number;
 }
 
+/** How often the source looks for its producer while no frame comes, ms. */
 const WATCH_TIMEOUT_MS = 100;
 
 /** Farpoint's own layout in shared memory: the newest frame with its grid, pose and capture time. */

@@ -5,7 +5,10 @@
 
 /** Frames in each measurement. Shorter ones would follow single pictures. */
 const WINDOW_FRAMES = 30;
-/** How far an encoder is trusted to be asked for something else than it shall give. */
+/**
+ * How far an encoder is trusted to be asked for something else than it shall give. `x264enc` stays 15 to 25 %
+ * below what it is asked for (docs/video.md).
+ */
 const LEAST = 0.7;
 const MOST = 1.3;
 /** Part of the difference that one measurement corrects. Too much is corrected in full, because others wait for it. */

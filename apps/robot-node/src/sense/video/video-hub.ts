@@ -42,6 +42,7 @@ export interface VideoHubOptions {
   log: Pick<Logger, 'info' | 'warn'>;
 }
 
+/** Shortest time between two plans, ms: rates change with the feedback, many times a second. */
 const PLAN_MS = 200;
 
 /** All cameras that are streamed as video. Each is encoded once, while anybody wants it, for all who do. */

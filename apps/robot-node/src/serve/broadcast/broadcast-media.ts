@@ -1,6 +1,7 @@
 import type { MountpointMedia } from '@farpoint/janus';
 import type { VideoCodec } from '@farpoint/protocol';
 
+/** One of the dynamic ones (RFC 3551, 6), above those of eight videos. */
 const CLOUD_PAYLOAD_TYPE = 111;
 /** The lowest of the dynamic ones; each video has its own, because all are in one bundle. */
 const FIRST_VIDEO_PAYLOAD_TYPE = 96;
