@@ -2,6 +2,7 @@
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import type { Page } from '@playwright/test';
 import type { BenchCamera } from './camera-list.ts';
 import { type AskedShares, type SharePair, sharesSeen } from './camera-shares.ts';
 import { commandDelays } from './command-delay.ts';
@@ -9,7 +10,7 @@ import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { type LatencySeries, latencySeries } from './latency-series.ts';
 import { queueQuantiles } from './link-analysis.ts';
 import { clockOffsetOf, readRobotSamples, readUplink, scrape } from './link-run.ts';
-import { startLiveStack } from './live-stack.ts';
+import { type LiveStack, type LiveStackOptions, startLiveStack } from './live-stack.ts';
 import { monotonicMs, wait } from './measured-span.ts';
 import { driveInCircles } from './page.ts';
 import { type PresentationFigures, presentationFigures } from './presentation-figures.ts';
@@ -73,16 +74,48 @@ const SETTLE_MS = 500;
 /** Pictures that few bits show well, and noise, which takes any rate. */
 const PATTERNS = { plain: ['pinwheel', 'ball', 'smpte'], noise: ['snow'] } as const;
 
+/** Files that the programs of a run write, except the first, which they read. */
+interface CameraFiles {
+  config: string;
+  link: string;
+  stats: string;
+  commands: string;
+}
+
 /** @param log takes lines about the progress */
 export async function runCameras(setup: CameraSetup, log: (line: string) => void): Promise<CameraRun> {
-  const { cameras, trace, seconds } = setup;
   const folder = mkdtempSync(join(tmpdir(), 'farpoint-cameras-'));
-  const file = (name: string) => join(folder, name);
-  const [config, link, stats, commands] = ['c.yaml', 'link.jsonl', 'stats.jsonl', 'commands.csv'].map(
-    file,
-  ) as [string, string, string, string];
-  writeFileSync(config, JSON.stringify({ robot: { videos: cameraOptions(setup), ...soundOptions(setup) } }));
-  const live = await startLiveStack({
+  const files: CameraFiles = {
+    config: join(folder, 'c.yaml'),
+    link: join(folder, 'link.jsonl'),
+    stats: join(folder, 'stats.jsonl'),
+    commands: join(folder, 'commands.csv'),
+  };
+  const robot = { videos: cameraOptions(setup), ...soundOptions(setup) };
+  writeFileSync(files.config, JSON.stringify({ robot }));
+  const live = await startLiveStack(stackOptions(setup, files, log));
+  try {
+    live.link?.tell({ type: 'reset' });
+    await setUpPage(live.page, setup);
+    await wait(setup.points === null ? LONG_WARM_UP_MS : WARM_UP_MS);
+    log(`${setup.seconds} s`);
+    const record = await drive(live, setup, files);
+    await wait(SETTLE_MS);
+    await live.stack.robot(ROBOT).stop();
+    return figuresOf(setup, record, files);
+  } finally {
+    await live.close();
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+function stackOptions(
+  setup: CameraSetup,
+  { config, link, stats, commands }: CameraFiles,
+  log: (line: string) => void,
+): LiveStackOptions {
+  const { trace } = setup;
+  return {
     robot: {
       id: ROBOT,
       name: 'Robot with cameras',
@@ -92,75 +125,111 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
     query: `barcode=1&sync=${setup.synchronised ? 1 : 0}&video=${setup.receiver ?? ''}`,
     ...(trace === null ? {} : { connectAtMbps: 20, link: linkSpec(trace, link) }),
     log,
-  });
-  try {
-    const { page, stack } = live;
-    live.link?.tell({ type: 'reset' });
-    const asked = setup.shares;
-    if (asked !== null) await page.evaluate((shares) => window.farpoint.shareLink(shares), asked);
-    // By key: the page is too small for its buttons.
-    if (setup.sound) await page.getByRole('button', { name: 'Sound', exact: true }).press('Enter');
-    await wait(setup.points === null ? LONG_WARM_UP_MS : WARM_UP_MS);
-    const { pid } = stack.robot(ROBOT);
-    const counters = async () => ({
-      skipped: await byCamera(stack.robotAdminUrl(ROBOT), 'frames_skipped', cameras.length),
-      bytes: await byCamera(stack.robotAdminUrl(ROBOT), 'bytes', cameras.length),
-      bytesSent: readRobotSamples(stats).at(-1)?.bytesSent ?? 0,
-      keyFrames: await byCamera(stack.robotAdminUrl(ROBOT), 'key_frames', cameras.length),
-      soundPackets: setup.sound ? await soundPackets(stack.robotAdminUrl(ROBOT)) : 0,
-      cpu: cpuSecondsOfTree(pid),
-      browserCpu: cpuSecondsOfTree(live.browserPid),
-      atMs: monotonicMs(),
-    });
-    log(`${seconds} s`);
-    await page.evaluate((capacity) => {
-      window.farpoint.resetStats();
-      window.farpoint.recordPresentations(capacity);
-    }, MOST_PRESENTATIONS);
-    const before = await counters();
-    await page.evaluate(driveInCircles, { ms: seconds * 1000, forward: 0.3 });
-    const after = await counters();
-    const { rows, figures } = await page.evaluate(() => ({
-      rows: window.farpoint.recordedPresentations(),
-      figures: window.farpoint.stats().videos,
-    }));
-    const offsetMs = await clockOffsetOf(page);
-    await wait(SETTLE_MS);
-    await live.stack.robot(ROBOT).stop();
-    const unshown = cameras.map((_, i) => {
-      const drops = figures.sources.find(({ source }) => source === `video:${i}`)?.drops;
-      return drops === undefined ? 0 : Object.values(drops).reduce((sum, count) => sum + count, 0);
-    });
-    const delays = commandDelays(commands, offsetMs, trace === null ? 0 : LINK_RTT_MS / 2, [
-      before.atMs,
-      after.atMs,
-    ]);
-    const bytes = after.bytes.map((each, i) => each - (before.bytes[i] ?? 0));
-    return {
-      ...presentationFigures(
-        rows,
-        cameras.map(({ framesPerS }) => framesPerS),
-        setup.cloudsPerS,
-      ),
-      presentations: rows.length,
-      dropped: after.skipped.map((each, i) => each - (before.skipped[i] ?? 0) + (unshown[i] as number)),
-      addedBySyncMs: figures.heldMs,
-      commandDelayMs: distribution(delays.accepted),
-      commands: delays.accepted.length,
-      commandsRefused: delays.refused,
-      queueMs: trace === null ? null : queueQuantiles(readUplink(link)),
-      robotCpu: coresBetween(before.cpu, after.cpu, after.atMs - before.atMs),
-      browserCpu: coresBetween(before.browserCpu, after.browserCpu, after.atMs - before.atMs),
-      receiver: figures.receiver,
-      keyFrames: after.keyFrames.reduce((sum, each, i) => sum + each - (before.keyFrames[i] ?? 0), 0),
-      shares: asked === null ? null : sharesSeen(asked, after.bytesSent - before.bytesSent, bytes),
-      soundPacketsPerS: setup.sound ? (after.soundPackets - before.soundPackets) / seconds : null,
-      series: latencySeries(rows, cameras.length),
-    };
-  } finally {
-    await live.close();
-    rmSync(folder, { recursive: true, force: true });
-  }
+  };
+}
+
+/** Divides the link and turns the sound on, as the setup says. */
+async function setUpPage(page: Page, { shares, sound }: CameraSetup): Promise<void> {
+  if (shares !== null) await page.evaluate((shares) => window.farpoint.shareLink(shares), shares);
+  // By key: the page is too small for its buttons.
+  if (sound) await page.getByRole('button', { name: 'Sound', exact: true }).press('Enter');
+}
+
+/** Counts so far, of all cameras each. */
+interface Counters {
+  skipped: number[];
+  bytes: number[];
+  /** By the robot, of everything. */
+  bytesSent: number;
+  keyFrames: number[];
+  soundPackets: number;
+  /** Processor time, s. */
+  cpu: number | null;
+  browserCpu: number | null;
+  atMs: number;
+}
+
+async function readCounters(
+  { stack, browserPid }: LiveStack,
+  setup: CameraSetup,
+  stats: string,
+): Promise<Counters> {
+  const cameras = setup.cameras.length;
+  const adminUrl = stack.robotAdminUrl(ROBOT);
+  return {
+    skipped: await byCamera(adminUrl, 'frames_skipped', cameras),
+    bytes: await byCamera(adminUrl, 'bytes', cameras),
+    bytesSent: readRobotSamples(stats).at(-1)?.bytesSent ?? 0,
+    keyFrames: await byCamera(adminUrl, 'key_frames', cameras),
+    soundPackets: setup.sound ? await soundPackets(adminUrl) : 0,
+    cpu: cpuSecondsOfTree(stack.robot(ROBOT).pid),
+    browserCpu: cpuSecondsOfTree(browserPid),
+    atMs: monotonicMs(),
+  };
+}
+
+/** What a drive left. */
+interface CameraRecord {
+  before: Counters;
+  after: Counters;
+  rows: ReturnType<Window['farpoint']['recordedPresentations']>;
+  videos: ReturnType<Window['farpoint']['stats']>['videos'];
+  /** What to add to the page's clock to get the robot's, ms. */
+  offsetMs: number;
+}
+
+async function drive(live: LiveStack, setup: CameraSetup, { stats }: CameraFiles): Promise<CameraRecord> {
+  const { page } = live;
+  await page.evaluate((capacity) => {
+    window.farpoint.resetStats();
+    window.farpoint.recordPresentations(capacity);
+  }, MOST_PRESENTATIONS);
+  const before = await readCounters(live, setup, stats);
+  await page.evaluate(driveInCircles, { ms: setup.seconds * 1000, forward: 0.3 });
+  const after = await readCounters(live, setup, stats);
+  const shown = await page.evaluate(() => ({
+    rows: window.farpoint.recordedPresentations(),
+    videos: window.farpoint.stats().videos,
+  }));
+  return { before, after, ...shown, offsetMs: await clockOffsetOf(page) };
+}
+
+function figuresOf(setup: CameraSetup, record: CameraRecord, files: CameraFiles): CameraRun {
+  const { cameras, trace, shares: asked, seconds } = setup;
+  const { before, after, rows, videos } = record;
+  const delays = commandDelays(files.commands, record.offsetMs, trace === null ? 0 : LINK_RTT_MS / 2, [
+    before.atMs,
+    after.atMs,
+  ]);
+  const bytes = after.bytes.map((each, i) => each - (before.bytes[i] ?? 0));
+  const unshown = cameras.map((_, i) => unshownOf(videos, i));
+  return {
+    ...presentationFigures(
+      rows,
+      cameras.map(({ framesPerS }) => framesPerS),
+      setup.cloudsPerS,
+    ),
+    presentations: rows.length,
+    dropped: after.skipped.map((each, i) => each - (before.skipped[i] ?? 0) + (unshown[i] as number)),
+    addedBySyncMs: videos.heldMs,
+    commandDelayMs: distribution(delays.accepted),
+    commands: delays.accepted.length,
+    commandsRefused: delays.refused,
+    queueMs: trace === null ? null : queueQuantiles(readUplink(files.link)),
+    robotCpu: coresBetween(before.cpu, after.cpu, after.atMs - before.atMs),
+    browserCpu: coresBetween(before.browserCpu, after.browserCpu, after.atMs - before.atMs),
+    receiver: videos.receiver,
+    keyFrames: after.keyFrames.reduce((sum, each, i) => sum + each - (before.keyFrames[i] ?? 0), 0),
+    shares: asked === null ? null : sharesSeen(asked, after.bytesSent - before.bytesSent, bytes),
+    soundPacketsPerS: setup.sound ? (after.soundPackets - before.soundPackets) / seconds : null,
+    series: latencySeries(rows, cameras.length),
+  };
+}
+
+/** Pictures of a camera that arrived and were not shown. */
+function unshownOf({ sources }: CameraRecord['videos'], camera: number): number {
+  const drops = sources.find(({ source }) => source === `video:${camera}`)?.drops;
+  return drops === undefined ? 0 : Object.values(drops).reduce((sum, count) => sum + count, 0);
 }
 
 function cameraOptions({ cameras, encoder, content }: CameraSetup) {

@@ -8,7 +8,7 @@ import { type BenchCamera, parseCameras } from './camera-list.ts';
 import { plotCameras } from './camera-plot.ts';
 import { type CameraRun, type CameraSetup, LINK_RTT_MS, runCameras } from './camera-run.ts';
 import { parseShares } from './camera-shares.ts';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, type Cell, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { rounded } from './stats.ts';
 
 const USAGE = `pnpm bench cameras [options]
@@ -140,59 +140,51 @@ function print({ title, found, cameras, run }: TitledRun): void {
       ...distributionCells(rounded(run.glassToGlassMs[i] as CameraRun['spreadMs'], 1)),
     ]),
   );
-  const [spread, command] = [rounded(run.spreadMs, 2), rounded(run.commandDelayMs, 1)];
-  const cloud = rounded(run.cloudApartMs, 1);
+  const columns = [...presentationColumns(run), ...programColumns(run)];
   printTable(
-    [
-      'spread p50',
-      'p99',
-      'max',
-      'under 1 ms',
-      'half interval',
-      'waited p50',
-      'cloud apart p50',
-      'p95',
-      'half interval',
-      'robot, cores',
-      'browser',
-      'queue p95',
-      'commands',
-      'later p50',
-      'p99',
-      'max',
-      'refused',
-      'key frames',
-      'receiver',
-    ],
-    [
-      [
-        spread.p50,
-        spread.p99,
-        spread.max,
-        percent(run.share1Ms),
-        percent(run.shareHalfInterval),
-        run.addedBySyncMs?.p50,
-        cloud.p50,
-        cloud.p95,
-        percent(run.cloudHalfInterval),
-        run.robotCpu,
-        run.browserCpu,
-        run.queueMs === null ? '–' : rounded(run.queueMs, 1).p95,
-        run.commands,
-        command.p50,
-        command.p99,
-        command.max,
-        run.commandsRefused,
-        run.keyFrames,
-        run.receiver,
-      ],
-    ],
+    columns.map(([heading]) => heading),
+    [columns.map(([, cell]) => cell)],
   );
   if (run.shares !== null)
     printTable(
       ['stream', 'asked', 'seen'],
       run.shares.map(({ stream, asked, seen }) => [stream, asked, seen]),
     );
+}
+
+type Column = readonly [heading: string, cell: Cell];
+
+/** How well what was shown at once belonged together. */
+function presentationColumns(run: CameraRun): Column[] {
+  const [spread, cloud] = [rounded(run.spreadMs, 2), rounded(run.cloudApartMs, 1)];
+  return [
+    ['spread p50', spread.p50],
+    ['p99', spread.p99],
+    ['max', spread.max],
+    ['under 1 ms', percent(run.share1Ms)],
+    ['half interval', percent(run.shareHalfInterval)],
+    ['waited p50', run.addedBySyncMs?.p50],
+    ['cloud apart p50', cloud.p50],
+    ['p95', cloud.p95],
+    ['half interval', percent(run.cloudHalfInterval)],
+  ];
+}
+
+/** What the programs took, and what became of the commands. */
+function programColumns(run: CameraRun): Column[] {
+  const command = rounded(run.commandDelayMs, 1);
+  return [
+    ['robot, cores', run.robotCpu],
+    ['browser', run.browserCpu],
+    ['queue p95', run.queueMs === null ? '–' : rounded(run.queueMs, 1).p95],
+    ['commands', run.commands],
+    ['later p50', command.p50],
+    ['p99', command.p99],
+    ['max', command.max],
+    ['refused', run.commandsRefused],
+    ['key frames', run.keyFrames],
+    ['receiver', run.receiver],
+  ];
 }
 
 function percent(share: number): string {

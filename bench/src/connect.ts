@@ -1,15 +1,15 @@
 /** `pnpm bench connect`: how long it takes to establish a session. */
-import { spawn } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { ReferenceOperator } from '@farpoint/conformance';
-import { grantTo, makeIssuer } from '@farpoint/grants/testing';
+import { grantTo, makeIssuer, type TestIssuer } from '@farpoint/grants/testing';
 import { LocalStack } from '@farpoint/local-stack';
 import { type Credentials, SignaledOperator } from '@farpoint/robot-node/testing';
 import { metricOf } from '@farpoint/robot-node/testing/metric-of';
 import { shownGrant } from '@farpoint/robot-node/testing/shown-grant';
+import { startBusyLoops } from './busy-loops.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
@@ -26,6 +26,9 @@ const ROBOT = 'sim-1';
 const GRANTED = 'sim-2';
 const NAME = 'Simulated robot';
 const OTHER_NAME = 'Another simulated robot';
+
+const ARGS = ['--sim-size', '64'];
+const ENV = { FARPOINT_LOG_LEVEL: 'warn' };
 
 export const bench: Bench = {
   name: 'connect',
@@ -49,63 +52,17 @@ export const bench: Bench = {
     const keys = join(folder, 'grant-keys.json');
     const issuer = await makeIssuer();
     writeFileSync(keys, JSON.stringify({ keys: [issuer.publicJwk] }));
-    const args = ['--sim-size', '64'];
-    const env = { FARPOINT_LOG_LEVEL: 'warn' };
     const stack = await LocalStack.start({
       robots: [
-        { id: ROBOT, name: NAME, reference: true, args },
-        { id: GRANTED, name: NAME, args: [...args, '--grant-keys', keys] },
+        { id: ROBOT, name: NAME, reference: true, args: ARGS },
+        { id: GRANTED, name: NAME, args: [...ARGS, '--grant-keys', keys] },
       ],
-      env,
+      env: ENV,
     });
-    const loops = Array.from({ length: busy }, () =>
-      spawn(process.execPath, ['-e', 'for (;;);'], { stdio: 'ignore' }),
-    );
+    const loops = startBusyLoops(busy);
     try {
-      // The robot makes one offer at a time, and the next one when that operator has left.
-      const offered = (connected: number) => offers(stack, ROBOT, connected);
-      const clients = clientsOf(stack);
-      const at = (robot: string, options: { credentials?: Credentials } = {}) =>
-        SignaledOperator.connect(stack.signalingUrl, robot, { helloAtOnce: true, ...options });
-      const farpointMs = await times(count, () => at(ROBOT));
-      const credentials = shownGrant(GRANTED, await grantTo(issuer, Date.now() / 1000));
-      const grantedMs = await times(count, () => at(GRANTED, { credentials }));
-      const referenceMs = await times(count, () => ReferenceOperator.connect(clients, NAME), offered);
-      const firstMs: number[] = [];
-      const firstReferenceMs: number[] = [];
-      for (let n = 0; n < starts; n++) {
-        const fresh = await LocalStack.start({
-          robots: [
-            { id: ROBOT, name: NAME, args },
-            { id: GRANTED, name: OTHER_NAME, reference: true, args },
-          ],
-          env,
-        });
-        try {
-          await offers(fresh, GRANTED, 0);
-          firstMs.push(
-            await timed(() => SignaledOperator.connect(fresh.signalingUrl, ROBOT, { helloAtOnce: true })),
-          );
-          firstReferenceMs.push(await timed(() => ReferenceOperator.connect(clientsOf(fresh), OTHER_NAME)));
-        } finally {
-          await fresh.stop();
-        }
-      }
-      const firsts = {
-        firstMs: rounded(distribution(firstMs), 0),
-        firstReferenceMs: rounded(distribution(firstReferenceMs), 0),
-      };
-      const results = { farpointMs, grantedMs, referenceMs, ...firsts };
-      printTable(
-        ['connected after, ms', 'p50', 'p95', 'p99', 'max'],
-        [
-          ['Farpoint’s profile', ...distributionCells(farpointMs)],
-          ['with a grant', ...distributionCells(grantedMs)],
-          ['reference profile', ...distributionCells(referenceMs)],
-          ['a robot’s first, Farpoint’s profile', ...distributionCells(firsts.firstMs)],
-          ['a robot’s first, reference profile', ...distributionCells(firsts.firstReferenceMs)],
-        ],
-      );
+      const results = { ...(await connectEach(stack, issuer, count)), ...(await connectFirsts(starts)) };
+      print(results);
       if (values.json) printJson({ bench: 'connect', count, starts, busy, ...results });
     } finally {
       await stack.stop();
@@ -114,6 +71,63 @@ export const bench: Bench = {
     }
   },
 };
+
+/** Connects so many operators in each profile, one after the other. */
+async function connectEach(stack: LocalStack, issuer: TestIssuer, count: number) {
+  // The robot makes one offer at a time, and the next one when that operator has left.
+  const offered = (connected: number) => offers(stack, ROBOT, connected);
+  const clients = clientsOf(stack);
+  const at = (robot: string, options: { credentials?: Credentials } = {}) =>
+    SignaledOperator.connect(stack.signalingUrl, robot, { helloAtOnce: true, ...options });
+  const farpointMs = await times(count, () => at(ROBOT));
+  const credentials = shownGrant(GRANTED, await grantTo(issuer, Date.now() / 1000));
+  const grantedMs = await times(count, () => at(GRANTED, { credentials }));
+  const referenceMs = await times(count, () => ReferenceOperator.connect(clients, NAME), offered);
+  return { farpointMs, grantedMs, referenceMs };
+}
+
+/** Starts everything anew so many times; connects the first operator of a robot in each profile. */
+async function connectFirsts(starts: number) {
+  const firstMs: number[] = [];
+  const firstReferenceMs: number[] = [];
+  for (let n = 0; n < starts; n++) {
+    const fresh = await LocalStack.start({
+      robots: [
+        { id: ROBOT, name: NAME, args: ARGS },
+        { id: GRANTED, name: OTHER_NAME, reference: true, args: ARGS },
+      ],
+      env: ENV,
+    });
+    try {
+      await offers(fresh, GRANTED, 0);
+      firstMs.push(
+        await timed(() => SignaledOperator.connect(fresh.signalingUrl, ROBOT, { helloAtOnce: true })),
+      );
+      firstReferenceMs.push(await timed(() => ReferenceOperator.connect(clientsOf(fresh), OTHER_NAME)));
+    } finally {
+      await fresh.stop();
+    }
+  }
+  return {
+    firstMs: rounded(distribution(firstMs), 0),
+    firstReferenceMs: rounded(distribution(firstReferenceMs), 0),
+  };
+}
+
+type Results = Awaited<ReturnType<typeof connectEach>> & Awaited<ReturnType<typeof connectFirsts>>;
+
+function print(results: Results): void {
+  printTable(
+    ['connected after, ms', 'p50', 'p95', 'p99', 'max'],
+    [
+      ['Farpoint’s profile', ...distributionCells(results.farpointMs)],
+      ['with a grant', ...distributionCells(results.grantedMs)],
+      ['reference profile', ...distributionCells(results.referenceMs)],
+      ['a robot’s first, Farpoint’s profile', ...distributionCells(results.firstMs)],
+      ['a robot’s first, reference profile', ...distributionCells(results.firstReferenceMs)],
+    ],
+  );
+}
 
 interface Connected {
   close(): Promise<unknown>;

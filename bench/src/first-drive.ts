@@ -1,10 +1,11 @@
 /** `pnpm bench first-drive`: what a newcomer's first drive is like on this computer, by the README's first command. */
-import { type ChildProcess, execFileSync, spawn } from 'node:child_process';
+import { type ChildProcess, execFileSync } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { availableParallelism, tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { freePorts, ManagedProcess, repositoryRoot } from '@farpoint/local-stack';
+import { startBusyLoops } from './busy-loops.ts';
 import { FIRST_DRIVE_BROWSERS, type FirstDriveBrowser, openFirstDrive } from './first-drive-browser.ts';
 import { type DriveFigures, driveFigures } from './first-drive-figures.ts';
 import { driveAbout, pause } from './first-drive-hand.ts';
@@ -37,107 +38,141 @@ interface Row extends DriveFigures {
   displayFramesPerSecond: number;
 }
 
+interface Options {
+  seconds: number;
+  busy: number;
+  throttle: number;
+  kind: FirstDriveBrowser;
+  headset: boolean;
+  here: boolean;
+  sizes: { width: number; height: number }[];
+  json: boolean | undefined;
+}
+
 export const bench: Bench = {
   name: 'first-drive',
   summary: 'a newcomer’s first drive on this computer',
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        seconds: { type: 'string', default: '60' },
-        sizes: { type: 'string', default: '1280x720,1920x1080' },
-        busy: { type: 'string', default: '0' },
-        throttle: { type: 'string', default: '1' },
-        here: { type: 'boolean', default: false },
-        browser: { type: 'string', default: 'chromium' },
-        headset: { type: 'boolean', default: false },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
-    });
-    if (values.help) return console.log(USAGE);
-    const seconds = numberOption('seconds', values.seconds, 1);
-    const busy = numberOption('busy', values.busy, 0);
-    const throttle = numberOption('throttle', values.throttle, 1);
-    const kind = values.browser as FirstDriveBrowser;
-    if (!FIRST_DRIVE_BROWSERS.includes(kind))
-      throw new Error(`--browser is \`${kind}\`, not one of ${FIRST_DRIVE_BROWSERS.join(', ')}`);
-    if (kind !== 'chromium' && (values.headset || throttle > 1))
-      throw new Error('--headset and --throttle need Chromium');
-    const sizes = values.sizes.split(',').map((size) => {
-      const [width, height] = size.split('x').map(Number);
-      if (!(width && height)) throw new Error(`--sizes: \`${size}\` is not WIDTHxHEIGHT`);
-      return { width, height };
-    });
-
-    const folder = values.here ? repositoryRoot : clone();
-    const loops: ChildProcess[] = [];
-    let stack: ManagedProcess | null = null;
-    const rows: Row[] = [];
-    try {
-      const [port] = (await freePorts(1)) as [number];
-      console.error(`npx -y pnpm@12 dev, in ${folder}`);
-      stack = await ManagedProcess.start({
-        name: 'dev',
-        command: ['npx', '-y', 'pnpm@12', 'dev', '--port', String(port)],
-        cwd: folder,
-        readyUrl: `http://localhost:${port}/`,
-        readyTimeoutMs: START_MS,
-      });
-      const address = await addressOf(stack);
-      for (let i = 0; i < busy; i++)
-        loops.push(spawn(process.execPath, ['-e', 'for (;;);'], { stdio: 'ignore' }));
-      for (const viewport of sizes) {
-        const size = `${viewport.width}x${viewport.height}`;
-        console.error(`${size}, ${seconds} s`);
-        const how = { kind, viewport, throttle, headset: values.headset };
-        rows.push({ size, ...(await firstDrive(address, how, seconds)) });
-      }
-    } finally {
-      for (const loop of loops) loop.kill();
-      if (stack !== null) await endGroup(stack);
-      if (!values.here) rmSync(folder, { recursive: true, force: true });
-    }
-    printTable(
-      [
-        'page',
-        'metres',
-        'held, s',
-        'guarded, s',
-        'obeyed',
-        'view age p50',
-        'p95, ms',
-        'clouds/s',
-        'frames/s',
-        'grips lost',
-      ],
-      rows.map((row) => [
-        row.size,
-        row.metres,
-        row.heldS,
-        row.guardedS,
-        row.obeyedShare,
-        row.viewAgeMs.p50,
-        row.viewAgeMs.p95,
-        row.drawnFramesPerSecond,
-        row.displayFramesPerSecond,
-        row.gripsLost,
-      ]),
-    );
-    for (const { size, whyNotS } of rows) console.log(`${size}: not obeyed, s: ${JSON.stringify(whyNotS)}`);
-    if (values.json)
+    const options = readOptions(argv);
+    if (options === null) return;
+    const rows = await driveAll(options);
+    print(rows);
+    const { seconds, busy, throttle, kind, headset } = options;
+    if (options.json)
       printJson({
         bench: 'first-drive',
         seconds,
         busy,
         throttle,
         browser: kind,
-        headset: values.headset,
+        headset,
         cores: availableParallelism(),
         rows,
       });
   },
 };
+
+/** @returns `null` if only the usage was requested @throws {Error} naming the option */
+function readOptions(argv: string[]): Options | null {
+  const { values } = parseArgs({
+    args: argv,
+    options: {
+      seconds: { type: 'string', default: '60' },
+      sizes: { type: 'string', default: '1280x720,1920x1080' },
+      busy: { type: 'string', default: '0' },
+      throttle: { type: 'string', default: '1' },
+      here: { type: 'boolean', default: false },
+      browser: { type: 'string', default: 'chromium' },
+      headset: { type: 'boolean', default: false },
+      json: { type: 'boolean' },
+      help: { type: 'boolean' },
+    },
+  });
+  if (values.help) {
+    console.log(USAGE);
+    return null;
+  }
+  const seconds = numberOption('seconds', values.seconds, 1);
+  const busy = numberOption('busy', values.busy, 0);
+  const throttle = numberOption('throttle', values.throttle, 1);
+  const kind = values.browser as FirstDriveBrowser;
+  if (!FIRST_DRIVE_BROWSERS.includes(kind))
+    throw new Error(`--browser is \`${kind}\`, not one of ${FIRST_DRIVE_BROWSERS.join(', ')}`);
+  if (kind !== 'chromium' && (values.headset || throttle > 1))
+    throw new Error('--headset and --throttle need Chromium');
+  const sizes = values.sizes.split(',').map((size) => {
+    const [width, height] = size.split('x').map(Number);
+    if (!(width && height)) throw new Error(`--sizes: \`${size}\` is not WIDTHxHEIGHT`);
+    return { width, height };
+  });
+  const { headset, here, json } = values;
+  return { seconds, busy, throttle, kind, headset, here, sizes, json };
+}
+
+/** Starts everything, and drives once at each size of the page. */
+async function driveAll({ seconds, busy, throttle, kind, headset, here, sizes }: Options): Promise<Row[]> {
+  const folder = here ? repositoryRoot : clone();
+  let loops: ChildProcess[] = [];
+  let stack: ManagedProcess | null = null;
+  const rows: Row[] = [];
+  try {
+    stack = await startDev(folder);
+    const address = await addressOf(stack);
+    loops = startBusyLoops(busy);
+    for (const viewport of sizes) {
+      const size = `${viewport.width}x${viewport.height}`;
+      console.error(`${size}, ${seconds} s`);
+      rows.push({ size, ...(await firstDrive(address, { kind, viewport, throttle, headset }, seconds)) });
+    }
+  } finally {
+    for (const loop of loops) loop.kill();
+    if (stack !== null) await endGroup(stack);
+    if (!here) rmSync(folder, { recursive: true, force: true });
+  }
+  return rows;
+}
+
+async function startDev(folder: string): Promise<ManagedProcess> {
+  const [port] = (await freePorts(1)) as [number];
+  console.error(`npx -y pnpm@12 dev, in ${folder}`);
+  return ManagedProcess.start({
+    name: 'dev',
+    command: ['npx', '-y', 'pnpm@12', 'dev', '--port', String(port)],
+    cwd: folder,
+    readyUrl: `http://localhost:${port}/`,
+    readyTimeoutMs: START_MS,
+  });
+}
+
+function print(rows: readonly Row[]): void {
+  printTable(
+    [
+      'page',
+      'metres',
+      'held, s',
+      'guarded, s',
+      'obeyed',
+      'view age p50',
+      'p95, ms',
+      'clouds/s',
+      'frames/s',
+      'grips lost',
+    ],
+    rows.map((row) => [
+      row.size,
+      row.metres,
+      row.heldS,
+      row.guardedS,
+      row.obeyedShare,
+      row.viewAgeMs.p50,
+      row.viewAgeMs.p95,
+      row.drawnFramesPerSecond,
+      row.displayFramesPerSecond,
+      row.gripsLost,
+    ]),
+  );
+  for (const { size, whyNotS } of rows) console.log(`${size}: not obeyed, s: ${JSON.stringify(whyNotS)}`);
+}
 
 /** @returns a fresh clone of the last commit */
 function clone(): string {

@@ -14,9 +14,10 @@ import {
 import { JanusViewer } from '@farpoint/robot-node/testing/janus';
 import { availableEncoders } from '@farpoint/video';
 import type { WatchStats } from '@farpoint/webxr/watch-api';
-import { type Browser, chromium } from '@playwright/test';
+import { type Browser, chromium, type Page } from '@playwright/test';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { buildPage } from './live-stack.ts';
+import { wait } from './measured-span.ts';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
 
 const USAGE = `pnpm bench janus [options]
@@ -102,7 +103,7 @@ export const bench: Bench = {
   },
 };
 
-async function measure({ viewers: count, seconds, mbps, encoder }: RunOptions) {
+async function measure(options: RunOptions) {
   const folder = mkdtempSync(join(tmpdir(), 'farpoint-bench-janus-'));
   const janus = await JanusServer.start();
   const viewers: JanusViewer[] = [];
@@ -110,15 +111,7 @@ async function measure({ viewers: count, seconds, mbps, encoder }: RunOptions) {
   let browser: Browser | null = null;
   try {
     const config = join(folder, 'farpoint.yaml');
-    const cameras = ['pinwheel', 'ball'].map((pattern) => ({
-      name: pattern,
-      encoder,
-      ...CAMERA,
-      kbitPerS: 600,
-      source: { kind: 'test', pattern, ...CAMERA },
-    }));
-    const broadcast = { janus: janus.url, adminKey: janus.adminKey, mbps };
-    writeFileSync(config, JSON.stringify({ robot: { videos: cameras, broadcast } }));
+    writeFileSync(config, configuration(options, janus));
     stack = await LocalStack.start({
       webRoot: join(repositoryRoot, 'apps', 'webxr', 'dist-testing'),
       robots: [{ id: ROBOT, name: 'Rover', args: ['--config', config, '--sim-size', '96', '--fps', '15'] }],
@@ -127,40 +120,12 @@ async function measure({ viewers: count, seconds, mbps, encoder }: RunOptions) {
     browser = await chromium.launch(chromiumLaunchOptions());
     const page = await browser.newPage({ viewport: { width: 320, height: 180 } });
     await page.goto(`${stack.webUrl}watch.html?janus=${janus.url}`);
-    const shown = (): Promise<WatchStats | undefined> => page.evaluate(() => window.farpointWatch?.stats());
     await page.waitForFunction(() => (window.farpointWatch?.stats().videos.videos[0]?.frames ?? 0) > 10);
-    for (let i = 1; i < count; i++)
+    for (let i = 1; i < options.viewers; i++)
       viewers.push(await JanusViewer.watch({ url: janus.url, mountpoint: 1, light: true }));
     for (const viewer of viewers) await viewer.until(() => framesOf(viewer) > 5);
     await wait(WARM_UP_MS);
-    const { pid } = stack.robot(ROBOT);
-    const admin = stack.robotAdminUrl(ROBOT);
-    await page.evaluate(() => window.farpointWatch?.resetDistributions());
-    const before = { cpu: cpuSecondsOfTree(pid), bytes: await bytesSent(admin), shown: await shown() };
-    const framesBefore = viewers.map(framesOf);
-    const fromMs = performance.now();
-    await wait(seconds * 1000);
-    const elapsedS = (performance.now() - fromMs) / 1000;
-    const after = { cpu: cpuSecondsOfTree(pid), bytes: await bytesSent(admin), shown: await shown() };
-    const pageFrames = (stats: WatchStats | undefined): number => stats?.videos.videos[0]?.frames ?? 0;
-    const frames = [
-      pageFrames(after.shown) - pageFrames(before.shown),
-      ...viewers.map((viewer, i) => framesOf(viewer) - (framesBefore[i] as number)),
-    ];
-    return {
-      viewers: count,
-      uplinkBytesPerS: (after.bytes - before.bytes) / elapsedS,
-      robotCpu: coresBetween(before.cpu, after.cpu, elapsedS * 1000),
-      framesPerS: frames.map((each) => Math.round((each / elapsedS) * 10) / 10),
-      spreadMs: after.shown?.videos.spreadMs ?? null,
-      cloudAheadMs: after.shown?.cloud.aheadMs ?? null,
-      cloudHeldMs: after.shown?.cloud.heldMs ?? null,
-      sources: after.shown?.videos.sources.map(({ source, state, behindMs }) => ({
-        source,
-        state,
-        behindMs,
-      })),
-    };
+    return { viewers: options.viewers, ...(await watch(stack, page, viewers, options.seconds)) };
   } finally {
     await Promise.all(viewers.map((viewer) => viewer.close()));
     await browser?.close();
@@ -170,6 +135,51 @@ async function measure({ viewers: count, seconds, mbps, encoder }: RunOptions) {
   }
 }
 
+/** The robot's. JSON is valid YAML. */
+function configuration({ mbps, encoder }: RunOptions, janus: JanusServer): string {
+  const cameras = ['pinwheel', 'ball'].map((pattern) => ({
+    name: pattern,
+    encoder,
+    ...CAMERA,
+    kbitPerS: 600,
+    source: { kind: 'test', pattern, ...CAMERA },
+  }));
+  const broadcast = { janus: janus.url, adminKey: janus.adminKey, mbps };
+  return JSON.stringify({ robot: { videos: cameras, broadcast } });
+}
+
+/** Measures while all watch. @param viewers those beside the page */
+async function watch(stack: LocalStack, page: Page, viewers: readonly JanusViewer[], seconds: number) {
+  const shown = (): Promise<WatchStats | undefined> => page.evaluate(() => window.farpointWatch?.stats());
+  const { pid } = stack.robot(ROBOT);
+  const admin = stack.robotAdminUrl(ROBOT);
+  await page.evaluate(() => window.farpointWatch?.resetDistributions());
+  const before = { cpu: cpuSecondsOfTree(pid), bytes: await bytesSent(admin), shown: await shown() };
+  const framesBefore = viewers.map(framesOf);
+  const fromMs = performance.now();
+  await wait(seconds * 1000);
+  const elapsedS = (performance.now() - fromMs) / 1000;
+  const after = { cpu: cpuSecondsOfTree(pid), bytes: await bytesSent(admin), shown: await shown() };
+  const pageFrames = (stats: WatchStats | undefined): number => stats?.videos.videos[0]?.frames ?? 0;
+  const frames = [
+    pageFrames(after.shown) - pageFrames(before.shown),
+    ...viewers.map((viewer, i) => framesOf(viewer) - (framesBefore[i] as number)),
+  ];
+  return {
+    uplinkBytesPerS: (after.bytes - before.bytes) / elapsedS,
+    robotCpu: coresBetween(before.cpu, after.cpu, elapsedS * 1000),
+    framesPerS: frames.map((each) => Math.round((each / elapsedS) * 10) / 10),
+    spreadMs: after.shown?.videos.spreadMs ?? null,
+    cloudAheadMs: after.shown?.cloud.aheadMs ?? null,
+    cloudHeldMs: after.shown?.cloud.heldMs ?? null,
+    sources: after.shown?.videos.sources.map(({ source, state, behindMs }) => ({
+      source,
+      state,
+      behindMs,
+    })),
+  };
+}
+
 function framesOf(viewer: JanusViewer): number {
   return viewer.videos.get('v0')?.frames ?? 0;
 }
@@ -177,8 +187,4 @@ function framesOf(viewer: JanusViewer): number {
 async function bytesSent(adminUrl: string): Promise<number> {
   const text = await (await fetch(`${adminUrl}/metrics`)).text();
   return Number(/^farpoint_robot_broadcast_bytes_total (\S+)$/m.exec(text)?.[1] ?? 0);
-}
-
-function wait(ms: number): Promise<void> {
-  return new Promise((resolve) => setTimeout(resolve, ms));
 }

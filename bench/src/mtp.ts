@@ -11,99 +11,130 @@ Real signaling, robot (simulated office) and headless Chromium. Each sample is o
 end of the display frame that shows the whole green cloud (mtpMs) or its first points (mtpFirstMs). Input events are not
 synchronised with the camera. --mbps limits what the robot sends; the camera has 480 × 480 points.`;
 
+interface Options {
+  points: number;
+  fps: number;
+  samples: number;
+  mbps: number;
+  canvas: string;
+  json: boolean | undefined;
+}
+
 export const bench: Bench = {
   name: 'mtp',
   summary: 'motion-to-photon of the whole stack on this machine',
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        points: { type: 'string', default: '30000' },
-        fps: { type: 'string', default: '30' },
-        samples: { type: 'string', default: '100' },
-        mbps: { type: 'string', default: '300' },
-        canvas: { type: 'string', default: '160x90' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
-    });
-    if (values.help) return console.log(USAGE);
-    const points = numberOption('points', values.points, POINTS_PER_PACKET);
-    const fps = numberOption('fps', values.fps, 1);
-    const samples = numberOption('samples', values.samples, 1);
-    const mbps = numberOption('mbps', values.mbps, 1);
-
+    const options = readOptions(argv);
+    if (options === null) return;
     const live = await startLiveStack({
-      robot: {
-        id: 'sim-1',
-        name: 'Simulated robot',
-        args: [
-          '--mode',
-          'points64',
-          '--fps',
-          String(fps),
-          '--max-points',
-          String(points),
-          '--rate-control',
-          'fixed',
-          '--plan',
-          'paper',
-          '--bitrate-mbps',
-          String(mbps),
-        ],
-      },
-      canvas: values.canvas,
+      robot: { id: 'sim-1', name: 'Simulated robot', args: robotArgs(options) },
+      canvas: options.canvas,
       log: (line) => console.error(line),
     });
     try {
       const { page } = live;
       await page.evaluate(() => window.farpoint.latencyTest());
       await page.evaluate(() => window.farpoint.resetStats());
-      console.error(`${samples} latency tests`);
-      // The pauses follow a fixed sequence (the golden ratio's), so that events are spread evenly over the camera's
-      // period.
-      const results = await page.evaluate(async (count) => {
-        const results = [];
-        for (let i = 0; i < count; i++) {
-          await new Promise((resolve) => setTimeout(resolve, 60 + ((i * 0.618034) % 1) * 80));
-          results.push(await window.farpoint.latencyTest());
-        }
-        return results;
-      }, samples);
+      console.error(`${options.samples} latency tests`);
+      const results = await page.evaluate(testLatency, options.samples);
       const stats = await page.evaluate(() => window.farpoint.stats());
-
-      const mtpMs = rounded(distribution(results.map((result) => result.mtpMs)), 1);
-      const mtpFirstMs = rounded(distribution(results.map((result) => result.firstMs)), 1);
-      printTable(
-        ['', 'p50', 'p95', 'p99', 'max'],
-        [
-          ['motion to whole cloud, ms', ...distributionCells(mtpMs)],
-          ['motion to first points, ms', ...distributionCells(mtpFirstMs)],
-          ['frame latency, ms', ...(stats.frameLatencyMs ? distributionCells(stats.frameLatencyMs) : [])],
-          ['render, ms', ...(stats.renderMs ? distributionCells(stats.renderMs) : [])],
-        ],
-      );
-      console.log(
-        `${results.length} samples, ${stats.framesPerSecond.toFixed(1)} frames/s of ${Math.round(stats.pointsPerFrame)} points, ` +
-          `canvas ${values.canvas}, ${stats.displayFramesPerSecond.toFixed(0)} display frames/s`,
-      );
-      if (values.json) {
-        printJson({
-          bench: 'mtp',
-          mtpMs,
-          mtpFirstMs,
-          samples: results.length,
-          framesPerSecond: stats.framesPerSecond,
-          pointsPerFrame: stats.pointsPerFrame,
-          frameLatencyMs: stats.frameLatencyMs,
-          renderMs: stats.renderMs,
-          displayFramesPerSecond: stats.displayFramesPerSecond,
-          lossRate: stats.lossRate,
-          canvas: values.canvas,
-        });
-      }
+      report(options, results, stats);
     } finally {
       await live.close();
     }
   },
 };
+
+/** @returns `null` if only the usage was requested @throws {Error} naming the option */
+function readOptions(argv: string[]): Options | null {
+  const { values } = parseArgs({
+    args: argv,
+    options: {
+      points: { type: 'string', default: '30000' },
+      fps: { type: 'string', default: '30' },
+      samples: { type: 'string', default: '100' },
+      mbps: { type: 'string', default: '300' },
+      canvas: { type: 'string', default: '160x90' },
+      json: { type: 'boolean' },
+      help: { type: 'boolean' },
+    },
+  });
+  if (values.help) {
+    console.log(USAGE);
+    return null;
+  }
+  return {
+    points: numberOption('points', values.points, POINTS_PER_PACKET),
+    fps: numberOption('fps', values.fps, 1),
+    samples: numberOption('samples', values.samples, 1),
+    mbps: numberOption('mbps', values.mbps, 1),
+    canvas: values.canvas,
+    json: values.json,
+  };
+}
+
+function robotArgs({ points, fps, mbps }: Options): string[] {
+  return [
+    '--mode',
+    'points64',
+    '--fps',
+    String(fps),
+    '--max-points',
+    String(points),
+    '--rate-control',
+    'fixed',
+    '--plan',
+    'paper',
+    '--bitrate-mbps',
+    String(mbps),
+  ];
+}
+
+/**
+ * Runs in the page. The pauses follow a fixed sequence (the golden ratio's), so that events are spread evenly over the
+ * camera's period.
+ */
+async function testLatency(count: number) {
+  const results = [];
+  for (let i = 0; i < count; i++) {
+    await new Promise((resolve) => setTimeout(resolve, 60 + ((i * 0.618034) % 1) * 80));
+    results.push(await window.farpoint.latencyTest());
+  }
+  return results;
+}
+
+function report(
+  { canvas, json }: Options,
+  results: Awaited<ReturnType<typeof testLatency>>,
+  stats: ReturnType<Window['farpoint']['stats']>,
+): void {
+  const mtpMs = rounded(distribution(results.map((result) => result.mtpMs)), 1);
+  const mtpFirstMs = rounded(distribution(results.map((result) => result.firstMs)), 1);
+  printTable(
+    ['', 'p50', 'p95', 'p99', 'max'],
+    [
+      ['motion to whole cloud, ms', ...distributionCells(mtpMs)],
+      ['motion to first points, ms', ...distributionCells(mtpFirstMs)],
+      ['frame latency, ms', ...(stats.frameLatencyMs ? distributionCells(stats.frameLatencyMs) : [])],
+      ['render, ms', ...(stats.renderMs ? distributionCells(stats.renderMs) : [])],
+    ],
+  );
+  console.log(
+    `${results.length} samples, ${stats.framesPerSecond.toFixed(1)} frames/s of ${Math.round(stats.pointsPerFrame)} points, ` +
+      `canvas ${canvas}, ${stats.displayFramesPerSecond.toFixed(0)} display frames/s`,
+  );
+  if (!json) return;
+  printJson({
+    bench: 'mtp',
+    mtpMs,
+    mtpFirstMs,
+    samples: results.length,
+    framesPerSecond: stats.framesPerSecond,
+    pointsPerFrame: stats.pointsPerFrame,
+    frameLatencyMs: stats.frameLatencyMs,
+    renderMs: stats.renderMs,
+    displayFramesPerSecond: stats.displayFramesPerSecond,
+    lossRate: stats.lossRate,
+    canvas,
+  });
+}

@@ -3,7 +3,7 @@ import { parseArgs } from 'node:util';
 import type {} from '@farpoint/webxr/test-api';
 import type { Page } from '@playwright/test';
 import { type CpuBudget, calibrationMs, compareWithBudget } from './cpu-budgets.ts';
-import { startLiveStack } from './live-stack.ts';
+import { type LiveStack, startLiveStack } from './live-stack.ts';
 import { type CpuProfile, mainThreadTime } from './page-profile.ts';
 import { memoryMbOf } from './process-memory.ts';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
@@ -36,6 +36,7 @@ const USUAL = {
 /** Milliseconds a frame on the main thread, on the budgets' computer. */
 const BUDGET: CpuBudget = { script: 3.1, browser: 2.6, total: 5.7 };
 
+/** The page's memory at one time. */
 interface Memory {
   atS: number;
   pageMb: number;
@@ -46,28 +47,9 @@ export const bench: Bench = {
   name: 'page',
   summary: 'main thread, memory and first picture of the operator’s page',
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        seconds: { type: 'string', default: '60' },
-        fps: { type: 'string', default: USUAL.fps },
-        mbps: { type: 'string', default: USUAL.mbps },
-        'draw-every': { type: 'string', default: USUAL['draw-every'] },
-        surface: { type: 'boolean', default: USUAL.surface },
-        memory: { type: 'boolean', default: USUAL.memory },
-        canvas: { type: 'string', default: USUAL.canvas },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
-    });
-    if (values.help) return console.log(USAGE);
-    const seconds = numberOption('seconds', values.seconds, (WARM_UP_MS + PROFILE_MS) / 1000);
-    const fps = numberOption('fps', values.fps, 1);
-    const mbps = numberOption('mbps', values.mbps, 0.1);
-    const every = numberOption('draw-every', values['draw-every'], 1);
-
-    const load = Object.keys(USUAL) as (keyof typeof USUAL)[];
-    const isUsual = load.every((option) => values[option] === USUAL[option]);
+    const options = readOptions(argv);
+    if (options === null) return;
+    const { fps, mbps, every, values } = options;
     const speedMs = calibrationMs();
     const live = await startLiveStack({
       robot: {
@@ -80,97 +62,152 @@ export const bench: Bench = {
       log: (line) => console.error(line),
     });
     try {
-      const { page, browserPid } = live;
-      const firstPictureMs = await timeFirstPicture(page);
-      const driving = page.evaluate(driveInCircles, { ms: seconds * 1000, forward: 0.4 });
-      const memory: Memory[] = [];
-      const beganMs = performance.now();
-      const noteMemory = async () => {
-        const pageMb = memoryMbOf(browserPid, 'renderer');
-        const heapMb = await page.evaluate(
-          () =>
-            ((performance as never as { memory: { usedJSHeapSize: number } }).memory.usedJSHeapSize ?? 0) /
-            1e6,
-        );
-        if (pageMb !== null)
-          memory.push({
-            atS: (performance.now() - beganMs) / 1000,
-            pageMb,
-            heapMb: Number(heapMb.toFixed(1)),
-          });
-      };
-      await page.waitForTimeout(WARM_UP_MS);
-      const profile = await profileFor(page, PROFILE_MS);
-      console.error(`memory, ${seconds} s`);
-      for (;;) {
-        await noteMemory();
-        const leftMs = seconds * 1000 - (performance.now() - beganMs);
-        if (leftMs < 1000) break;
-        await page.waitForTimeout(1000);
-      }
-      await driving;
-
-      const perFrame = (ms: number) => Number((ms / Math.max(profile.frames, 1)).toFixed(3));
-      // Waiting costs nothing: it takes what the renderer leaves.
-      const { scriptMs, browserMs } = profile.time;
-      const parts = new Map([
-        ['script', perFrame(scriptMs)],
-        ['browser', perFrame(browserMs)],
-      ]);
-      const budget = compareWithBudget(parts, isUsual ? BUDGET : {}, speedMs);
-      const half = memory.slice(memory.length >> 1);
-      const result = {
-        bench: 'page',
-        seconds,
-        surface: values.surface,
-        memory: values.memory,
-        drawnShare: Number((1 / every).toFixed(4)),
-        calibrationMs: speedMs,
-        budget,
-        framesPerSecond: Number(((profile.frames * 1000) / PROFILE_MS).toFixed(1)),
-        pointsPerFrame: Math.round(profile.points / Math.max(profile.frames, 1)),
-        mainThreadMs: perFrame(profile.time.scriptMs),
-        browserMs: perFrame(profile.time.browserMs),
-        waitingMs: perFrame(profile.time.waitingMs),
-        idleShare: Number((profile.time.idleMs / PROFILE_MS).toFixed(3)),
-        firstPictureMs: Math.round(firstPictureMs),
-        rssMbFirst: memory[0]?.pageMb ?? null,
-        rssMbMax: memory.length === 0 ? null : Math.max(...memory.map(({ pageMb }) => pageMb)),
-        rssMbLast: memory.at(-1)?.pageMb ?? null,
-        /** Of the second half, by least squares. */
-        growthMbPerMinute: Number((60 * slopeOf(half.map(({ atS, pageMb }) => [atS, pageMb]))).toFixed(2)),
-        heapMbMax: memory.length === 0 ? null : Math.max(...memory.map(({ heapMb }) => heapMb)),
-      };
-      printTable(
-        ['main thread', 'ms a frame', 'budget'],
-        budget.map(({ name, ms, budgetMs }) => [name, ms, budgetMs]),
-      );
-      const over = budget.filter((row) => row.over);
-      if (over.length > 0) console.log(`over budget: ${over.map(({ name }) => name).join(', ')}`);
-      console.log('');
-      printTable(
-        ['waiting, ms a frame', 'idle', 'frames/s', 'points a frame', 'first picture, ms'],
-        [
-          [
-            result.waitingMs,
-            result.idleShare,
-            result.framesPerSecond,
-            result.pointsPerFrame,
-            result.firstPictureMs,
-          ],
-        ],
-      );
-      console.log('');
-      printTable(
-        ['memory of the page, MB: first', 'max', 'last', 'growth a minute, second half', 'heap, max'],
-        [[result.rssMbFirst, result.rssMbMax, result.rssMbLast, result.growthMbPerMinute, result.heapMbMax]],
-      );
+      const result = figuresOf(options, speedMs, await measure(live, options.seconds));
+      print(result);
       if (values.json) printJson(result);
     } finally {
       await live.close();
     }
   },
 };
+
+type Options = NonNullable<ReturnType<typeof readOptions>>;
+
+/** @returns `null` if only the usage was requested @throws {Error} naming the option */
+function readOptions(argv: string[]) {
+  const { values } = parseArgs({
+    args: argv,
+    options: {
+      seconds: { type: 'string', default: '60' },
+      fps: { type: 'string', default: USUAL.fps },
+      mbps: { type: 'string', default: USUAL.mbps },
+      'draw-every': { type: 'string', default: USUAL['draw-every'] },
+      surface: { type: 'boolean', default: USUAL.surface },
+      memory: { type: 'boolean', default: USUAL.memory },
+      canvas: { type: 'string', default: USUAL.canvas },
+      json: { type: 'boolean' },
+      help: { type: 'boolean' },
+    },
+  });
+  if (values.help) {
+    console.log(USAGE);
+    return null;
+  }
+  const load = Object.keys(USUAL) as (keyof typeof USUAL)[];
+  return {
+    values,
+    seconds: numberOption('seconds', values.seconds, (WARM_UP_MS + PROFILE_MS) / 1000),
+    fps: numberOption('fps', values.fps, 1),
+    mbps: numberOption('mbps', values.mbps, 0.1),
+    /** Draws 1 of so many points. */
+    every: numberOption('draw-every', values['draw-every'], 1),
+    isUsual: load.every((option) => values[option] === USUAL[option]),
+  };
+}
+
+interface Measured {
+  firstPictureMs: number;
+  profile: Profile;
+  memory: Memory[];
+}
+
+/** Drives all the while. */
+async function measure({ page, browserPid }: LiveStack, seconds: number): Promise<Measured> {
+  const firstPictureMs = await timeFirstPicture(page);
+  const driving = page.evaluate(driveInCircles, { ms: seconds * 1000, forward: 0.4 });
+  const memory: Memory[] = [];
+  const beganMs = performance.now();
+  await page.waitForTimeout(WARM_UP_MS);
+  const profile = await profileFor(page, PROFILE_MS);
+  console.error(`memory, ${seconds} s`);
+  for (;;) {
+    const now = await memoryOf(page, browserPid, beganMs);
+    if (now !== null) memory.push(now);
+    const leftMs = seconds * 1000 - (performance.now() - beganMs);
+    if (leftMs < 1000) break;
+    await page.waitForTimeout(1000);
+  }
+  await driving;
+  return { firstPictureMs, profile, memory };
+}
+
+/** @returns `null` without /proc */
+async function memoryOf(page: Page, browserPid: number, beganMs: number): Promise<Memory | null> {
+  const pageMb = memoryMbOf(browserPid, 'renderer');
+  const heapMb = await page.evaluate(
+    () => ((performance as never as { memory: { usedJSHeapSize: number } }).memory.usedJSHeapSize ?? 0) / 1e6,
+  );
+  if (pageMb === null) return null;
+  return { atS: (performance.now() - beganMs) / 1000, pageMb, heapMb: Number(heapMb.toFixed(1)) };
+}
+
+type Figures = ReturnType<typeof figuresOf>;
+
+/** @returns what `--json` prints @param speedMs this computer's, as calibrated */
+function figuresOf(
+  { values, ...options }: Options,
+  speedMs: number,
+  { firstPictureMs, profile, memory }: Measured,
+) {
+  const perFrame = (ms: number) => Number((ms / Math.max(profile.frames, 1)).toFixed(3));
+  // Waiting costs nothing: it takes what the renderer leaves.
+  const { scriptMs, browserMs, waitingMs, idleMs } = profile.time;
+  const parts = new Map([
+    ['script', perFrame(scriptMs)],
+    ['browser', perFrame(browserMs)],
+  ]);
+  const half = memory.slice(memory.length >> 1);
+  return {
+    bench: 'page',
+    seconds: options.seconds,
+    surface: values.surface,
+    memory: values.memory,
+    drawnShare: Number((1 / options.every).toFixed(4)),
+    calibrationMs: speedMs,
+    budget: compareWithBudget(parts, options.isUsual ? BUDGET : {}, speedMs),
+    framesPerSecond: Number(((profile.frames * 1000) / PROFILE_MS).toFixed(1)),
+    pointsPerFrame: Math.round(profile.points / Math.max(profile.frames, 1)),
+    mainThreadMs: perFrame(scriptMs),
+    browserMs: perFrame(browserMs),
+    waitingMs: perFrame(waitingMs),
+    idleShare: Number((idleMs / PROFILE_MS).toFixed(3)),
+    firstPictureMs: Math.round(firstPictureMs),
+    rssMbFirst: memory[0]?.pageMb ?? null,
+    rssMbMax: memory.length === 0 ? null : Math.max(...memory.map(({ pageMb }) => pageMb)),
+    rssMbLast: memory.at(-1)?.pageMb ?? null,
+    /** Of the second half, by least squares. */
+    growthMbPerMinute: Number((60 * slopeOf(half.map(({ atS, pageMb }) => [atS, pageMb]))).toFixed(2)),
+    heapMbMax: memory.length === 0 ? null : Math.max(...memory.map(({ heapMb }) => heapMb)),
+  };
+}
+
+function print(result: Figures): void {
+  const { budget } = result;
+  printTable(
+    ['main thread', 'ms a frame', 'budget'],
+    budget.map(({ name, ms, budgetMs }) => [name, ms, budgetMs]),
+  );
+  const over = budget.filter((row) => row.over);
+  if (over.length > 0) console.log(`over budget: ${over.map(({ name }) => name).join(', ')}`);
+  console.log('');
+  printTable(
+    ['waiting, ms a frame', 'idle', 'frames/s', 'points a frame', 'first picture, ms'],
+    [
+      [
+        result.waitingMs,
+        result.idleShare,
+        result.framesPerSecond,
+        result.pointsPerFrame,
+        result.firstPictureMs,
+      ],
+    ],
+  );
+  console.log('');
+  printTable(
+    ['memory of the page, MB: first', 'max', 'last', 'growth a minute, second half', 'heap, max'],
+    [[result.rssMbFirst, result.rssMbMax, result.rssMbLast, result.growthMbPerMinute, result.heapMbMax]],
+  );
+}
 
 /** Leaves the robot, and times it from choosing it again to its first points. */
 function timeFirstPicture(page: Page): Promise<number> {
@@ -187,6 +224,8 @@ function timeFirstPicture(page: Page): Promise<number> {
     return tookMs;
   });
 }
+
+type Profile = Awaited<ReturnType<typeof profileFor>>;
 
 async function profileFor(page: Page, ms: number) {
   const counts = () =>

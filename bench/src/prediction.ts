@@ -77,68 +77,78 @@ export const bench: Bench = {
     const rounds = Math.round(numberOption('rounds', values.rounds, 2));
     const seed = Math.round(numberOption('seed', values.seed));
     const results = Object.entries(specs(rounds, seed)).map(([link, spec]) => ({ link, ...driveOnce(spec) }));
-    printTable(
-      [
-        'loop',
-        'error p50, cm',
-        'p95',
-        'yaw p50, °',
-        'p95',
-        'first round p95, cm',
-        '°',
-        'first turn p95, °',
-        'without p95, cm',
-        '°',
-        '× less, m',
-        '°',
-        'correction, cm',
-        '°',
-        'input to view, ms',
-      ],
-      results.map((result) => {
-        const { link, predicted, cold, firstTurn, without, ratioM, ratioDeg } = result;
-        const { correctionM, correctionDeg } = result;
-        return [
-          link,
-          predicted.errorM.p50 * 100,
-          predicted.errorM.p95 * 100,
-          predicted.errorDeg.p50,
-          predicted.errorDeg.p95,
-          cold.errorM.p95 * 100,
-          cold.errorDeg.p95,
-          firstTurn.errorDeg.p95,
-          without.errorM.p95 * 100,
-          without.errorDeg.p95,
-          ratioM,
-          ratioDeg,
-          correctionM * 100,
-          correctionDeg,
-          result.inputToViewMs.max,
-        ];
-      }),
-    );
-    const target = results.find(({ spec }) => spec.loopMs === TARGET_LOOP_MS) as (typeof results)[number];
+    print(results);
+    const target = results.find(({ spec }) => spec.loopMs === TARGET_LOOP_MS) as LinkResult;
     console.log(
       `rounds of ${Math.round(ROUND_S)} s; 150 ms ${meetsTargets(target) ? 'meets' : 'MISSES'} its targets`,
     );
-    if (!values.json) return;
-    const { predicted, firstTurn, without, inputToViewMs, correctionM, correctionDeg, ratioM, ratioDeg } =
-      target;
-    printJson({
-      bench: 'prediction',
-      loopMs: TARGET_LOOP_MS,
-      errorM: predicted.errorM,
-      errorDeg: predicted.errorDeg,
-      firstTurnDeg: firstTurn.errorDeg,
-      withoutM: without.errorM,
-      withoutDeg: without.errorDeg,
-      ratioM,
-      ratioDeg,
-      correctionM,
-      correctionDeg,
-      inputToViewMs,
-      ok: meetsTargets(target),
-      rows: results,
-    });
+    if (values.json) printJson({ ...figuresOf(target), rows: results });
   },
 };
+
+interface LinkResult extends DriveResult {
+  link: string;
+}
+
+function print(results: readonly LinkResult[]): void {
+  printTable(
+    [
+      'loop',
+      'error p50, cm',
+      'p95',
+      'yaw p50, °',
+      'p95',
+      'first round p95, cm',
+      '°',
+      'first turn p95, °',
+      'without p95, cm',
+      '°',
+      '× less, m',
+      '°',
+      'correction, cm',
+      '°',
+      'input to view, ms',
+    ],
+    results.map((result) => {
+      const { link, predicted, cold, firstTurn, without, ratioM, ratioDeg } = result;
+      const { correctionM, correctionDeg } = result;
+      return [
+        link,
+        predicted.errorM.p50 * 100,
+        predicted.errorM.p95 * 100,
+        predicted.errorDeg.p50,
+        predicted.errorDeg.p95,
+        cold.errorM.p95 * 100,
+        cold.errorDeg.p95,
+        firstTurn.errorDeg.p95,
+        without.errorM.p95 * 100,
+        without.errorDeg.p95,
+        ratioM,
+        ratioDeg,
+        correctionM * 100,
+        correctionDeg,
+        result.inputToViewMs.max,
+      ];
+    }),
+  );
+}
+
+/** What `--json` prints of the run on the link that has targets. */
+function figuresOf(target: LinkResult) {
+  const { predicted, firstTurn, without } = target;
+  return {
+    bench: 'prediction',
+    loopMs: TARGET_LOOP_MS,
+    errorM: predicted.errorM,
+    errorDeg: predicted.errorDeg,
+    firstTurnDeg: firstTurn.errorDeg,
+    withoutM: without.errorM,
+    withoutDeg: without.errorDeg,
+    ratioM: target.ratioM,
+    ratioDeg: target.ratioDeg,
+    correctionM: target.correctionM,
+    correctionDeg: target.correctionDeg,
+    inputToViewMs: target.inputToViewMs,
+    ok: meetsTargets(target),
+  };
+}

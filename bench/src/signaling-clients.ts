@@ -112,27 +112,47 @@ function sentAt(text: string | undefined): number {
   return Number(text?.slice(text.lastIndexOf(' ') + 1));
 }
 
-async function run(plan: ClientPlan): Promise<void> {
-  const robots: WebSocket[] = [];
-  const operators: WebSocket[] = [];
-  let expected = 0;
-  let received = 0;
-  let finished = (): void => {};
-  const relayed = (type: keyof ClientResult['relayMs'], text: string | undefined, now: number): void => {
-    result.relayMs[type].push(now - sentAt(text));
-    received++;
-    if (received === expected) finished();
-  };
-  const description = (type: string, session: string | undefined) =>
-    JSON.stringify({ type, session, sdp: `${SDP}a=x-sent: ${performance.now()}` });
-  const trickle = (socket: WebSocket, session: string | undefined): void => {
-    for (let i = 0; i < plan.candidates; i++) {
-      const candidate = { candidate: CANDIDATE + performance.now(), sdpMid: '0', sdpMLineIndex: 0 };
-      socket.send(JSON.stringify({ type: 'session.candidate', session, candidate }));
-    }
-  };
+/** Counts the relays of all sessions. */
+class Relays {
+  /** Resolves when all have come, or nobody waits for them any more. */
+  readonly ended: Promise<void>;
+  giveUp = (): void => {};
+  readonly #expected: number;
+  #received = 0;
 
-  const connectRobot = async (index: number): Promise<void> => {
+  constructor({ operators, candidates }: ClientPlan) {
+    this.#expected = operators * (2 + 2 * candidates);
+    this.ended = new Promise((resolve) => {
+      this.giveUp = resolve;
+    });
+  }
+
+  get complete(): boolean {
+    return this.#received === this.#expected;
+  }
+
+  /** @param text contains the time at which it was sent */
+  note(type: keyof ClientResult['relayMs'], text: string | undefined, now: number): void {
+    result.relayMs[type].push(now - sentAt(text));
+    this.#received++;
+    if (this.complete) this.giveUp();
+  }
+}
+
+/** All robots and operators, who answer each other. */
+class Peers {
+  readonly #plan: ClientPlan;
+  readonly #relays: Relays;
+  readonly #robots: WebSocket[] = [];
+  readonly #operators: WebSocket[] = [];
+  readonly #openedAt: number[] = [];
+
+  constructor(plan: ClientPlan, relays: Relays) {
+    this.#plan = plan;
+    this.#relays = relays;
+  }
+
+  async connectRobot(index: number): Promise<void> {
     const hello = {
       type: 'robot.hello',
       protocol: 1,
@@ -140,76 +160,105 @@ async function run(plan: ClientPlan): Promise<void> {
       name: `Robot ${index}`,
       key: `k${index}`,
     };
-    robots[index] = await connect(plan.url, '/robot', hello, ({ type, session, sdp, candidate }, now) => {
-      if (type === 'session.request') {
-        robots[index]!.send(description('session.offer', session));
-        trickle(robots[index]!, session);
-      } else if (type === 'session.answer') relayed(type, sdp, now);
-      else if (type === 'session.candidate') relayed(type, candidate?.candidate, now);
+    const { url } = this.#plan;
+    this.#robots[index] = await connect(url, '/robot', hello, ({ type, session, sdp, candidate }, now) => {
+      if (type === 'session.request') this.#describe(this.#robots[index]!, 'session.offer', session);
+      else if (type === 'session.answer') this.#relays.note(type, sdp, now);
+      else if (type === 'session.candidate') this.#relays.note(type, candidate?.candidate, now);
       else if (!closing) fault(type);
     });
-  };
-  const openedAt: number[] = [];
-  const connectOperator = async (index: number): Promise<void> => {
+  }
+
+  async connectOperator(index: number): Promise<void> {
     const hello = { type: 'operator.hello', protocol: 1, name: `Operator ${index}` };
-    operators[index] = await connect(
-      plan.url,
+    const { url } = this.#plan;
+    this.#operators[index] = await connect(
+      url,
       '/operator',
       hello,
       ({ type, session, sdp, candidate }, now) => {
-        if (type === 'session.opened') result.openMs.push(now - openedAt[index]!);
+        if (type === 'session.opened') result.openMs.push(now - this.#openedAt[index]!);
         else if (type === 'session.offer') {
-          relayed(type, sdp, now);
-          operators[index]!.send(description('session.answer', session));
-          trickle(operators[index]!, session);
-        } else if (type === 'session.candidate') relayed(type, candidate?.candidate, now);
+          this.#relays.note(type, sdp, now);
+          this.#describe(this.#operators[index]!, 'session.answer', session);
+        } else if (type === 'session.candidate') this.#relays.note(type, candidate?.candidate, now);
         else if (!closing) fault(type);
       },
     );
-  };
-  await inParallel(plan.robots, connectRobot);
-  await inParallel(plan.operators, connectOperator);
+  }
+
+  /** Opens a session of an operator. */
+  open(index: number): void {
+    this.#openedAt[index] = performance.now();
+    const robotId = `robot-${index % this.#plan.robots}`;
+    this.#operators[index]!.send(JSON.stringify({ type: 'session.open', robotId }));
+  }
+
+  closeRobot(index: number): void {
+    leaving.add(this.#robots[index]!);
+    this.#robots[index]!.close();
+  }
+
+  terminate(): void {
+    for (const socket of [...this.#robots, ...this.#operators]) socket?.terminate();
+  }
+
+  /** Sends a description, and then the candidates. */
+  #describe(socket: WebSocket, type: string, session: string | undefined): void {
+    socket.send(JSON.stringify({ type, session, sdp: `${SDP}a=x-sent: ${performance.now()}` }));
+    for (let i = 0; i < this.#plan.candidates; i++) {
+      const candidate = { candidate: CANDIDATE + performance.now(), sdpMid: '0', sdpMLineIndex: 0 };
+      socket.send(JSON.stringify({ type: 'session.candidate', session, candidate }));
+    }
+  }
+}
+
+async function run(plan: ClientPlan): Promise<void> {
+  const relays = new Relays(plan);
+  const peers = new Peers(plan, relays);
+  await inParallel(plan.robots, (index) => peers.connectRobot(index));
+  await inParallel(plan.operators, (index) => peers.connectOperator(index));
   await tellParent('connected');
 
-  expected = plan.operators * (2 + 2 * plan.candidates);
-  const all = new Promise<void>((resolve) => {
-    finished = resolve;
-  });
   const timer = setTimeout(() => {
     fault('not everything was relayed in time');
-    finished();
+    relays.giveUp();
   }, PHASE_TIMEOUT_MS);
-  let churned = 0;
-  const churn =
-    plan.churn === 0
-      ? null
-      : setInterval(() => {
-          const index = plan.robots + (churned++ % 8);
-          void connectRobot(index)
-            .then(() => {
-              leaving.add(robots[index]!);
-              robots[index]!.close();
-            })
-            .catch(() => {});
-        }, 1000 / plan.churn);
+  const churn = startChurn(peers, plan);
   const delay = monitorEventLoopDelay({ resolution: 1 });
   delay.enable();
-  const begin = performance.now();
-  for (let index = 0; index < plan.operators; index++) {
-    const wait = begin + (index * 1000) / plan.rate - performance.now();
-    if (wait > 1) await new Promise((resolve) => setTimeout(resolve, wait));
-    openedAt[index] = performance.now();
-    operators[index]!.send(JSON.stringify({ type: 'session.open', robotId: `robot-${index % plan.robots}` }));
-  }
-  await all;
+  await openSessions(peers, plan);
+  await relays.ended;
   clearTimeout(timer);
   delay.disable();
   result.lateMsP99 = delay.percentile(99) / 1e6;
   if (churn !== null) clearInterval(churn);
-  if (received !== expected) fault('relays missing');
+  if (!relays.complete) fault('relays missing');
   await tellParent('done');
   closing = true;
-  for (const socket of [...robots, ...operators]) socket?.terminate();
+  peers.terminate();
+}
+
+/** Lets robots that are in no session come and go. */
+function startChurn(peers: Peers, { robots, churn }: ClientPlan): NodeJS.Timeout | null {
+  if (churn === 0) return null;
+  let churned = 0;
+  return setInterval(() => {
+    const index = robots + (churned++ % 8);
+    void peers
+      .connectRobot(index)
+      .then(() => peers.closeRobot(index))
+      .catch(() => {});
+  }, 1000 / churn);
+}
+
+async function openSessions(peers: Peers, { operators, rate }: ClientPlan): Promise<void> {
+  const begin = performance.now();
+  for (let index = 0; index < operators; index++) {
+    const wait = begin + (index * 1000) / rate - performance.now();
+    if (wait > 1) await new Promise((resolve) => setTimeout(resolve, wait));
+    peers.open(index);
+  }
 }
 
 /** Runs `count` tasks, at most {@link CONNECTING_AT_ONCE} at a time. */

@@ -20,133 +20,181 @@ export const bench: Bench = {
   name: 'signaling',
   summary: 'relay latency and memory of the signaling service under many robots and operators',
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        robots: { type: 'string', default: '2000' },
-        operators: { type: 'string', default: '2000' },
-        rate: { type: 'string', default: '100' },
-        candidates: { type: 'string', default: '5' },
-        churn: { type: 'string', default: '1' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
-    });
-    if (values.help) return console.log(USAGE);
-    const robots = numberOption('robots', values.robots, 1);
-    const operators = numberOption('operators', values.operators, 1);
+    const options = readOptions(argv);
+    if (options === null) return;
     const [port] = (await freePorts(1)) as [number];
-    const plan: ClientPlan = {
-      url: `ws://127.0.0.1:${port}`,
-      robots,
-      operators,
-      rate: numberOption('rate', values.rate, 0.1),
-      candidates: numberOption('candidates', values.candidates, 0),
-      churn: numberOption('churn', values.churn, 0),
-    };
-    const connections = robots + operators;
-    const service = await ManagedProcess.start({
-      name: 'signaling',
-      command: [
-        'node',
-        'apps/signaling/src/main.ts',
-        '--no-reference',
-        '--log-level',
-        'warn',
-        '--host',
-        '127.0.0.1',
-        '--port',
-        String(port),
-        '--public-metrics',
-        '--max-connections',
-        String(connections + 64),
-        '--max-connections-per-address',
-        String(connections + 64),
-        // All of the bench's operators come from here.
-        '--relay-bytes-per-second',
-        '1000000000',
-        '--relay-messages-per-second',
-        '1000000',
-        // Several operators may share a robot.
-        '--max-sessions-per-robot',
-        String(Math.ceil(operators / robots)),
-      ],
-      cwd: repositoryRoot,
-      readyUrl: `http://127.0.0.1:${port}/healthz`,
-    });
+    const plan: ClientPlan = { url: `ws://127.0.0.1:${port}`, ...options.load };
+    const service = await startService(port, plan);
     let clients: Clients | null = null;
     try {
       const metrics = () => readMetrics(`http://127.0.0.1:${port}/metrics`);
       const idle = await metrics();
       clients = new Clients(plan);
-      await clients.reached('connected');
-      const connected = await metrics();
-      clients.proceed();
-      const begin = performance.now();
-      await clients.reached('done');
-      const seconds = (performance.now() - begin) / 1000;
-      const done = await metrics();
-      clients.proceed();
-      const result = await clients.result;
-
-      const all = Object.values(result.relayMs).flat();
-      const relayMs = rounded(distribution(all));
-      const connectMs = rounded(distribution(result.connectMs));
-      const openMs = rounded(distribution(result.openMs));
-      const byType = Object.entries(result.relayMs).map(
-        ([type, ms]) => [type, rounded(distribution(ms)), ms.length] as const,
-      );
-      const bytesPerConnection = Math.round((connected.residentBytes - idle.residentBytes) / connections);
-      const serviceCpu = (done.cpuSeconds - connected.cpuSeconds) / seconds;
-      const errors = Object.values(result.errors).reduce((sum, count) => sum + count, 0);
-
-      console.log(
-        `${robots} robots, ${operators} operators, ${all.length} relays in ${seconds.toFixed(1)} s`,
-      );
-      printTable(
-        ['ms', 'p50', 'p95', 'p99', 'max'],
-        [
-          ['connect', ...distributionCells(connectMs)],
-          ['session.open', ...distributionCells(openMs)],
-          ...byType.map(([type, ms]) => [type, ...distributionCells(ms)]),
-          ['all relays', ...distributionCells(relayMs)],
-        ],
-      );
-      console.log(
-        `${bytesPerConnection} bytes a connection, ${serviceCpu.toFixed(2)} cores, ` +
-          `${result.lists} lists (${result.listMegabytes.toFixed(0)} MB), ${errors} errors; ` +
-          `timers late (p99): service ${done.loopDelayMs.toFixed(1)} ms, clients ${result.lateMsP99.toFixed(1)} ms`,
-      );
-      for (const [what, count] of Object.entries(result.errors)) console.log(`  ${count} × ${what}`);
-      if (values.json) {
-        printJson({
-          bench: 'signaling',
-          robots,
-          operators,
-          rate: plan.rate,
-          candidates: plan.candidates,
-          churn: plan.churn,
-          relays: all.length,
-          seconds,
-          relayMs,
-          relayMsByType: Object.fromEntries(byType.map(([type, ms]) => [type, ms])),
-          connectMs,
-          openMs,
-          bytesPerConnection,
-          residentBytes: done.residentBytes,
-          serviceCpu,
-          lateMsP99: { service: done.loopDelayMs, clients: result.lateMsP99 },
-          lists: result.lists,
-          listMegabytes: result.listMegabytes,
-          errors,
-        });
-      }
+      const figures = figuresOf(plan, await measure(clients, idle, metrics));
+      print(plan, figures);
+      if (options.json) printJson(jsonOf(plan, figures));
     } finally {
       clients?.kill();
       await service.stop();
     }
   },
 };
+
+interface Options {
+  load: Omit<ClientPlan, 'url'>;
+  json: boolean | undefined;
+}
+
+/** @returns `null` if only the usage was requested @throws {Error} naming the option */
+function readOptions(argv: string[]): Options | null {
+  const { values } = parseArgs({
+    args: argv,
+    options: {
+      robots: { type: 'string', default: '2000' },
+      operators: { type: 'string', default: '2000' },
+      rate: { type: 'string', default: '100' },
+      candidates: { type: 'string', default: '5' },
+      churn: { type: 'string', default: '1' },
+      json: { type: 'boolean' },
+      help: { type: 'boolean' },
+    },
+  });
+  if (values.help) {
+    console.log(USAGE);
+    return null;
+  }
+  const load = {
+    robots: numberOption('robots', values.robots, 1),
+    operators: numberOption('operators', values.operators, 1),
+    rate: numberOption('rate', values.rate, 0.1),
+    candidates: numberOption('candidates', values.candidates, 0),
+    churn: numberOption('churn', values.churn, 0),
+  };
+  return { load, json: values.json };
+}
+
+function startService(port: number, { robots, operators }: ClientPlan): Promise<ManagedProcess> {
+  const connections = String(robots + operators + 64);
+  return ManagedProcess.start({
+    name: 'signaling',
+    command: [
+      'node',
+      'apps/signaling/src/main.ts',
+      '--no-reference',
+      '--log-level',
+      'warn',
+      '--host',
+      '127.0.0.1',
+      '--port',
+      String(port),
+      '--public-metrics',
+      '--max-connections',
+      connections,
+      '--max-connections-per-address',
+      connections,
+      // All of the bench's operators come from here.
+      '--relay-bytes-per-second',
+      '1000000000',
+      '--relay-messages-per-second',
+      '1000000',
+      // Several operators may share a robot.
+      '--max-sessions-per-robot',
+      String(Math.ceil(operators / robots)),
+    ],
+    cwd: repositoryRoot,
+    readyUrl: `http://127.0.0.1:${port}/healthz`,
+  });
+}
+
+interface Measured {
+  /** The service before anyone connected, with all connected, and at the end. */
+  idle: Metrics;
+  connected: Metrics;
+  done: Metrics;
+  /** In which sessions were set up. */
+  seconds: number;
+  result: ClientResult;
+}
+
+async function measure(clients: Clients, idle: Metrics, metrics: () => Promise<Metrics>): Promise<Measured> {
+  await clients.reached('connected');
+  const connected = await metrics();
+  clients.proceed();
+  const begin = performance.now();
+  await clients.reached('done');
+  const seconds = (performance.now() - begin) / 1000;
+  const done = await metrics();
+  clients.proceed();
+  return { idle, connected, done, seconds, result: await clients.result };
+}
+
+type Figures = ReturnType<typeof figuresOf>;
+
+function figuresOf({ robots, operators }: ClientPlan, { idle, connected, done, seconds, result }: Measured) {
+  const all = Object.values(result.relayMs).flat();
+  return {
+    seconds,
+    done,
+    result,
+    relays: all.length,
+    relayMs: rounded(distribution(all)),
+    relayMsByType: Object.fromEntries(
+      Object.entries(result.relayMs).map(([type, ms]) => [type, rounded(distribution(ms))]),
+    ),
+    connectMs: rounded(distribution(result.connectMs)),
+    openMs: rounded(distribution(result.openMs)),
+    bytesPerConnection: Math.round((connected.residentBytes - idle.residentBytes) / (robots + operators)),
+    serviceCpu: (done.cpuSeconds - connected.cpuSeconds) / seconds,
+    errors: Object.values(result.errors).reduce((sum, count) => sum + count, 0),
+  };
+}
+
+function print({ robots, operators }: ClientPlan, figures: Figures): void {
+  const { result, done } = figures;
+  console.log(
+    `${robots} robots, ${operators} operators, ${figures.relays} relays in ${figures.seconds.toFixed(1)} s`,
+  );
+  printTable(
+    ['ms', 'p50', 'p95', 'p99', 'max'],
+    [
+      ['connect', ...distributionCells(figures.connectMs)],
+      ['session.open', ...distributionCells(figures.openMs)],
+      ...Object.entries(figures.relayMsByType).map(([type, ms]) => [type, ...distributionCells(ms)]),
+      ['all relays', ...distributionCells(figures.relayMs)],
+    ],
+  );
+  console.log(
+    `${figures.bytesPerConnection} bytes a connection, ${figures.serviceCpu.toFixed(2)} cores, ` +
+      `${result.lists} lists (${result.listMegabytes.toFixed(0)} MB), ${figures.errors} errors; ` +
+      `timers late (p99): service ${done.loopDelayMs.toFixed(1)} ms, clients ${result.lateMsP99.toFixed(1)} ms`,
+  );
+  for (const [what, count] of Object.entries(result.errors)) console.log(`  ${count} × ${what}`);
+}
+
+function jsonOf(plan: ClientPlan, figures: Figures) {
+  const { result, done } = figures;
+  return {
+    bench: 'signaling',
+    robots: plan.robots,
+    operators: plan.operators,
+    rate: plan.rate,
+    candidates: plan.candidates,
+    churn: plan.churn,
+    relays: figures.relays,
+    seconds: figures.seconds,
+    relayMs: figures.relayMs,
+    relayMsByType: figures.relayMsByType,
+    connectMs: figures.connectMs,
+    openMs: figures.openMs,
+    bytesPerConnection: figures.bytesPerConnection,
+    residentBytes: done.residentBytes,
+    serviceCpu: figures.serviceCpu,
+    lateMsP99: { service: done.loopDelayMs, clients: result.lateMsP99 },
+    lists: result.lists,
+    listMegabytes: result.listMegabytes,
+    errors: figures.errors,
+  };
+}
 
 /** The clients' process. */
 class Clients {
@@ -189,9 +237,14 @@ class Clients {
   }
 }
 
-async function readMetrics(
-  url: string,
-): Promise<{ residentBytes: number; cpuSeconds: number; loopDelayMs: number }> {
+/** Of the service's process. */
+interface Metrics {
+  residentBytes: number;
+  cpuSeconds: number;
+  loopDelayMs: number;
+}
+
+async function readMetrics(url: string): Promise<Metrics> {
   const text = await (await fetch(url)).text();
   const value = (name: string): number => {
     const found = new RegExp(`^${name} (\\S+)$`, 'm').exec(text);
