@@ -17,7 +17,7 @@ export interface MeasuredMotion {
 }
 
 /** Odometry may say that the robot is by so much faster than it is allowed to be. */
-const FASTER = 1.5;
+export const ODOMETRY_OVERSPEED = 1.5;
 /** Farther than its speed explains, a pose has jumped: metres, radians. */
 const JUMP_M = 0.1;
 const JUMP_RAD = 0.1;
@@ -140,7 +140,10 @@ export class Odometry {
     const { maxLinear, maxAngular } = this.#limits;
     const gone = Math.hypot(to.x - pose.x, to.y - pose.y);
     const turned = Math.abs(shortestTurn(to.yaw - pose.yaw));
-    return gone > maxLinear * FASTER * seconds + JUMP_M || turned > maxAngular * FASTER * seconds + JUMP_RAD;
+    return (
+      gone > maxLinear * ODOMETRY_OVERSPEED * seconds + JUMP_M ||
+      turned > maxAngular * ODOMETRY_OVERSPEED * seconds + JUMP_RAD
+    );
   }
 
   #estimated(pose: Readonly<FloorPose>, atMs: number): Twist | null {

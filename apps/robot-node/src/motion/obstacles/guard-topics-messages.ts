@@ -5,7 +5,7 @@ import type { GraphOptions } from '../../ground/ros/open-graph.ts';
 import type { ScanGuardOptions } from '../../sense/obstacles/scan-guard.ts';
 import type { FrameTopics } from '../../sense/obstacles/sensor-frames.ts';
 import type { SensorMount } from '../../sense/sources/sensor-mount.ts';
-import { saysStop } from '../stops/bool-message.ts';
+import { ENCAPSULATION_BYTES, saysStop } from '../stops/bool-message.ts';
 
 /** A laser scanner's topic, and where the scanner's frame sits in base_link. */
 export interface GuardScan {
@@ -57,8 +57,6 @@ export type GuardTopicsReport =
 export const COLLISION_TYPES = { bool: 'std_msgs/msg/Bool', speed: 'std_msgs/msg/Float32' } as const;
 export type CollisionType = keyof typeof COLLISION_TYPES;
 
-/** Bytes of CDR's encapsulation before a ROS 2 message. */
-const ENCAPSULATION_BYTES = 4;
 const FLOAT_BYTES = 4;
 
 /**

@@ -1,14 +1,11 @@
 /** The robot's way back without operators: feeds it, and tells everybody what it does. */
 import type { DriveLimits, ReturnEnd, ReturnState } from '@farpoint/protocol';
-import { type Lookout, ReturnDrive, type ReturnPhase } from '@farpoint/safety';
+import { type Lookout, ODOMETRY_OVERSPEED, ReturnDrive, type ReturnPhase } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import { ReasonCounts } from '../../ground/robot-counters.ts';
 import type { BaseOdometry } from '../../sense/base/base-odometry.ts';
 import type { ReturnConfiguration } from './return-announcer.ts';
 import { ReturnAnnouncer } from './return-announcer.ts';
-
-/** Odometry may say that the robot is by so much faster than it is allowed to be. */
-const FASTER = 1.5;
 
 /** What the audit log records of it. */
 export interface ReturnAudit {
@@ -41,7 +38,7 @@ export class ReturnStation {
     const { maxLinear, maxAngular } = parts.limits;
     this.#configuration = configuration;
     this.#parts = parts;
-    const most = { mostMps: maxLinear * FASTER, mostRadps: maxAngular * FASTER };
+    const most = { mostMps: maxLinear * ODOMETRY_OVERSPEED, mostRadps: maxAngular * ODOMETRY_OVERSPEED };
     this.drive = new ReturnDrive(configuration.options, most, parts.lookout);
     const { topic } = configuration;
     this.#announcer = topic === null ? null : new ReturnAnnouncer(topic, parts.log);

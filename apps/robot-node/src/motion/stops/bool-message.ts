@@ -1,5 +1,5 @@
 /** Bytes of CDR's encapsulation before a ROS 2 message. */
-const ENCAPSULATION_BYTES = 4;
+export const ENCAPSULATION_BYTES = 4;
 
 /** What a serialised std_msgs/Bool says. Everything but a well-formed false is a stop. */
 export function saysStop(version: 1 | 2, bytes: Uint8Array): boolean {
