@@ -2,18 +2,93 @@
 import type { RobotClient } from '@farpoint/operator';
 import { computed, effect, type ReadonlySignal, untracked } from '@preact/signals-core';
 import type { Settings } from '../ground/settings.ts';
+import type { Switches } from '../ground/switches.ts';
 import { giveCues } from '../panels/cues/cues.ts';
 import type { OperatorInputs } from '../panels/ui/operator-inputs.ts';
+import type { RememberedWorld } from '../panels/ui/remembered-world.ts';
+import type { SensorClouds } from '../scene/view/sensor-clouds.ts';
+import { SensorFrusta } from '../scene/view/sensor-frusta.ts';
+import { showHazards } from '../scene/view/show-hazards.ts';
 import type { Stage } from '../scene/view/stage.ts';
+import { showPicturesInVr } from '../scene/view/vr-pictures.ts';
 import type { VrSession } from '../scene/view/vr-session.ts';
-import type { CloudAppearance } from '../state/cloud-appearance.ts';
+import { WristPanel } from '../scene/view/wrist-panel.ts';
+import { showOnWrist } from '../scene/view/wrist-status.ts';
+import { type CloudAppearance, UNNAMED } from '../state/cloud-appearance.ts';
 import type { PageState } from '../state/page-state.ts';
 import { tellNotices } from '../state/tell-notices.ts';
 import type { PageStatistics } from '../words/page-stats.ts';
-import { applyAppearance } from './apply-appearance.ts';
-import { openHeadset } from './open-headset.ts';
+import { HeadsetControls, type HeadsetParts } from './headset-controls.ts';
 import type { PagePanels } from './page-panels.ts';
 import type { PageViews } from './page-views.ts';
+
+export interface AppearanceParts {
+  readonly appearance: CloudAppearance;
+  readonly sensors: Switches;
+  /** What the robot says about each sensor's rings, by the sensor's number. */
+  readonly rings: ReadonlySignal<ReadonlyMap<number, readonly number[]>>;
+  readonly clouds: SensorClouds;
+  readonly stage: Pick<Stage, 'look' | 'headingUp' | 'world'>;
+  readonly inVr: ReadonlySignal<boolean>;
+  /** Whether the headset shows the world as a model, seen from above. */
+  readonly inTabletop: ReadonlySignal<boolean>;
+  readonly client: Pick<RobotClient, 'drawSurface' | 'on' | 'link'>;
+  readonly remembered: Pick<RememberedWorld, 'on' | 'headingUp'>;
+}
+
+/** Applies what people have chosen about clouds to what draws them. */
+function applyAppearance(parts: AppearanceParts): void {
+  const { appearance, sensors, rings, clouds, stage, inVr, inTabletop, client, remembered } = parts;
+  effect(() => client.drawSurface(appearance.drawsSurface.value));
+  effect(() => {
+    remembered.on = appearance.remembers.value;
+  });
+  const { fromAbove, headingUp, cut, cutFromAbove } = appearance;
+  effect(() => {
+    for (const [i, { colouring }] of clouds.all.value.entries()) {
+      const { mode, fixed } = appearance.lookOf(sensors.all.value[i]?.name ?? UNNAMED);
+      colouring.mode = mode;
+      colouring.fixedRange = fixed;
+      colouring.knownRings = rings.value.get(i) ?? null;
+    }
+  });
+  effect(() => {
+    const isFromAbove = inVr.value ? inTabletop.value : fromAbove.value;
+    const inUse = isFromAbove ? cutFromAbove.value : cut.value;
+    for (const { colouring } of clouds.all.value) colouring.cut = inUse;
+  });
+  showHazards({ client, clouds, appearance });
+  const frusta = new SensorFrusta();
+  stage.world.add(frusta.object);
+  effect(() => {
+    const shown = clouds.all.value.filter((_, i) => sensors.all.value[i]?.on.value ?? true);
+    frusta.show(appearance.frusta.value ? shown : []);
+  });
+  effect(() => {
+    stage.look.fromAbove = fromAbove.value;
+    stage.headingUp = headingUp.value;
+    remembered.headingUp = headingUp.value;
+  });
+}
+
+export interface HeadsetOptions extends Omit<HeadsetParts, 'pointer' | 'state' | 'stage'> {
+  state: PageState;
+  appearance: Pick<CloudAppearance, 'hazards'>;
+  stage: Stage;
+  /** How far the hold is that releases the emergency stop, 0…1. */
+  releaseProgress: ReadonlySignal<number>;
+}
+
+/** What a headset shows and reads: the panel on the wrist, pictures, and the controllers. */
+function openHeadset(options: HeadsetOptions): { panel: WristPanel; controls: HeadsetControls } {
+  const { settings, state, appearance, stage, vr, releaseProgress } = options;
+  const { renderer, rig, headset } = stage;
+  const { driveHand } = settings;
+  const panel = new WristPanel(renderer, rig, headset.front, driveHand === 'right' ? 'left' : 'right');
+  showOnWrist({ state, appearance, panel, headset, driveHand, active: vr.active, releaseProgress });
+  const pointer = showPicturesInVr({ state, panel, stage, active: vr.active });
+  return { panel, controls: new HeadsetControls({ ...options, pointer }) };
+}
 
 export interface ShownParts {
   readonly client: RobotClient;

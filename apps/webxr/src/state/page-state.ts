@@ -12,7 +12,7 @@ import type { Settings } from '../ground/settings.ts';
 import { Switches } from '../ground/switches.ts';
 import { VideoViews } from '../take/video/video-views.ts';
 import type { PageStats } from '../words/page-stats.ts';
-import { type DrivingState, drivingState } from './driving-state.ts';
+import { holderWords } from '../words/words.ts';
 import { Enlarged } from './enlarged.ts';
 import { LinkPriority } from './link-priority.ts';
 import { type LinkState, linkState } from './link-state.ts';
@@ -21,6 +21,32 @@ import { type RobotState, robotState } from './robot-state.ts';
 import { Sampler } from './sampler.ts';
 import { SoundState } from './sound-state.ts';
 import { Staged } from './staged.ts';
+
+export type DrivingState = ReturnType<typeof drivingState>;
+
+/** Who drives the robot, and what this operator may do. */
+function drivingState({ driver, link }: RobotClient, samples: Sampler) {
+  const holder = samples.of(() => driver.holder);
+  const role = samples.of(() => link.session.welcome?.access?.role ?? null);
+  return {
+    holder,
+    /** By this operator's grant; `null` if the robot asks for none. */
+    role,
+    /** Whether this operator may take the lease from another. */
+    mayTake: computed(() => holder.value === 'other' && role.value !== 'watch'),
+    /** Who drives, in a few words. */
+    line: samples.of(() =>
+      holderWords({
+        holder: driver.holder,
+        driver: link.session.lease.driver ?? null,
+        role: link.session.welcome?.access?.role ?? null,
+        device: driver.stream.held ? (driver.input?.name ?? '') : null,
+        gripLost: driver.lost,
+        paused: driver.paused,
+      }),
+    ),
+  };
+}
 
 /**
  * Events that take a sample at once, so that people see the new state. Otherwise samples are taken a few times a

@@ -1,8 +1,7 @@
 import type { RobotStopState } from '@farpoint/safety';
 import { makeGuard } from '@farpoint/safety/testing';
 import { afterEach, describe, expect, test, vi } from 'vitest';
-import { RobotStops } from './robot-stops.ts';
-import { stopReading } from './stop-reading.ts';
+import { RobotStops, stopReading } from './robot-stops.ts';
 import type { StopSource } from './stop-source.ts';
 
 class Source implements StopSource {

@@ -5,8 +5,7 @@ import { useFolder } from '@farpoint/service/testing/folder';
 import { describe, expect, it } from 'vitest';
 import { robotProgram } from '../options/robot-program.ts';
 import { SOURCE_KINDS } from '../options/source.ts';
-import { init } from './init.ts';
-import { robotTemplate } from './robot-template.ts';
+import { init, robotTemplate } from './init.ts';
 
 const folder = useFolder();
 

@@ -4,7 +4,7 @@ import { useFolder } from '@farpoint/service/testing/folder';
 import { isAvailable, ReferenceControlWriter, StopBlockWriter } from '@farpoint/shared-memory';
 import { describe, expect, it } from 'vitest';
 import { checkSharedMemory } from './check-files.ts';
-import { checkUdpPorts } from './check-network.ts';
+import { checkUdpPorts } from './check-ice.ts';
 import { checkStops } from './check-stops.ts';
 
 const folder = useFolder();

@@ -10,9 +10,8 @@ import { checkAudit } from './check-audit.ts';
 import { checkMonotonicClock, checkTimeOfDay, type ServerTime } from './check-clock.ts';
 import type { Configuration } from './check-configuration.ts';
 import { checkRecording, checkSharedMemory, checkState } from './check-files.ts';
-import { judgeIce } from './check-ice.ts';
+import { checkAddresses, checkUdpPorts, judgeIce } from './check-ice.ts';
 import { checkMemory, checkNode, checkSocketBuffers } from './check-machine.ts';
-import { checkAddresses, checkUdpPorts } from './check-network.ts';
 import { checkProcessor, judgeCodec, timeCodec } from './check-processor.ts';
 import { judgeSignaling } from './check-signaling.ts';
 import { judgeSound } from './check-sound.ts';
@@ -23,12 +22,11 @@ import { judgeVideo } from './check-video.ts';
 import { type Check, type Result, warn } from './finding.ts';
 import type { Host } from './host.ts';
 import { iceTargets, probeIce } from './ice-probe.ts';
+import { timeEncoders, trySound } from './media-trial.ts';
 import { checkRos, graphsOf } from './ros-probe.ts';
 import { findRunningRobot, judgeRunning, type RunningRobot } from './running-robot.ts';
 import { askTime, probeSignaling } from './signaling-probe.ts';
-import { trySound } from './sound-trial.ts';
 import { trySource } from './source-trial.ts';
-import { timeEncoders } from './video-trial.ts';
 
 /** How long the doctor waits for others, ms. */
 export interface DoctorTimes {

@@ -11,28 +11,23 @@ import { accessOptions } from './access.ts';
 import { alarmsOptions } from './alarms.ts';
 import { broadcastOptions } from './broadcast.ts';
 import { fenceOptions } from './fence.ts';
-import { foxgloveOptions } from './foxglove.ts';
 import { guardOptions } from './guard.ts';
 import { guardTopicsOptions } from './guard-topics.ts';
-import { identityOptions, modelOptions } from './identity.ts';
 import { limitsOptions } from './limits.ts';
 import { motionOptions } from './motion.ts';
 import { networkOptions } from './network.ts';
-import { picturesOptions } from './pictures.ts';
 import { playbackOptions } from './playback.ts';
-import { measurementOptions, recordingOptions } from './recording.ts';
+import { foxgloveOptions, measurementOptions, recordingOptions } from './recording.ts';
 import { returnOptions } from './return.ts';
 import { rosOptions, topicsOptions } from './ros.ts';
-import { shmOptions } from './shm.ts';
-import { signalingOptions } from './signaling.ts';
+import { identityOptions, modelOptions, signalingOptions } from './signaling.ts';
 import { simOptions } from './sim.ts';
 import { sinkOptions } from './sink.ts';
-import { soundOptions } from './sound.ts';
-import { sourceOptions } from './source.ts';
+import { shmOptions, sourceOptions } from './source.ts';
 import { auditOptions, stateOptions } from './state.ts';
 import { stopsOptions } from './stops.ts';
-import { streamOptions } from './stream.ts';
-import { videosOptions } from './videos.ts';
+import { picturesOptions, streamOptions } from './stream.ts';
+import { soundOptions, videosOptions } from './videos.ts';
 
 /** By what they are for: the headings of `--help all`. */
 const groups = {

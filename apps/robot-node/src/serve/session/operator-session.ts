@@ -1,6 +1,8 @@
 import type { Sound, StageTimings, StreamStatus } from '@farpoint/protocol';
+import type { PathBudget } from '../../send/budgets/path-budget.ts';
 import { FrameReceiver } from '../../send/clouds/frame-receiver.ts';
 import { droppedFrames, StreamMeter } from '../../send/clouds/stream-meter.ts';
+import type { WantedClouds } from '../../send/clouds/wanted-clouds.ts';
 import { PictureSender } from '../../send/pictures/picture-sender.ts';
 import { OperatorSound } from '../../send/sound/operator-sound.ts';
 import type { AnswerVerdict } from '../../send/transport/answer-gate.ts';
@@ -20,9 +22,54 @@ import type { VideoFrame } from '../../sense/video/video-frame.ts';
 import { type LatencyTest, LatencyTests } from './latency-tests.ts';
 import { OperatorMessages, type SessionHost } from './operator-messages.ts';
 import type { OperatorSessionEvents, OperatorSessionOptions } from './operator-session-options.ts';
+import type { WishesListener } from './operator-wishes.ts';
 import { RestartPolicy } from './restart-policy.ts';
 import { ResumeKey } from './resume-key.ts';
-import { wishesListener } from './wishes-listener.ts';
+
+export interface WishedParts {
+  clouds: WantedClouds;
+  videos: OperatorVideos;
+  pictures: PictureSender;
+  sound: OperatorSound;
+  budget: PathBudget;
+  /** Discards what is waiting to be sent. */
+  clear(): void;
+  budgets: OperatorSessionOptions['budgets'];
+  events: Pick<OperatorSessionEvents, 'onCloudFormats'>;
+}
+
+/** Hands what an operator wants of the streams to the session's parts. */
+function wishesListener(parts: WishedParts): WishesListener {
+  const { clouds, videos, pictures, sound, budget, budgets, events } = parts;
+  /** The operator's part of the path changes, or what it makes of it. */
+  const budgeted =
+    <Wish extends unknown[]>(take: (...wish: Wish) => void) =>
+    (...wish: Wish): void => {
+      take(...wish);
+      budgets.update();
+    };
+  return {
+    switchStream: budgeted((running) => {
+      if (!running) parts.clear();
+    }),
+    wantSensors: budgeted((sensors) => {
+      clouds.sensors = new Set(sensors);
+      events.onCloudFormats();
+    }),
+    readFormats: budgeted((formats) => {
+      clouds.formats = new Set(formats);
+      events.onCloudFormats();
+    }),
+    fitDisplay: budgeted(({ framesPerSecond, points }) => {
+      clouds.pace.display = { framesPerSecond, points };
+    }),
+    wantVideos: budgeted((wanted, barcode) => videos.want(wanted, barcode)),
+    weigh: budgeted((shares) => budget.weigh(shares)),
+    watchCameras: (cameras) => pictures.watch(cameras),
+    listen: (on) => sound.listen(on),
+    speak: (held) => sound.speak(held),
+  };
+}
 
 /** A page tells the capture time of a video's picture from its clock and the network's, ms. */
 const VIDEO_EXACT_MS = 50;

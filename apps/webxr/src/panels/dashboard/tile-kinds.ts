@@ -1,14 +1,102 @@
 /** The tiles that there are: the fixed ones, and a curve for each number that is recorded over time. */
-import type { RobotSession } from '@farpoint/operator';
+import type { ReportedComponents, RobotSession } from '@farpoint/operator';
+import { diagnosticLevels } from '@farpoint/protocol';
 import type { MapTiles } from '../../ground/telemetry/map-tiles.ts';
 import { OWN, type TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
+import { shownReading } from '../../words/shown-readings.ts';
 import { ChartTile } from './chart-tile.ts';
-import { diagnosticsTile } from './diagnostics-tile.ts';
 import type { PlacedTile } from './layout.ts';
 import { MapTile } from './map-tile.ts';
-import type { Tile } from './tile.ts';
-import { topicsTile } from './topics-tile.ts';
+import { ageText } from './number-words.ts';
+import { part, setText, type Tile } from './tile.ts';
 import { ownValues, valueTile } from './value-tile.ts';
+
+const DIAGNOSTICS_EVERY_MS = 500;
+/** After this long without a report of any component, all are stale, ms. */
+const SILENT_MS = 10_000;
+const MOST_SHOWN = 100;
+const WORDS = { error: 'error', warn: 'warning', stale: 'stale', ok: 'OK' } as const;
+
+/** The tile with what the robot's components report: counts by level, then each report, the most urgent first. */
+function diagnosticsTile(session: () => RobotSession): Tile {
+  const element = part('diagnostics');
+  const counts = part('counts', 'p');
+  const list = document.createElement('ul');
+  list.className = 'reports';
+  element.append(counts, list);
+  return {
+    element,
+    everyMs: () => DIAGNOSTICS_EVERY_MS,
+    update({ moment: { robotNowMs } }) {
+      const topics = session().components.list();
+      const silentMs = robotNowMs - Math.max(...topics.map(({ timeMs }) => timeMs));
+      const isSilent = silentMs > SILENT_MS;
+      element.dataset.stale = String(topics.length === 0 || isSilent);
+      setText(counts, countWords(topics, isSilent ? silentMs : null));
+      const reports = topics.flatMap((topic) => topic.reports).slice(0, MOST_SHOWN);
+      while (list.children.length > reports.length) list.lastElementChild?.remove();
+      while (list.children.length < reports.length) list.append(row());
+      reports.forEach(({ name, level, message, sinceMs }, i) => {
+        const item = list.children[i] as HTMLElement;
+        item.dataset.level = level;
+        const [word, text, age] = [...item.children] as [HTMLElement, HTMLElement, HTMLElement];
+        setText(word, WORDS[level]);
+        setText(text, message === '' ? name : `${name}: ${message}`);
+        setText(age, ageText(Math.max(0, robotNowMs - sinceMs)));
+      });
+    },
+    dispose() {},
+  };
+}
+
+function countWords(topics: readonly ReportedComponents[], silentMs: number | null): string {
+  if (topics.length === 0) return 'No component has reported.';
+  const words = diagnosticLevels.flatMap((level) => {
+    const count = topics.reduce((sum, { counts }) => sum + counts[level], 0);
+    return count === 0 ? [] : [`${count} ${WORDS[level]}`];
+  });
+  const ago = silentMs === null ? '' : ` (nothing for ${ageText(silentMs)})`;
+  const recorded = topics.some((topic) => topic.recorded) ? ' (recorded)' : '';
+  return `${words.join(', ')}${recorded}${ago}`;
+}
+
+function row(): HTMLElement {
+  const item = document.createElement('li');
+  item.append(part('level', 'span'), part('report', 'span'), part('age', 'span'));
+  return item;
+}
+
+const TOPICS_EVERY_MS = 250;
+
+/** The tile with the readings of the robot's topics, as they were at the instant that is shown. */
+function topicsTile(session: () => RobotSession): Tile {
+  const element = part('topics');
+  const nothing = part('nothing', 'p');
+  nothing.textContent = 'The robot has named no topics to show.';
+  const list = document.createElement('dl');
+  element.append(nothing, list);
+  return {
+    element,
+    everyMs: () => TOPICS_EVERY_MS,
+    update({ nowMs, moment: { instantMs } }) {
+      const readings = session()
+        .readings.list(nowMs, instantMs ?? Number.POSITIVE_INFINITY)
+        .map(shownReading);
+      nothing.hidden = readings.length > 0;
+      while (list.children.length > 2 * readings.length) list.lastElementChild?.remove();
+      while (list.children.length < 2 * readings.length)
+        list.append(document.createElement('dt'), document.createElement('dd'));
+      readings.forEach(({ label, topic, text, tone }, i) => {
+        const [term, value] = [list.children[2 * i], list.children[2 * i + 1]] as [HTMLElement, HTMLElement];
+        setText(term, label);
+        term.title = topic;
+        setText(value, text);
+        value.dataset.tone = tone;
+      });
+    },
+    dispose() {},
+  };
+}
 
 export interface TileKind extends PlacedTile {
   readonly title: string;

@@ -1,16 +1,162 @@
 /** Grants and robots' keys on the page: the dialog, the panel that asks for them, and the sign-in. */
 import type { RobotClient } from '@farpoint/operator';
 import type { SignInAnswer } from '@farpoint/protocol';
-import { computed } from '@preact/signals-core';
+import { computed, effect, type ReadonlySignal, signal } from '@preact/signals-core';
 import { takeGrantFromAddress } from '../../ground/access/grant-in-address.ts';
-import type { OperatorAccess } from '../../ground/access/operator-access.ts';
+import type { OperatorAccess, ReadResult } from '../../ground/access/operator-access.ts';
 import type { SignIn } from '../../ground/access/sign-in.ts';
 import type { StoredRobots } from '../../ground/access/stored-robots.ts';
 import type { LinkState } from '../../state/link-state.ts';
-import { roleWords, signInErrorWords } from '../../words/access-words.ts';
+import { grantFaultWords, grantWords, roleWords, signInErrorWords } from '../../words/access-words.ts';
 import type { Words } from '../../words/words.ts';
-import { AccessDialog } from './access-dialog.ts';
+import { elements } from './elements.ts';
 import { showObstacle } from './obstacle-panel.ts';
+
+export interface AccessDialogParts {
+  readonly access: OperatorAccess;
+  readonly known: StoredRobots;
+  /** Where operators sign in for a grant; `null` if there is no such place. */
+  readonly signInUrl: ReadonlySignal<string | null>;
+  /** Leaves the page to sign in. */
+  signIn(): void;
+  /** A grant was added: robots that refused this operator may admit it now. */
+  onAdded(): void;
+}
+
+const date = (ms: number) => new Date(ms).toLocaleString([], { dateStyle: 'medium', timeStyle: 'short' });
+
+/** The dialog for grants: this browser's key, the grants that it holds, and the robots that it knows. */
+class AccessDialog {
+  readonly #parts: AccessDialogParts;
+  readonly #robots = signal<ReadonlyMap<string, string>>(new Map());
+  #read: ReadResult | null = null;
+  /** Counts what was typed, because reading takes a moment. */
+  #typed = 0;
+
+  constructor(parts: AccessDialogParts) {
+    this.#parts = parts;
+  }
+
+  start(): void {
+    const { access, signInUrl } = this.#parts;
+    const { accessOpen, accessText, accessAdd, accessKey, accessCopy, accessGrants, accessRobots } = elements;
+    accessOpen.addEventListener('click', () => this.open());
+    accessText.addEventListener('input', () => void this.#take());
+    accessAdd.addEventListener('click', () => void this.#add());
+    accessCopy.addEventListener('click', () => void copy(accessKey));
+    const { accessSignIn, accessSignInRow, accessSignInHost } = elements;
+    accessSignIn.addEventListener('click', () => this.#parts.signIn());
+    effect(() => {
+      accessSignInRow.hidden = signInUrl.value === null;
+      accessSignInHost.textContent = signInUrl.value === null ? '' : new URL(signInUrl.value).host;
+    });
+    effect(() => {
+      accessKey.value = access.ownKey.value ?? '';
+    });
+    effect(() => {
+      const nowS = Date.now() / 1000;
+      accessGrants.replaceChildren(
+        ...access.grants.value.map(({ id, claims }) =>
+          itemOf(grantWords(claims, nowS, date), 'Remove', () => void access.remove(id)),
+        ),
+      );
+    });
+    effect(() => {
+      const robots = [...this.#robots.value];
+      const none = document.createElement('li');
+      none.textContent = 'None yet. A robot is known after the first session with it.';
+      accessRobots.replaceChildren(
+        ...robots.map(([robotId, key]) =>
+          itemOf({ text: `${robotId}: ${key}`, tone: 'neutral' }, 'Forget', () => {
+            this.#parts.known.forget(robotId);
+            this.#robots.value = this.#parts.known.all();
+          }),
+        ),
+        ...(robots.length === 0 ? [none] : []),
+      );
+    });
+  }
+
+  /**
+   * @param text a grant or ticket that came another way; it still has to be added
+   * @param words what to say first
+   */
+  open(text = '', words: Words | null = null): void {
+    const { settings, access, accessText } = elements;
+    settings.close('cancel');
+    this.#robots.value = this.#parts.known.all();
+    accessText.value = text;
+    if (!access.open) access.showModal();
+    if (window.isSecureContext) {
+      void this.#parts.access.makeKey().then(async () => {
+        await this.#take();
+        if (words !== null) this.#say(words);
+      });
+    } else {
+      this.#say({ text: 'Grants need https: open the page at its https address.', tone: 'bad' });
+      accessText.disabled = true;
+    }
+  }
+
+  async #take(): Promise<void> {
+    const { accessText, accessAdd } = elements;
+    const typed = ++this.#typed;
+    const text = accessText.value;
+    const read = text.trim() === '' ? null : await this.#parts.access.read(text);
+    if (typed !== this.#typed) return;
+    this.#read = read;
+    accessAdd.disabled = read === null || 'fault' in read;
+    if (read === null) this.#say(null);
+    else if ('fault' in read) this.#say({ text: grantFaultWords[read.fault], tone: 'warning' });
+    else this.#say(grantWords(read.claims, Date.now() / 1000, date));
+  }
+
+  async #add(): Promise<void> {
+    if (this.#read === null || 'fault' in this.#read) return;
+    const kept = await this.#parts.access.add(this.#read);
+    if (typeof kept === 'string') {
+      this.#say({ text: grantFaultWords[kept], tone: 'warning' });
+      return;
+    }
+    elements.accessText.value = '';
+    await this.#take();
+    this.#say(
+      kept
+        ? { text: 'Added.', tone: 'good' }
+        : { text: 'Added for this visit: the browser keeps nothing for this page.', tone: 'warning' },
+    );
+    this.#parts.onAdded();
+  }
+
+  #say(words: Words | null): void {
+    const { accessRead } = elements;
+    accessRead.hidden = words === null;
+    accessRead.textContent = words?.text ?? '';
+    accessRead.dataset.tone = words?.tone ?? 'neutral';
+  }
+}
+
+function itemOf({ text, tone }: Words, action: string, onAction: () => void): HTMLLIElement {
+  const [item, label, button] = [
+    document.createElement('li'),
+    document.createElement('span'),
+    document.createElement('button'),
+  ];
+  label.textContent = text;
+  label.dataset.tone = tone;
+  button.type = 'button';
+  button.className = 'quiet';
+  button.textContent = action;
+  button.addEventListener('click', onAction);
+  item.append(label, button);
+  return item;
+}
+
+async function copy(field: HTMLInputElement): Promise<void> {
+  field.select();
+  // Without permission, the text stays selected, to be copied by hand.
+  await navigator.clipboard?.writeText(field.value).catch(() => undefined);
+}
 
 export interface AccessUiParts {
   readonly access: OperatorAccess;

@@ -2,21 +2,95 @@
  * The panel for clouds: what their colours mean, as colour bars to read values off, and the controls for it. It has
  * no field to type in and no control keeps the focus after a click, because both would take keys from driving.
  */
-import type { CloudView } from '@farpoint/cloud-view';
+import type { CloudView, HeightCut } from '@farpoint/cloud-view';
 import { DROP_TINT, HIT_TINT, type Rgb } from '@farpoint/cloud-view';
 import type { BodyHeights } from '@farpoint/operator';
 import { effect, type ReadonlySignal, type Signal, signal, untracked } from '@preact/signals-core';
+import { roomAbove } from '../../ground/panels/room-above.ts';
 import type { Switches } from '../../ground/switches.ts';
 import { type CloudAppearance, UNNAMED } from '../../state/cloud-appearance.ts';
 import type { RobotState } from '../../state/robot-state.ts';
 import { hazardLegendWords } from '../../words/hazard-words.ts';
 import { colourControls } from './colour-controls.ts';
-import { cutControls } from './cut-controls.ts';
 import { elements } from './elements.ts';
-import { boundLeftColumn } from './left-column.ts';
 import { cssOf, type Legend, legendOf } from './legend.ts';
 import { type MemoryControlsParts, memoryControls } from './memory-controls.ts';
-import { quietButton, rowOf } from './panel-parts.ts';
+import { quietButton, rowOf, sliderOf } from './panel-parts.ts';
+
+/** Metres above the robot's ground. The outer end of each slider draws everything. */
+const ABOVE = { min: 0, max: 6, step: 0.1 };
+const BELOW = { min: -2, max: 2, step: 0.1 };
+
+/** Which heights of the clouds are drawn in the present view; and what is up when looking from above. */
+function cutControls(appearance: CloudAppearance): HTMLElement {
+  const group = document.createElement('div');
+  const inUse = () => (appearance.fromAbove.value ? appearance.cutFromAbove : appearance.cut);
+  const change = (part: Partial<HeightCut>) => {
+    const cut = inUse();
+    cut.value = { ...cut.peek(), ...part };
+  };
+  const above = sliderOf('Hide points above', ABOVE, (height) =>
+    change({ above: height >= ABOVE.max ? null : height }),
+  );
+  const below = sliderOf('Hide points below', BELOW, (height) =>
+    change({ below: height <= BELOW.min ? null : height }),
+  );
+  const [aboveText, belowText] = [document.createElement('output'), document.createElement('output')];
+  const up = quietButton(
+    'Heading up',
+    'What is up: the heading of the robot, or north (the world’s y)',
+    () => {
+      appearance.headingUp.value = !appearance.headingUp.peek();
+    },
+  );
+  const upRow = rowOf('Up', up);
+  group.append(rowOf('Hide above', above, aboveText), rowOf('Hide below', below, belowText), upRow);
+  effect(() => {
+    const cut = inUse().value;
+    above.value = String(cut.above ?? ABOVE.max);
+    below.value = String(cut.below ?? BELOW.min);
+    aboveText.value = heightText(cut.above);
+    belowText.value = heightText(cut.below);
+  });
+  effect(() => {
+    upRow.hidden = !appearance.fromAbove.value;
+    up.textContent = appearance.headingUp.value ? 'Heading up' : 'North up';
+  });
+  return group;
+}
+
+function heightText(height: number | null): string {
+  return height === null ? 'nothing' : `${height.toFixed(1)} m`;
+}
+
+/** Keeps the left column above the row for driving, and `controls`, a list in it, too. */
+function boundLeftColumn(controls: HTMLElement): void {
+  const { hud, drive, facts, noGpu, people, clouds } = elements;
+  const giving = [facts, noGpu, people];
+  const parts = [...drive.children];
+  const update = () => {
+    const below = parts
+      .map((part) => part.getBoundingClientRect())
+      .filter(({ width, height }) => width > 0 && height > 0);
+    const roomOf = (box: Element, higher: number) => {
+      const { left, right, top } = box.getBoundingClientRect();
+      return roomAbove({ left, right, top: top + higher }, below, window.innerHeight);
+    };
+    hud.style.maxHeight = `${roomOf(hud, 0)}px`;
+    const given = giving.map((part) => Math.max(0, part.scrollHeight - part.clientHeight));
+    // A box over the picture takes the mouse only while there is something in it to be scrolled to.
+    for (const [i, part] of giving.entries()) part.classList.toggle('cut', (given[i] ?? 0) > 1);
+    if (controls.hidden) return;
+    // Controls are measured from where they would begin, had nothing above them given way.
+    const inColumn = getComputedStyle(clouds).position !== 'fixed';
+    const higher = inColumn ? given.reduce((sum, height) => sum + height, 0) : 0;
+    controls.style.maxHeight = `${roomOf(controls, higher)}px`;
+  };
+  const observer = new ResizeObserver(update);
+  // Whatever is above the controls moves them, and the column grows with it.
+  for (const watched of [controls, hud, drive, ...giving, ...parts]) observer.observe(watched);
+  window.addEventListener('resize', update);
+}
 
 export interface CloudPanelParts {
   readonly appearance: CloudAppearance;

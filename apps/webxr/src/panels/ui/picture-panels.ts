@@ -1,14 +1,136 @@
 /** The panels with the cameras' pictures and videos: name, age, and buttons that hide the camera or let it fill the screen. */
-import { computed, effect, type ReadonlySignal } from '@preact/signals-core';
+import { computed, effect, type ReadonlySignal, signal } from '@preact/signals-core';
+import type { Box } from '../../ground/panels/panel-layout.ts';
 import type { CameraView } from '../../ground/pictures/camera-view.ts';
+import { PRIORITIES, PRIORITY_WORDS } from '../../state/link-priority.ts';
 import type { PageState } from '../../state/page-state.ts';
 import { cameraWords } from '../../words/camera-words.ts';
+import { videoReport } from '../../words/video-report.ts';
 import { elements } from './elements.ts';
-import { panelArea } from './panel-area.ts';
 import { type MovablePanel, PanelMover, type PanelMoverParts, showResetButton } from './panel-mover.ts';
-import { quietButton } from './panel-parts.ts';
-import { showStagedCamera } from './staged-camera.ts';
-import { videoReportPanel } from './video-report-panel.ts';
+import { quietButton, rowOf, selectOf } from './panel-parts.ts';
+
+/**
+ * Below the cameras' panels: whether the videos are in step, and on a click what the compositor did with each, and how the
+ * link is divided.
+ */
+function videoReportPanel({ figures, videos, priority }: PageState): HTMLElement {
+  const open = signal(false);
+  const panel = document.createElement('section');
+  panel.className = 'video-report';
+  const button = quietButton('', 'What became of the videos’ frames', () => {
+    open.value = !open.peek();
+  });
+  const list = document.createElement('dl');
+  const share = shareControl(priority);
+  panel.append(button, share, list);
+  effect(() => {
+    // Where the strip has no room for it, it is scrolled to.
+    if (open.value) requestAnimationFrame(() => panel.scrollIntoView({ block: 'nearest' }));
+  });
+  effect(() => {
+    const names = videos.views.value.map(({ camera }) => camera.name);
+    panel.hidden = names.length === 0;
+    if (names.length === 0) return;
+    const { summary, tone, lines } = videoReport(figures.value.videos, names);
+    if (button.textContent !== summary) button.textContent = summary;
+    button.dataset.tone = tone;
+    button.ariaExpanded = String(open.value);
+    list.hidden = !open.value;
+    share.hidden = !open.value;
+    if (open.value)
+      list.replaceChildren(
+        ...lines.flatMap(({ name, text, tone }) => [textOf('dt', name), textOf('dd', text, tone)]),
+      );
+  });
+  return panel;
+}
+
+/** What comes first where the link does not carry everything. */
+function shareControl({ chosen }: PageState['priority']): HTMLElement {
+  const words = PRIORITIES.map((priority) => PRIORITY_WORDS[priority]);
+  const select = selectOf('What comes first on a slow link', words, (word) => {
+    chosen.value = PRIORITIES[words.indexOf(word)] ?? 'balanced';
+  });
+  select.selectedIndex = PRIORITIES.indexOf(chosen.peek());
+  const row = rowOf('Slow link', select);
+  row.classList.add('link-share', 'overlay');
+  return row;
+}
+
+function textOf(tag: 'dt' | 'dd', text: string, tone = ''): HTMLElement {
+  const element = document.createElement(tag);
+  element.textContent = text;
+  element.dataset.tone = tone;
+  return element;
+}
+
+/** The text at the top of the screen: which camera it is, and how old its picture. */
+const label = document.createElement('p');
+
+/** @param filling the camera that fills the screen */
+function showStagedCamera(
+  filling: ReadonlySignal<CameraView | null>,
+  sampledAtMs: ReadonlySignal<number>,
+): void {
+  const { stage, cameraStage } = elements;
+  let shown: CameraView | null = null;
+  effect(() => {
+    const view = filling.value;
+    if (view === shown) return;
+    if (shown !== null) {
+      stage.replaceWith(shown.canvas);
+      document.body.prepend(stage);
+    }
+    cameraStage.replaceChildren(label);
+    shown = view;
+    cameraStage.hidden = view === null;
+    if (view === null) return;
+    // Its panel has it no longer if there is another session; then it is not staged either.
+    view.canvas.replaceWith(stage);
+    cameraStage.prepend(view.canvas);
+  });
+  effect(() => {
+    void sampledAtMs.value;
+    const view = filling.value;
+    if (view === null) return;
+    const { state, text, reason } = cameraWords(view);
+    const words = `${view.camera.name} · ${reason ?? text}`;
+    if (label.textContent !== words) label.textContent = words;
+    cameraStage.dataset.state = state;
+  });
+}
+
+const MARGIN = 8;
+/** On a smaller screen panels stay in their strip: there is no room to move them to, pixels. As in the style sheet. */
+const NARROW = '(max-width: 640px)';
+
+/** @returns `null` while panels cannot be moved; follows the window's size */
+function panelArea(): ReadonlySignal<Box | null> {
+  const area = signal<Box | null>(null);
+  const update = () => {
+    const next = window.matchMedia(NARROW).matches ? null : measure();
+    if (JSON.stringify(next) !== JSON.stringify(area.peek())) area.value = next;
+  };
+  const observer = new ResizeObserver(update);
+  observer.observe(elements.bar);
+  observer.observe(elements.drive);
+  window.addEventListener('resize', update);
+  update();
+  return area;
+}
+
+function measure(): Box {
+  const top = elements.bar.getBoundingClientRect().bottom + MARGIN;
+  const { height, top: driveTop } = elements.drive.getBoundingClientRect();
+  const bottom = (height === 0 ? window.innerHeight : driveTop) - MARGIN;
+  return {
+    left: MARGIN,
+    top,
+    width: Math.max(0, window.innerWidth - 2 * MARGIN),
+    height: Math.max(0, bottom - top),
+  };
+}
 
 interface Panel extends MovablePanel {
   view: CameraView;

@@ -6,10 +6,140 @@ import { Group, type Object3D } from 'three';
 import type { HeadsetSettings, HeadsetView } from '../../ground/headset-settings.ts';
 import { headYaw, OperatorOrigin } from './operator-origin.ts';
 import { OperatorTurn } from './operator-turn.ts';
-import { ABOVE_M, RigPose, type WorldPlace } from './rig-pose.ts';
 import { TableModel } from './table-model.ts';
-import { ViewHeading } from './view-heading.ts';
 import { VignetteAmount } from './vignette-amount.ts';
+
+/** Over the shoulder: behind the robot's camera and above it, m. */
+export const BEHIND_M = 2.4;
+/**
+ * Where the operator's origin is in the robot's world, by view: the eyes at rest, which a recentring makes the origin. Pure,
+ * allocates nothing.
+ */
+const ABOVE_M = 0.6;
+
+/** A place in the robot's world, REP-103, m. */
+export interface WorldPlace {
+  readonly x: number;
+  readonly y: number;
+  readonly z: number;
+}
+
+/** A model of the world in the operator's room: axes of three.js, m from the operator's origin. */
+export interface ModelPlace {
+  /** Where the robot's place on the floor is in the room. */
+  readonly x: number;
+  readonly y: number;
+  readonly z: number;
+  /** Metres in the room of one metre of the world. */
+  readonly scale: number;
+}
+
+class RigPose {
+  /** Place of the operator's origin, three.js axes, m. */
+  x = 0;
+  y = 0;
+  z = 0;
+  /** Radians about the vertical, positive to the left. */
+  yaw = 0;
+  /** Metres of the world that one metre of the room is. */
+  scale = 1;
+
+  /**
+   * At the robot's camera, at true scale.
+   *
+   * @param eyeHeight height of the origin in the world, m
+   */
+  firstPerson(camera: WorldPlace, eyeHeight: number, yaw: number): void {
+    this.x = -camera.y;
+    this.y = eyeHeight;
+    this.z = -camera.x;
+    this.yaw = yaw;
+    this.scale = 1;
+  }
+
+  /** Behind the robot, as the operator faces, and above it. */
+  overShoulder(camera: WorldPlace, eyeHeight: number, yaw: number): void {
+    this.firstPerson(camera, eyeHeight, yaw);
+    this.x += Math.sin(yaw) * BEHIND_M;
+    this.z += Math.cos(yaw) * BEHIND_M;
+  }
+
+  /**
+   * The world is a model in the operator's room.
+   *
+   * @param x the robot's place in its world, REP-103, m
+   * @param y likewise
+   * @param ground height of its floor, m
+   * @param yaw where ahead in the room points in the world
+   */
+  tabletop(x: number, y: number, ground: number, model: ModelPlace, yaw: number): void {
+    const k = 1 / model.scale;
+    const cos = Math.cos(yaw);
+    const sin = Math.sin(yaw);
+    this.x = -y - k * (model.x * cos + model.z * sin);
+    this.y = ground - k * model.y;
+    this.z = -x - k * (model.z * cos - model.x * sin);
+    this.yaw = yaw;
+    this.scale = k;
+  }
+}
+
+/**
+ * Where the operator's "ahead" points in the world: fixed, so that a robot that turns does not turn the operator's room
+ * about them, or with the robot. Pure, allocates nothing. Angles in radians, counter-clockwise seen from above; places in
+ * three.js axes (x right, y up, z back).
+ */
+class ViewHeading {
+  /** Where ahead points now. */
+  yaw = 0;
+  /** How far turns about the head have moved the operator's origin, m. */
+  shiftX = 0;
+  shiftZ = 0;
+  readonly #followsRobot: boolean;
+  #base: number | null = null;
+  #own = 0;
+
+  constructor(followsRobot: boolean) {
+    this.#followsRobot = followsRobot;
+  }
+
+  /** The robot's next heading becomes the operator's. */
+  align(): void {
+    this.#base = null;
+    this.#own = 0;
+    this.shiftX = 0;
+    this.shiftZ = 0;
+  }
+
+  /** @param robotYaw the robot's heading */
+  follow(robotYaw: number): void {
+    if (this.#followsRobot || this.#base === null) this.#base = robotYaw;
+    this.yaw = this.#base + this.#own;
+  }
+
+  /** @param by positive to the left */
+  turn(by: number): void {
+    this.#own += by;
+    this.yaw += by;
+  }
+
+  /**
+   * Turns about the operator's head, which stays where it is: someone who leans or stands beside the origin does not swing
+   * around it.
+   *
+   * @param x place of the head relative to the operator's origin, m
+   * @param z likewise
+   */
+  turnAbout(by: number, x: number, z: number): void {
+    const cos = Math.cos(this.yaw);
+    const sin = Math.sin(this.yaw);
+    this.turn(by);
+    const cosAfter = Math.cos(this.yaw);
+    const sinAfter = Math.sin(this.yaw);
+    this.shiftX += x * (cos - cosAfter) + z * (sin - sinAfter);
+    this.shiftZ += x * (sinAfter - sin) + z * (cos - cosAfter);
+  }
+}
 
 /** The robot's place and heading as the view follows them. */
 export interface FollowedRobot extends WorldPlace {
