@@ -1,4 +1,4 @@
-/** What the bridge sends to a page: its own record of it, and a reader of its streaming socket, as `bridge-reader.ts`. */
+/** Frames from the bridge to a page: the bridge's own record, and a process that reads its streaming socket. */
 import { type ChildProcess, fork } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import type { BridgeProcess } from '@farpoint/local-stack';
@@ -20,7 +20,7 @@ export function readBridgeFrames(path: string): BridgeFrame[] {
     .map((line) => JSON.parse(line) as BridgeFrame);
 }
 
-/** A complete message. */
+/** A message of which the last byte has arrived, ms on the machine's clock. */
 export interface Arrival {
   atMs: number;
   bytes: number;
@@ -40,7 +40,7 @@ export class PageReader {
     await this.#nextMessage();
   }
 
-  /** Ends the process. @returns its messages, in order */
+  /** Ends the process. @returns the messages that it has read, in order */
   async end(): Promise<Arrival[]> {
     const last = this.#nextMessage<{ arrivals: Arrival[] }>();
     this.#child.send('end');

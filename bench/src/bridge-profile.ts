@@ -49,7 +49,7 @@ const STAGES: readonly [name: string, from: keyof FrameTimes, to: keyof FrameTim
 interface LogFiles {
   packetLog: string;
   frameLog: string;
-  /** The bridge's `--stats`. */
+  /** The bridge writes it. */
   stats: string;
 }
 

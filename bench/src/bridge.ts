@@ -59,7 +59,7 @@ interface Options {
   points: number;
   fps: number;
   seconds: number;
-  /** Of the second run; 0 without one. */
+  /** Rate of the second run; 0 without one. */
   mbps: number;
   profile: boolean;
   json: boolean;
@@ -141,9 +141,9 @@ function print(runs: readonly RunResult[]): void {
   );
 }
 
-/** What the robot sends. */
+/** The stream that the robot sends. */
 interface Load {
-  /** Of each frame. */
+  /** Packets of each frame. */
   packets: number;
   fps: number;
   seconds: number;
@@ -206,10 +206,10 @@ function robotSpec({ packets, fps }: Load, mbps: number, packetLog: string): Rob
   };
 }
 
-/** What the programs used. */
+/** Processor time and memory that the programs used. */
 interface Use {
   span: MeasuredSpan<'robot' | 'bridge'>;
-  /** Memory of the bridge, again and again, MB. */
+  /** Memory of the bridge, each 250 ms, MB. */
   rssMb: number[];
 }
 

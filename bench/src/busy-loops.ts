@@ -1,15 +1,16 @@
-/** Programs that do nothing but take the processor's time from what is measured beside them. */
+/** Programs that take processor time from what a benchmark measures beside them. */
 import { type ChildProcess, spawn } from 'node:child_process';
 
-/**
- * Each takes a core, if there is one.
- *
- * @param count how many
- * @returns the processes, which the caller kills
- */
-export function startBusyLoops(count: number): ChildProcess[] {
-  const loops: ChildProcess[] = [];
-  for (let i = 0; i < count; i++)
-    loops.push(spawn(process.execPath, ['-e', 'for (;;);'], { stdio: 'ignore' }));
-  return loops;
+export class BusyLoops {
+  readonly #loops: ChildProcess[] = [];
+
+  /** Each loop takes a core, if there is one. */
+  constructor(count: number) {
+    for (let i = 0; i < count; i++)
+      this.#loops.push(spawn(process.execPath, ['-e', 'for (;;);'], { stdio: 'ignore' }));
+  }
+
+  stop(): void {
+    for (const loop of this.#loops) loop.kill('SIGKILL');
+  }
 }

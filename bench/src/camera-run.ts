@@ -74,7 +74,7 @@ const SETTLE_MS = 500;
 /** Pictures that few bits show well, and noise, which takes any rate. */
 const PATTERNS = { plain: ['pinwheel', 'ball', 'smpte'], noise: ['snow'] } as const;
 
-/** Files that the programs of a run write, except the first, which they read. */
+/** The robot's configuration, and files that the programs of a run write. */
 interface CameraFiles {
   config: string;
   link: string;
@@ -128,22 +128,22 @@ function stackOptions(
   };
 }
 
-/** Divides the link and turns the sound on, as the setup says. */
+/** Divides the link and turns the sound on, if the setup asks for it. */
 async function setUpPage(page: Page, { shares, sound }: CameraSetup): Promise<void> {
   if (shares !== null) await page.evaluate((shares) => window.farpoint.shareLink(shares), shares);
   // By key: the page is too small for its buttons.
   if (sound) await page.getByRole('button', { name: 'Sound', exact: true }).press('Enter');
 }
 
-/** Counts so far, of all cameras each. */
+/** Counts since the robot started; lists have a count for each camera. */
 interface Counters {
   skipped: number[];
   bytes: number[];
-  /** By the robot, of everything. */
+  /** All streams of the robot together. */
   bytesSent: number;
   keyFrames: number[];
   soundPackets: number;
-  /** Processor time, s. */
+  /** Processor time, s; `null` without /proc. */
   cpu: number | null;
   browserCpu: number | null;
   atMs: number;
@@ -168,7 +168,7 @@ async function readCounters(
   };
 }
 
-/** What a drive left. */
+/** The records of one drive. */
 interface CameraRecord {
   before: Counters;
   after: Counters;

@@ -154,7 +154,7 @@ function print({ title, found, cameras, run }: TitledRun): void {
 
 type Column = readonly [heading: string, cell: Cell];
 
-/** How well what was shown at once belonged together. */
+/** Columns about pictures and clouds that were shown at once. */
 function presentationColumns(run: CameraRun): Column[] {
   const [spread, cloud] = [rounded(run.spreadMs, 2), rounded(run.cloudApartMs, 1)];
   return [
@@ -170,7 +170,7 @@ function presentationColumns(run: CameraRun): Column[] {
   ];
 }
 
-/** What the programs took, and what became of the commands. */
+/** Columns about the programs, the link and the commands. */
 function programColumns(run: CameraRun): Column[] {
   const command = rounded(run.commandDelayMs, 1);
   return [

@@ -27,99 +27,147 @@ pointsWrong are shares, 0-1; a codec whose output is one blob loses the frame wi
 If a codec reorders points, each is compared with the nearest one, and colours are not compared. The output of \`organised\` is
 compared as depth, before points are rounded to millimetres.`;
 
+interface Options {
+  /** PCD files. */
+  files: string[];
+  /** Folder of pictures with depth. */
+  rgbd: string | undefined;
+  /** Names of codecs; empty: all. */
+  codecs: string[];
+  rounds: number;
+  native: boolean;
+  plot: string | undefined;
+  json: boolean | undefined;
+}
+
 export const bench: Bench = {
   name: 'codec',
   summary:
     'kernel: bits, errors, time and packet loss of the point codecs, beside Draco, meshoptimizer and Zstandard',
   async run(argv) {
-    const { values, positionals } = parseArgs({
-      args: argv,
-      options: {
-        cloud: { type: 'string', multiple: true, default: [] },
-        rgbd: { type: 'string' },
-        codec: { type: 'string', multiple: true, default: [] },
-        rounds: { type: 'string', default: '15' },
-        native: { type: 'boolean', default: false },
-        plot: { type: 'string' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
-      allowPositionals: true,
-    });
-    if (values.help) return console.log(USAGE);
-    const rounds = numberOption('rounds', values.rounds, 1);
-    // Accepts `--cloud a.pcd b.pcd` as well as `--cloud a.pcd --cloud b.pcd`.
-    const clouds: BenchCloud[] = [
-      ...[...values.cloud, ...positionals].map(pcdCloud),
-      ...(values.rgbd === undefined ? [] : rgbdClouds(values.rgbd)),
-    ];
-    if (clouds.length === 0) clouds.push(...(await simulatedClouds()));
-
+    const options = readOptions(argv);
+    if (options === null) return;
+    const clouds = await readClouds(options);
     const makers = await codecMakers();
     const wanted = Object.entries(makers).filter(
-      ([name]) => values.codec.length === 0 || values.codec.includes(name),
+      ([name]) => options.codecs.length === 0 || options.codecs.includes(name),
     );
     if (wanted.length === 0) throw new Error(`--codec: there are ${Object.keys(makers).join(', ')}`);
-    const rows: CodecRow[] = [];
-    const notes = new Set<string>();
-    for (const cloud of clouds) {
-      for (const [name, runsOf] of wanted) {
-        for (const make of runsOf(cloud)) {
-          const made = make();
-          if (typeof made === 'string') {
-            notes.add(`${cloud.name}: ${name} left out: ${made}`);
-            continue;
-          }
-          using run = made;
-          rows.push(measureCodec(cloud, run, rounds, values.native));
-        }
-      }
-    }
-
-    printTable(
-      [
-        'cloud',
-        'codec',
-        'setting',
-        'points',
-        'bits/pt',
-        'mm/z²',
-        'mm',
-        'PSNR',
-        'enc ms',
-        'dec ms',
-        'lost at 5 %',
-        'wrong',
-      ],
-      rows.map((row) => [
-        row.cloud,
-        row.codec,
-        row.setting,
-        row.sentPoints,
-        row.bitsPerPoint,
-        row.depthErrorMmPerZ2,
-        row.depthErrorMm,
-        row.colorPsnrDb,
-        row.encodeMs,
-        row.decodeMs,
-        `${(row.loss['5'].pointsLost * 100).toFixed(1)} %`,
-        row.loss['5'].pointsWrong,
-      ]),
-    );
+    const { rows, notes } = measureAll(clouds, wanted, options);
+    print(rows);
     for (const note of notes) console.log(note);
-    if (values.plot !== undefined) {
-      await writeFile(values.plot, plotCodecs(rows));
-      console.log(`plot: ${values.plot}`);
+    if (options.plot !== undefined) {
+      await writeFile(options.plot, plotCodecs(rows));
+      console.log(`plot: ${options.plot}`);
     }
-    if (values.json) printJson({ bench: 'codec', rounds, rows, leftOut: [...notes] });
+    if (options.json) printJson({ bench: 'codec', rounds: options.rounds, rows, leftOut: [...notes] });
   },
 };
+
+/** @returns `null` if only the usage was requested @throws {Error} naming the option */
+function readOptions(argv: string[]): Options | null {
+  const { values, positionals } = parseArgs({
+    args: argv,
+    options: {
+      cloud: { type: 'string', multiple: true, default: [] },
+      rgbd: { type: 'string' },
+      codec: { type: 'string', multiple: true, default: [] },
+      rounds: { type: 'string', default: '15' },
+      native: { type: 'boolean', default: false },
+      plot: { type: 'string' },
+      json: { type: 'boolean' },
+      help: { type: 'boolean' },
+    },
+    allowPositionals: true,
+  });
+  if (values.help) {
+    console.log(USAGE);
+    return null;
+  }
+  const { rgbd, codec, native, plot, json } = values;
+  return {
+    // Accepts `--cloud a.pcd b.pcd` as well as `--cloud a.pcd --cloud b.pcd`.
+    files: [...values.cloud, ...positionals],
+    rgbd,
+    codecs: codec,
+    rounds: numberOption('rounds', values.rounds, 1),
+    native,
+    plot,
+    json,
+  };
+}
+
+/** Takes clouds of the simulated camera if no others are given. */
+async function readClouds({ files, rgbd }: Options): Promise<BenchCloud[]> {
+  const clouds = [...files.map(pcdCloud), ...(rgbd === undefined ? [] : rgbdClouds(rgbd))];
+  return clouds.length === 0 ? await simulatedClouds() : clouds;
+}
+
+/** @returns the rows, and notes that say why a codec was left out */
+function measureAll(
+  clouds: readonly BenchCloud[],
+  makers: readonly [name: string, runsOf: RunMakers][],
+  { rounds, native }: Options,
+): { rows: CodecRow[]; notes: Set<string> } {
+  const rows: CodecRow[] = [];
+  const notes = new Set<string>();
+  for (const cloud of clouds) {
+    for (const [name, runsOf] of makers) {
+      for (const make of runsOf(cloud)) {
+        const made = make();
+        if (typeof made === 'string') {
+          notes.add(`${cloud.name}: ${name} left out: ${made}`);
+          continue;
+        }
+        using run = made;
+        rows.push(measureCodec(cloud, run, rounds, native));
+      }
+    }
+  }
+  return { rows, notes };
+}
+
+function print(rows: readonly CodecRow[]): void {
+  printTable(
+    [
+      'cloud',
+      'codec',
+      'setting',
+      'points',
+      'bits/pt',
+      'mm/z²',
+      'mm',
+      'PSNR',
+      'enc ms',
+      'dec ms',
+      'lost at 5 %',
+      'wrong',
+    ],
+    rows.map((row) => [
+      row.cloud,
+      row.codec,
+      row.setting,
+      row.sentPoints,
+      row.bitsPerPoint,
+      row.depthErrorMmPerZ2,
+      row.depthErrorMm,
+      row.colorPsnrDb,
+      row.encodeMs,
+      row.decodeMs,
+      `${(row.loss['5'].pointsLost * 100).toFixed(1)} %`,
+      row.loss['5'].pointsWrong,
+    ]),
+  );
+}
+
+/** Each function that it returns makes a run for the cloud, or says why there is none. */
+type RunMakers = (cloud: BenchCloud) => (() => CodecRun | string)[];
 
 /**
  * For every codec, the settings that make sense for a cloud, or why there are none. Runs are created one at a time,
  * because they take memory.
  */
-async function codecMakers(): Promise<Record<string, (cloud: BenchCloud) => (() => CodecRun | string)[]>> {
+async function codecMakers(): Promise<Record<string, RunMakers>> {
   const codec = await loadCodecFromDisk();
   const dracoModules = await loadDraco();
   await loadMeshopt();

@@ -9,7 +9,7 @@ import { LocalStack } from '@farpoint/local-stack';
 import { type Credentials, SignaledOperator } from '@farpoint/robot-node/testing';
 import { metricOf } from '@farpoint/robot-node/testing/metric-of';
 import { shownGrant } from '@farpoint/robot-node/testing/shown-grant';
-import { startBusyLoops } from './busy-loops.ts';
+import { BusyLoops } from './busy-loops.ts';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
@@ -59,20 +59,20 @@ export const bench: Bench = {
       ],
       env: ENV,
     });
-    const loops = startBusyLoops(busy);
+    const loops = new BusyLoops(busy);
     try {
       const results = { ...(await connectEach(stack, issuer, count)), ...(await connectFirsts(starts)) };
       print(results);
       if (values.json) printJson({ bench: 'connect', count, starts, busy, ...results });
     } finally {
       await stack.stop();
-      for (const loop of loops) loop.kill('SIGKILL');
+      loops.stop();
       rmSync(folder, { recursive: true });
     }
   },
 };
 
-/** Connects so many operators in each profile, one after the other. */
+/** Connects `count` operators in each profile, one after the other. */
 async function connectEach(stack: LocalStack, issuer: TestIssuer, count: number) {
   // The robot makes one offer at a time, and the next one when that operator has left.
   const offered = (connected: number) => offers(stack, ROBOT, connected);
@@ -86,7 +86,7 @@ async function connectEach(stack: LocalStack, issuer: TestIssuer, count: number)
   return { farpointMs, grantedMs, referenceMs };
 }
 
-/** Starts everything anew so many times; connects the first operator of a robot in each profile. */
+/** Starts everything anew `starts` times, and connects the first operator of a robot in each profile. */
 async function connectFirsts(starts: number) {
   const firstMs: number[] = [];
   const firstReferenceMs: number[] = [];

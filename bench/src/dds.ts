@@ -123,7 +123,7 @@ interface Settings {
 }
 
 interface Run extends Settings {
-  /** Starts the node. */
+  /** Command that starts the node. */
   command: string[];
 }
 
@@ -175,7 +175,7 @@ async function measure({ command, side, hz, seconds, mbps, reliability }: Run): 
   }
 }
 
-/** What the operator found. */
+/** The operator's records, and those of the programs. */
 interface Driven {
   span: MeasuredSpan<'robot' | 'peer'>;
   colours: FrameColours;
@@ -230,7 +230,7 @@ function configuration(domain: number, reliability: string): string {
 robot:
   source: { kind: ros2, fps: 120 }
   sink: { kind: ros2 }
-  ros: { domain: ${domain}, reach: localhost, axes: optical }
+  ros: { domain: ${domain}, reach: localhost }
   topics:
     - { topic: /points, as: cloud, qos: { reliability: ${reliability} } }
     - { topic: /cmd_vel, as: velocity }

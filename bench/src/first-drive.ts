@@ -1,11 +1,11 @@
 /** `pnpm bench first-drive`: what a newcomer's first drive is like on this computer, by the README's first command. */
-import { type ChildProcess, execFileSync } from 'node:child_process';
+import { execFileSync } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { availableParallelism, tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { freePorts, ManagedProcess, repositoryRoot } from '@farpoint/local-stack';
-import { startBusyLoops } from './busy-loops.ts';
+import { BusyLoops } from './busy-loops.ts';
 import { FIRST_DRIVE_BROWSERS, type FirstDriveBrowser, openFirstDrive } from './first-drive-browser.ts';
 import { type DriveFigures, driveFigures } from './first-drive-figures.ts';
 import { driveAbout, pause } from './first-drive-hand.ts';
@@ -109,23 +109,23 @@ function readOptions(argv: string[]): Options | null {
   return { seconds, busy, throttle, kind, headset, here, sizes, json };
 }
 
-/** Starts everything, and drives once at each size of the page. */
+/** Starts `pnpm dev`, and drives once at each size of the page. */
 async function driveAll({ seconds, busy, throttle, kind, headset, here, sizes }: Options): Promise<Row[]> {
   const folder = here ? repositoryRoot : clone();
-  let loops: ChildProcess[] = [];
+  let loops: BusyLoops | null = null;
   let stack: ManagedProcess | null = null;
   const rows: Row[] = [];
   try {
     stack = await startDev(folder);
     const address = await addressOf(stack);
-    loops = startBusyLoops(busy);
+    loops = new BusyLoops(busy);
     for (const viewport of sizes) {
       const size = `${viewport.width}x${viewport.height}`;
       console.error(`${size}, ${seconds} s`);
       rows.push({ size, ...(await firstDrive(address, { kind, viewport, throttle, headset }, seconds)) });
     }
   } finally {
-    for (const loop of loops) loop.kill();
+    loops?.stop();
     if (stack !== null) await endGroup(stack);
     if (!here) rmSync(folder, { recursive: true, force: true });
   }

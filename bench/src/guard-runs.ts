@@ -35,91 +35,112 @@ export const bench: Bench = {
   name: 'guard-runs',
   summary: 'simulated drives at full speed under the obstacle guard: contacts and false stops',
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        runs: { type: 'string', default: '1000' },
-        seed: { type: 'string', default: '1' },
-        seconds: { type: 'string', default: '12' },
-        world: { type: 'string' },
-        sensors: { type: 'string', default: 'camera' },
-        rooms: { type: 'boolean' },
-        clouds: { type: 'string', default: join(import.meta.dirname, '../../../shared/data/clouds') },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
-    });
-    if (values.help) return console.log(USAGE);
-    const count = numberOption('runs', values.runs, 1);
-    const seed = numberOption('seed', values.seed);
-    const seconds = numberOption('seconds', values.seconds, 1);
+    const options = readOptions(argv);
+    if (options === null) return;
     const codec = await loadCodecFromDisk();
-    const boundMs: number[] = [];
-    const times = { now: () => performance.now(), boundMs };
-    const drives = values.rooms
-      ? roomDrives(codec, values.clouds)
-      : worldDrives(codec, values.world, sensorsOf(values.sensors));
+    const drives = options.rooms
+      ? roomDrives(codec, options.clouds)
+      : worldDrives(codec, options.world, sensorsOf(options.sensors));
     if (drives.length === 0) return;
-    const runs: GuardedRun[] = [];
-    const progress = new Progress(count, 'runs');
-    for (let i = 0; i < count; i++) {
-      const drive = drives[i % drives.length] as Drive;
-      const run = await drive(seed + i, seconds, times);
-      runs.push(run);
-      progress.update(runs.length);
-      for (const { atS, speed } of run.contacts) {
-        console.log(
-          `${run.world}, seed ${run.seed}: contact at ${atS.toFixed(2)} s, ${speed.toFixed(2)} m/s`,
-        );
-      }
-      if (run.fellAtS !== null && !run.fellUnseen)
-        console.log(`${run.world}, seed ${run.seed}: over an edge at ${run.fellAtS.toFixed(2)} s`);
-    }
-    progress.end();
+    const boundMs: number[] = [];
+    const runs = await driveAll(drives, options, { now: () => performance.now(), boundMs });
     const rows = [...new Set(runs.map(({ world }) => world)), 'all'].map((world) =>
       summaryOf(
         world,
         runs.filter((run) => world === 'all' || run.world === world),
       ),
     );
-    printTable(
-      [
-        'world',
-        'runs',
-        'metres',
-        'contacts',
-        'falls',
-        'unseen',
-        'edge cm',
-        'stops',
-        'free commands',
-        'false stops',
-        '%',
-      ],
-      rows.map((row) => [
-        row.world,
-        row.runs,
-        Math.round(row.metres),
-        row.contacts,
-        row.falls,
-        row.unseen,
-        row.nearestEdgeM === null ? '' : (100 * row.nearestEdgeM).toFixed(1),
-        row.stops,
-        row.freeCommands,
-        row.falseStops,
-        100 * row.falseShare,
-      ]),
-    );
+    const all = rows.at(-1);
     const bound = rounded(distribution(boundMs), 4);
-    const unseenMps = rows.at(-1)?.unseenMps ?? 0;
+    print(rows);
+    const unseenMps = all?.unseenMps ?? 0;
     if (unseenMps > 0) console.log(`fastest into what was not seen: ${unseenMps.toFixed(2)} m/s`);
     console.log(`a command: p50 ${bound.p50} ms, p95 ${bound.p95} ms, max ${bound.max} ms`);
-    if (values.json) {
-      const all = rows.at(-1);
+    if (options.json)
       printJson({ bench: 'guard-runs', ...all, falseStops: all?.falseShare, boundMs: bound, rows });
-    }
   },
 };
+
+type Options = NonNullable<ReturnType<typeof readOptions>>;
+
+/** @returns `null` if only the usage was requested @throws {Error} naming the option */
+function readOptions(argv: string[]) {
+  const { values } = parseArgs({
+    args: argv,
+    options: {
+      runs: { type: 'string', default: '1000' },
+      seed: { type: 'string', default: '1' },
+      seconds: { type: 'string', default: '12' },
+      world: { type: 'string' },
+      sensors: { type: 'string', default: 'camera' },
+      rooms: { type: 'boolean' },
+      clouds: { type: 'string', default: join(import.meta.dirname, '../../../shared/data/clouds') },
+      json: { type: 'boolean' },
+      help: { type: 'boolean' },
+    },
+  });
+  if (values.help) {
+    console.log(USAGE);
+    return null;
+  }
+  const count = numberOption('runs', values.runs, 1);
+  const seed = numberOption('seed', values.seed);
+  return { ...values, count, seed, seconds: numberOption('seconds', values.seconds, 1) };
+}
+
+/** Drives in each of the places in turn, and prints each contact and fall at once. */
+async function driveAll(
+  drives: readonly Drive[],
+  { count, seed, seconds }: Options,
+  times: GuardTimes,
+): Promise<GuardedRun[]> {
+  const runs: GuardedRun[] = [];
+  const progress = new Progress(count, 'runs');
+  for (let i = 0; i < count; i++) {
+    const drive = drives[i % drives.length] as Drive;
+    const run = await drive(seed + i, seconds, times);
+    runs.push(run);
+    progress.update(runs.length);
+    for (const { atS, speed } of run.contacts) {
+      console.log(`${run.world}, seed ${run.seed}: contact at ${atS.toFixed(2)} s, ${speed.toFixed(2)} m/s`);
+    }
+    if (run.fellAtS !== null && !run.fellUnseen)
+      console.log(`${run.world}, seed ${run.seed}: over an edge at ${run.fellAtS.toFixed(2)} s`);
+  }
+  progress.end();
+  return runs;
+}
+
+function print(rows: readonly ReturnType<typeof summaryOf>[]): void {
+  printTable(
+    [
+      'world',
+      'runs',
+      'metres',
+      'contacts',
+      'falls',
+      'unseen',
+      'edge cm',
+      'stops',
+      'free commands',
+      'false stops',
+      '%',
+    ],
+    rows.map((row) => [
+      row.world,
+      row.runs,
+      Math.round(row.metres),
+      row.contacts,
+      row.falls,
+      row.unseen,
+      row.nearestEdgeM === null ? '' : (100 * row.nearestEdgeM).toFixed(1),
+      row.stops,
+      row.freeCommands,
+      row.falseStops,
+      100 * row.falseShare,
+    ]),
+  );
+}
 
 /** One run in one of the places. */
 export type Drive = (seed: number, seconds: number, times: GuardTimes) => GuardedRun | Promise<GuardedRun>;

@@ -135,7 +135,7 @@ async function measure(options: RunOptions) {
   }
 }
 
-/** The robot's. JSON is valid YAML. */
+/** The robot's configuration: JSON is valid YAML. */
 function configuration({ mbps, encoder }: RunOptions, janus: JanusServer): string {
   const cameras = ['pinwheel', 'ball'].map((pattern) => ({
     name: pattern,
@@ -148,7 +148,7 @@ function configuration({ mbps, encoder }: RunOptions, janus: JanusServer): strin
   return JSON.stringify({ robot: { videos: cameras, broadcast } });
 }
 
-/** Measures while all watch. @param viewers those beside the page */
+/** Measures while all viewers watch. @param viewers light ones, beside the page */
 async function watch(stack: LocalStack, page: Page, viewers: readonly JanusViewer[], seconds: number) {
   const shown = (): Promise<WatchStats | undefined> => page.evaluate(() => window.farpointWatch?.stats());
   const { pid } = stack.robot(ROBOT);

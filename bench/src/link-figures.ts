@@ -18,7 +18,7 @@ import type { LinkSamples, TimedRun } from './link-samples.ts';
 import { type SensorSums, sensorRows } from './sensor-rows.ts';
 import { distribution, rounded } from './stats.ts';
 
-/** A run, and what its programs took meanwhile. */
+/** A run, and the processor time of its programs. */
 export interface LinkRecord extends TimedRun {
   /** Cores; `null` without /proc. */
   robotCores: number | null;
@@ -27,14 +27,14 @@ export interface LinkRecord extends TimedRun {
   /** Processor time of the robot by stage since it started, s. */
   stagesBefore: Record<string, number>;
   stagesAfter: Record<string, number>;
-  /** The page's, at the end. */
+  /** The page's statistics at the end. */
   statistics: ReturnType<Window['farpoint']['stats']>;
   sensorsBefore: SensorSums[];
   /** The robot's sensors, in their order. */
   named: readonly { name: string }[];
 }
 
-/** What `--json` prints. */
+/** The object that `--json` prints. */
 export type LinkFigures = ReturnType<typeof linkFigures>;
 
 export function linkFigures(options: LinkOptions, record: LinkRecord, samples: LinkSamples) {
@@ -99,7 +99,7 @@ function latencyFigures(tests: readonly LatencySample[]) {
   };
 }
 
-/** What the page received and drew. */
+/** Figures of the stream that the page received and drew. */
 function streamFigures(page: readonly PageSample[], elapsedS: number) {
   const frames = grown(page.map(({ framesDrawn }) => framesDrawn));
   const points = grown(page.map(({ pointsDrawn }) => pointsDrawn));
@@ -112,7 +112,7 @@ function streamFigures(page: readonly PageSample[], elapsedS: number) {
   };
 }
 
-/** Cores of the robot, by stage of a frame. */
+/** Cores of the robot, by stage of a frame; `total` is `null` without /proc. */
 function robotCpuOf({ robotCores: total, stagesBefore, stagesAfter, zeroMs, endMs }: LinkRecord) {
   const cores = (stage: string) =>
     Number((((stagesAfter[stage] ?? 0) - (stagesBefore[stage] ?? 0)) / ((endMs - zeroMs) / 1000)).toFixed(3));

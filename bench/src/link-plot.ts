@@ -49,7 +49,7 @@ export function plotLink(plot: LinkPlot): string {
   });
 }
 
-/** @param seconds time on the plot's axis */
+/** @param seconds converts a time to the plot's axis */
 function bitRates({ bins, robot }: LinkPlot, seconds: (timeMs: number) => number): Series[] {
   const times = bins.map(({ timeMs }) => seconds(timeMs));
   const mbps = (bytes: number) => BitRate.toMbps(BitRate.of(bytes, BIN_MS));
@@ -72,7 +72,7 @@ function bitRates({ bins, robot }: LinkPlot, seconds: (timeMs: number) => number
   return series;
 }
 
-/** @param seconds time on the plot's axis */
+/** @param seconds converts a time to the plot's axis */
 function latencySeries({ bins, latencies }: LinkPlot, seconds: (timeMs: number) => number): Series[] {
   const answered = latencies.filter(({ mtpMs }) => mtpMs !== null);
   return [

@@ -55,7 +55,7 @@ export async function drivePage(page: Page, seconds: number): Promise<PageRun> {
   return { series: shift(series), latencies: shift(latencies).map(latencySampleOf) };
 }
 
-/** Runs in the page, alone: nothing outside its braces exists there. */
+/** Runs in the page, where nothing outside its braces exists. */
 async function driveAndTest(ms: number): Promise<{ series: PageSample[]; latencies: PageLatency[] }> {
   const { farpoint } = window;
   const pause = (time: number) => new Promise((resolve) => setTimeout(resolve, time));
@@ -102,7 +102,7 @@ async function driveAndTest(ms: number): Promise<{ series: PageSample[]; latenci
   return { series, latencies };
 }
 
-/** @param latency with its time on the robot's clock */
+/** @param latency with `timeMs` on the robot's clock */
 function latencySampleOf({ timeMs, mtpMs, firstMs, arrivedMs, robot }: PageLatency): LatencySample {
   const parts =
     mtpMs === null || robot === null

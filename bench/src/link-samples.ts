@@ -1,4 +1,4 @@
-/** What the link, the robots and the page recorded in a run of `pnpm bench link`, and which of it counts. */
+/** Samples of the link, the robots and the page in a run of `pnpm bench link`, and which of them count. */
 import {
   grown,
   isWithin,
@@ -6,6 +6,7 @@ import {
   outagesOf,
   type PageSample,
   type RobotSample,
+  type TimeSpan,
 } from './link-analysis.ts';
 import { type LatencySample, type PageRun, readRobotSamples, readUplink } from './link-run.ts';
 
@@ -27,26 +28,25 @@ export interface TimedRun extends PageRun {
 }
 
 export interface LinkSamples {
-  /** From the start of the link on. */
+  /** Those whose names begin with `all` are from the start of the link on, the others without the warm-up. */
   allBins: LinkBin[];
   allRobot: RobotSample[];
   allLatencies: LatencySample[];
-  /** The rest is without the warm-up. */
   bins: LinkBin[];
-  /** Without outages. */
+  /** Bins outside of outages. */
   servedBins: LinkBin[];
-  /** From the start of the link on, without outages and the time in which their queue drains. */
+  /** Bins outside of outages and of the time after them in which the queue drains. */
   allCalmBins: LinkBin[];
   calmBins: LinkBin[];
   robot: RobotSample[];
   page: PageSample[];
   /** Tests in which the link was in service all the time. */
   tests: LatencySample[];
-  outages: ReturnType<typeof outagesOf>;
+  outages: TimeSpan[];
   /** Bytes that the first robot sent, and those of all robots. */
   ownBytes: number;
   allBytes: number;
-  /** Span of what counts, ms. */
+  /** From the warm-up to the end, ms. */
   elapsedMs: number;
 }
 

@@ -121,7 +121,7 @@ function linkArgs({ values, rateMbps }: LinkOptions): string[] {
   ];
 }
 
-/** Drives the first robot, the others streaming beside it, and stops it. */
+/** Drives the first robot while the others stream beside it, and stops it. */
 async function drive(live: LiveStack, { robots, seconds }: LinkOptions): Promise<LinkRecord> {
   const { page, stack, browserPid } = live;
   for (let i = 1; i < robots; i++) await live.openPage(`sim-${i + 1}`);

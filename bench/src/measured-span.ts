@@ -14,7 +14,7 @@ export interface MeasuredSpan<Name extends string> {
   beginMs: number;
   endMs: number;
   elapsedMs: number;
-  /** Mean cores; `null` without /proc. */
+  /** Mean number of cores that each program used; `null` without /proc. */
   cores: Record<Name, number | null>;
 }
 

@@ -91,7 +91,7 @@ function robotArgs({ points, fps, mbps }: Options): string[] {
 }
 
 /**
- * Runs in the page. The pauses follow a fixed sequence (the golden ratio's), so that events are spread evenly over the
+ * Runs in the page, where nothing outside its braces exists. The pauses follow a fixed sequence (the golden ratio's), so that events are spread evenly over the
  * camera's period.
  */
 async function testLatency(count: number) {

@@ -111,7 +111,7 @@ interface Measured {
   memory: Memory[];
 }
 
-/** Drives all the while. */
+/** Measures while the robot is driven. */
 async function measure({ page, browserPid }: LiveStack, seconds: number): Promise<Measured> {
   const firstPictureMs = await timeFirstPicture(page);
   const driving = page.evaluate(driveInCircles, { ms: seconds * 1000, forward: 0.4 });
@@ -143,7 +143,7 @@ async function memoryOf(page: Page, browserPid: number, beganMs: number): Promis
 
 type Figures = ReturnType<typeof figuresOf>;
 
-/** @returns what `--json` prints @param speedMs this computer's, as calibrated */
+/** @param speedMs this computer's calibration @returns the object that `--json` prints */
 function figuresOf(
   { values, ...options }: Options,
   speedMs: number,

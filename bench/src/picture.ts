@@ -21,6 +21,15 @@ interface Picture {
   mbps: number;
 }
 
+interface View {
+  rateMbps: number;
+  rttMs: string;
+  fps: string;
+  seconds: number;
+  width: number;
+  height: number;
+}
+
 export const bench: Bench = {
   name: 'picture',
   summary: 'what an operator sees over a link: points64 compared with the whole cloud',
@@ -45,43 +54,9 @@ export const bench: Bench = {
     const [width, height] = values.size.split('x').map(Number) as [number, number];
     if (!Number.isInteger(width) || !Number.isInteger(height))
       throw new Error(`--size is \`${values.size}\``);
+    const view = { rateMbps, rttMs: values['rtt-ms'], fps: values.fps, seconds, width, height };
     const pictures: Picture[] = [];
-    for (const mode of ['points64', 'auto']) {
-      const live = await startLiveStack({
-        robot: { id: 'sim-1', name: 'Simulated robot', args: ['--mode', mode, '--fps', values.fps] },
-        canvas: `${width}x${height}`,
-        query: 'every=1',
-        link: {
-          args: ['--rate-mbps', String(rateMbps), '--rtt-ms', values['rtt-ms'], '--queue-ms', '100'],
-          env: { FARPOINT_LOG_LEVEL: 'warn' },
-        },
-        log: (line) => console.error(`${mode}: ${line}`),
-      });
-      try {
-        await live.page.waitForTimeout(seconds * 1000);
-        const { pointsPerFrame, framesPerSecond, bitsPerSecond } = await live.page.evaluate(() =>
-          window.farpoint.stats(),
-        );
-        const png = await live.page.locator('canvas').first().screenshot({
-          // Hide everything but the cloud: the page's elements are drawn over the canvas.
-          style:
-            'body > :not(canvas) { visibility: hidden !important } canvas { visibility: visible !important }',
-        });
-        const { data, channels, ...size } = decode(png);
-        if (size.width !== width || size.height !== height)
-          throw new Error(`the canvas is ${size.width}×${size.height}, not ${values.size}`);
-        pictures.push({
-          mode,
-          pixels: Uint8Array.from(data),
-          channels,
-          pointsPerFrame,
-          framesPerSecond,
-          mbps: BitRate.toMbps(bitsPerSecond),
-        });
-      } finally {
-        await live.close();
-      }
-    }
+    for (const mode of ['points64', 'auto']) pictures.push(await pictureIn(mode, view));
     writeFileSync(values.out, sideBySide(pictures, width, height));
     const rows = pictures.map(({ mode, pointsPerFrame, framesPerSecond, mbps }) => ({
       mode,
@@ -96,6 +71,46 @@ export const bench: Bench = {
     if (values.json) printJson({ bench: 'picture', rateMbps, out: values.out, rows });
   },
 };
+
+async function pictureIn(
+  mode: string,
+  { rateMbps, rttMs, fps, seconds, width, height }: View,
+): Promise<Picture> {
+  const live = await startLiveStack({
+    robot: { id: 'sim-1', name: 'Simulated robot', args: ['--mode', mode, '--fps', fps] },
+    canvas: `${width}x${height}`,
+    query: 'every=1',
+    link: {
+      args: ['--rate-mbps', String(rateMbps), '--rtt-ms', rttMs, '--queue-ms', '100'],
+      env: { FARPOINT_LOG_LEVEL: 'warn' },
+    },
+    log: (line) => console.error(`${mode}: ${line}`),
+  });
+  try {
+    await live.page.waitForTimeout(seconds * 1000);
+    const { pointsPerFrame, framesPerSecond, bitsPerSecond } = await live.page.evaluate(() =>
+      window.farpoint.stats(),
+    );
+    const png = await live.page.locator('canvas').first().screenshot({
+      // Hide everything but the cloud: the page's elements are drawn over the canvas.
+      style:
+        'body > :not(canvas) { visibility: hidden !important } canvas { visibility: visible !important }',
+    });
+    const { data, channels, ...size } = decode(png);
+    if (size.width !== width || size.height !== height)
+      throw new Error(`the canvas is ${size.width}×${size.height}, not ${width}x${height}`);
+    return {
+      mode,
+      pixels: Uint8Array.from(data),
+      channels,
+      pointsPerFrame,
+      framesPerSecond,
+      mbps: BitRate.toMbps(bitsPerSecond),
+    };
+  } finally {
+    await live.close();
+  }
+}
 
 const GAP = 8;
 

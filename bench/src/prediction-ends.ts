@@ -32,7 +32,7 @@ export class RobotEnd {
     this.#base = newBase(kind);
   }
 
-  /** A copy. */
+  /** A copy of the base's pose. */
   get pose(): Pose {
     return { ...this.#base.pose };
   }
@@ -45,7 +45,7 @@ export class RobotEnd {
     this.#heardMs = atMs;
   }
 
-  /** Moves by a millisecond. */
+  /** Moves the base by a millisecond. */
   step(nowMs: number): void {
     if (nowMs % WHEELS_MS === 0) {
       const [linear, angular] = nowMs - this.#heardMs < WATCHDOG_MS ? this.#wish : [0, 0];
@@ -58,22 +58,23 @@ export class RobotEnd {
   }
 }
 
-/** Where the robot is in a drawn frame. */
+/** Where a drawn frame shows the robot. */
 export interface Picture {
   shownMs: number;
   /** With prediction. */
   view: Pose;
-  /** The newest pose, followed; and as it came. */
+  /** The newest pose, followed as the page does without prediction. */
   plain: Pose;
+  /** The newest pose as it came. */
   newest: Pose;
 }
 
 export class PageEnd {
   readonly predictor = new MotionPredictor();
-  /** The most that one frame corrected. */
+  /** The most that one frame corrected, m and rad. */
   correctionM = 0;
   correctionRad = 0;
-  /** From keys to the first frames in which the view has moved, from standing. */
+  /** From a key to the drawing of the first frame in which the view has moved, from standing. */
   readonly inputToViewMs: number[] = [];
   readonly #clock = new ClockOffset();
   readonly #view = new ReconciledPose();
@@ -82,7 +83,7 @@ export class PageEnd {
   #newestMs = 0;
   #wish: Wish = [0, 0];
   #pressedMs: number | null = null;
-  /** Drawn and not shown yet. */
+  /** Pictures that are drawn and not shown yet. */
   readonly #waiting: Picture[] = [];
 
   constructor() {

@@ -1,4 +1,4 @@
-/** The link of `pnpm bench prediction`, and what passes it. */
+/** The link of `pnpm bench prediction`, and the messages that pass it. */
 import { idealProfile, LinkModel } from '@farpoint/network-sim';
 
 /** m and rad. */
@@ -6,7 +6,7 @@ export type Pose = { x: number; y: number; yaw: number };
 /** m/s and rad/s. */
 export type Wish = readonly [linear: number, angular: number];
 
-/** From the page to the robot. */
+/** A message from the page to the robot. */
 export type Up = Command | { kind: 'probe'; sentMs: number };
 export interface Command {
   kind: 'command';
@@ -14,13 +14,13 @@ export interface Command {
   wish: Wish;
 }
 
-/** From the robot to the page. */
+/** A message from the robot to the page. */
 export type Down =
   | { kind: 'telemetry'; robotMs: number; pose: Pose }
   | { kind: 'cloud'; robotMs: number; pose: Pose }
   | { kind: 'answer'; id: number; sentMs: number; robotMs: number };
 
-export interface WayOptions {
+interface WayOptions {
   delayMs: number;
   /** ± per packet, ms. */
   jitterMs: number;

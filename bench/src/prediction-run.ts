@@ -71,7 +71,7 @@ class Errors {
   }
 }
 
-/** What comes at even intervals. */
+/** A timer with even intervals, in virtual time. */
 class Beat {
   readonly #intervalMs: number;
   #nextMs: number;
@@ -81,7 +81,7 @@ class Beat {
     this.#nextMs = firstMs;
   }
 
-  /** When the next one was due, which is over then; `null` if it is not yet. */
+  /** Takes the next beat. @returns when it was due; `null` if it is not due yet */
   due(nowMs: number): number | null {
     if (nowMs < this.#nextMs) return null;
     const dueMs = this.#nextMs;
@@ -156,7 +156,7 @@ function drive(spec: DriveSpec, plan: Drive): Omit<DriveResult, 'firstTurn'> {
   return resultOf(spec, page, errors);
 }
 
-/** The errors of what was shown, by what was known of the robot then. */
+/** Errors of the shown pictures, by what was known of the robot then. */
 class ViewErrorsByTime {
   readonly predicted = new Errors();
   readonly cold = new Errors();

@@ -133,7 +133,7 @@ function print(results: readonly LinkResult[]): void {
   );
 }
 
-/** What `--json` prints of the run on the link that has targets. */
+/** Figures that `--json` prints of the run on the link that has targets. */
 function figuresOf(target: LinkResult) {
   const { predicted, firstTurn, without } = target;
   return {

@@ -39,7 +39,7 @@ interface Options {
   capturedFps: string;
   encoder: string;
   compression: string;
-  /** Where the session's own folder is made. */
+  /** Folder in which the session's own folder is made. */
   folder: string;
   json: boolean | undefined;
 }
@@ -106,7 +106,7 @@ function readOptions(argv: string[]): Options | null {
 interface Runs {
   plain: LayoutResult;
   recorded: LayoutResult;
-  /** Of the robot that records, each second, MB. */
+  /** Memory of the robot that records, each second, MB. */
   memoryMb: number[];
   /** Pictures that its encoders skipped, by camera. */
   skipped: number[];
@@ -156,7 +156,7 @@ function recordArgs({ capturedFps, compression }: Options, path: string): string
 
 type Figures = ReturnType<typeof figuresOf>;
 
-/** @returns what `--json` prints */
+/** @returns the object that `--json` prints */
 function figuresOf(options: Options, runs: Runs, file: ReadBack, fileBytes: number) {
   const { plain, recorded, memoryMb } = runs;
   const { size, fps, seconds, mbps, compression, picturesPerSecond } = options;
@@ -230,7 +230,7 @@ function printRuns({ plain, recorded }: Runs, result: Figures): void {
   );
 }
 
-/** @param skipped by the encoders, by camera */
+/** @param skipped pictures that the encoders skipped, by camera */
 function printFile({ topics, videos }: ReadBack, skipped: readonly number[]): void {
   printTable(
     ['topic', 'recorded', 'dropped', 'MB'],

@@ -2,11 +2,11 @@
 import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
-import { Points64Encoder } from '@farpoint/wasm-codec';
+import { type Codec, Points64Encoder } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
 import { depthWeights, SamplingFit } from './sampling-fit.ts';
-import { hallCloud, validDepths } from './sampling-scene.ts';
+import { hallCloud, type SceneCloud, validDepths } from './sampling-scene.ts';
 import { type Distribution, distribution, rounded, timeCalls } from './stats.ts';
 
 const USAGE = `pnpm bench sampler [--points 230400] [--n 30000] [--lambda 3] [--rounds 300] [--draws 40] [--json]
@@ -14,75 +14,117 @@ const USAGE = `pnpm bench sampler [--points 230400] [--n 30000] [--lambda 3] [--
 Kernel benchmark, in one process. Chooses --n of --points points by the paper's depth weights, in WASM and, if Cargo is
 installed, natively; compares --draws draws with the exact distribution (p-value of a chi-square test).`;
 
+interface Options {
+  /** Points of the cloud. */
+  points: number;
+  /** Points that are chosen. */
+  count: number;
+  lambda: number;
+  rounds: number;
+  draws: number;
+  json: boolean | undefined;
+}
+
+interface Figures {
+  wasm: Distribution;
+  native: Distribution | null;
+  /** `null` if there was nothing to choose. */
+  pValue: number | null;
+}
+
 export const bench: Bench = {
   name: 'sampler',
   summary: 'kernel: time of the depth-weighted sampling, and a test of its distribution',
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        points: { type: 'string', default: '230400' },
-        n: { type: 'string', default: '30000' },
-        lambda: { type: 'string', default: '3' },
-        rounds: { type: 'string', default: '300' },
-        draws: { type: 'string', default: '40' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
-    });
-    if (values.help) return console.log(USAGE);
-    const points = numberOption('points', values.points, 1);
-    const count = numberOption('n', values.n, 1);
-    const lambda = numberOption('lambda', values.lambda);
-    const rounds = numberOption('rounds', values.rounds, 1);
-    const draws = numberOption('draws', values.draws, 1);
-
-    using encoder = new Points64Encoder(await loadCodecFromDisk(), points);
-    const cloud = hallCloud(points);
-    encoder.frameBits.set(new Uint32Array(cloud.frame.buffer));
-    const sample = (seed: number) => encoder.sample({ points, count, lambda, seed });
-
-    const wasm = rounded(distribution(timeCalls(sample, rounds)), 4);
-    const native = nativeTimes(points, count, rounds);
-
-    const { depths, indices } = validDepths(cloud);
-    const parameters = { lambda, epsilon: 1e-6, nearDistance: 3.85 };
-    let pValue: number | null = null;
-    if (count < depths.length) {
-      const positions = new Int32Array(points).fill(-1);
-      indices.forEach((index, position) => {
-        positions[index] = position;
-      });
-      const fit = new SamplingFit(depths, depthWeights(depths, parameters), count);
-      for (let seed = 0; seed < draws; seed++) {
-        sample(seed);
-        fit.add(encoder.chosen.map((index) => positions[index] as number));
-      }
-      pValue = fit.pValue();
-    }
-
-    console.log(`${count} of ${points} points, lambda ${lambda} (kernel: one process, no link)`);
-    const rows: (string | number)[][] = [['WASM', ...distributionCells(wasm)]];
-    if (native !== null) rows.push(['native', ...distributionCells(native)]);
-    printTable(['ms', 'p50', 'p95', 'p99', 'max'], rows);
-    if (native === null) console.log('native: not measured, Cargo is not there');
-    if (pValue === null) console.log('distribution: all points were kept, there was no draw');
-    else console.log(`distribution: p = ${pValue.toPrecision(3)} over ${draws} draws`);
-    if (values.json) {
-      printJson({
-        bench: 'sampler',
-        points,
-        n: count,
-        lambda,
-        msP50: wasm.p50,
-        nativeMsP50: native?.p50 ?? null,
-        pValue,
-        wasmMs: wasm,
-        nativeMs: native,
-      });
-    }
+    const options = readOptions(argv);
+    if (options === null) return;
+    report(options, measure(await loadCodecFromDisk(), options));
   },
 };
+
+/** @returns `null` if only the usage was requested @throws {Error} naming the option */
+function readOptions(argv: string[]): Options | null {
+  const { values } = parseArgs({
+    args: argv,
+    options: {
+      points: { type: 'string', default: '230400' },
+      n: { type: 'string', default: '30000' },
+      lambda: { type: 'string', default: '3' },
+      rounds: { type: 'string', default: '300' },
+      draws: { type: 'string', default: '40' },
+      json: { type: 'boolean' },
+      help: { type: 'boolean' },
+    },
+  });
+  if (values.help) {
+    console.log(USAGE);
+    return null;
+  }
+  return {
+    points: numberOption('points', values.points, 1),
+    count: numberOption('n', values.n, 1),
+    lambda: numberOption('lambda', values.lambda),
+    rounds: numberOption('rounds', values.rounds, 1),
+    draws: numberOption('draws', values.draws, 1),
+    json: values.json,
+  };
+}
+
+function measure(codec: Codec, options: Options): Figures {
+  const { points, count, lambda, rounds } = options;
+  using encoder = new Points64Encoder(codec, points);
+  const cloud = hallCloud(points);
+  encoder.frameBits.set(new Uint32Array(cloud.frame.buffer));
+  const sample = (seed: number) => encoder.sample({ points, count, lambda, seed });
+  return {
+    wasm: rounded(distribution(timeCalls(sample, rounds)), 4),
+    native: nativeTimes(points, count, rounds),
+    pValue: testDistribution(cloud, options, (seed) => {
+      sample(seed);
+      return encoder.chosen;
+    }),
+  };
+}
+
+/** @param draw chooses indices of points @returns the p-value; `null` if all points are kept */
+function testDistribution(
+  cloud: SceneCloud,
+  { points, count, lambda, draws }: Options,
+  draw: (seed: number) => Uint32Array,
+): number | null {
+  const { depths, indices } = validDepths(cloud);
+  if (count >= depths.length) return null;
+  const parameters = { lambda, epsilon: 1e-6, nearDistance: 3.85 };
+  const positions = new Int32Array(points).fill(-1);
+  indices.forEach((index, position) => {
+    positions[index] = position;
+  });
+  const fit = new SamplingFit(depths, depthWeights(depths, parameters), count);
+  for (let seed = 0; seed < draws; seed++) fit.add(draw(seed).map((index) => positions[index] as number));
+  return fit.pValue();
+}
+
+function report({ points, count, lambda, draws, json }: Options, { wasm, native, pValue }: Figures): void {
+  console.log(`${count} of ${points} points, lambda ${lambda} (kernel: one process, no link)`);
+  const rows: (string | number)[][] = [['WASM', ...distributionCells(wasm)]];
+  if (native !== null) rows.push(['native', ...distributionCells(native)]);
+  printTable(['ms', 'p50', 'p95', 'p99', 'max'], rows);
+  if (native === null) console.log('native: not measured, Cargo is not there');
+  if (pValue === null) console.log('distribution: all points were kept, there was no draw');
+  else console.log(`distribution: p = ${pValue.toPrecision(3)} over ${draws} draws`);
+  if (!json) return;
+  printJson({
+    bench: 'sampler',
+    points,
+    n: count,
+    lambda,
+    msP50: wasm.p50,
+    nativeMsP50: native?.p50 ?? null,
+    pValue,
+    wasmMs: wasm,
+    nativeMs: native,
+  });
+}
 
 /** Times the same sampler compiled for this machine's processor; null if that is impossible. */
 function nativeTimes(points: number, count: number, rounds: number): Distribution | null {

@@ -4,11 +4,12 @@ import { writeFile } from 'node:fs/promises';
 import { basename } from 'node:path';
 import { parseArgs } from 'node:util';
 import { BitRate } from '@farpoint/timing';
-import { maxPoints, Points64Encoder } from '@farpoint/wasm-codec';
+import { type Codec, maxPoints, Points64Encoder } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { type Panel, renderChart, type Series } from './plot/chart.ts';
 import { type Bench, numberOption, printJson, printTable } from './report.ts';
 import { pcdCloud, simulatedCloud } from './sampling-clouds.ts';
+import type { SceneCloud } from './sampling-scene.ts';
 
 const USAGE = `pnpm bench sampling [--cloud FILE.pcd] [--fps 10] [--near 3.85] [--plot FILE.svg] [--json]
 
@@ -20,14 +21,29 @@ const LAMBDAS = [0, 3, 7, 9];
 const MEGABITS = [10, 25, 50];
 const BINS = 48;
 
-interface Curve {
+interface Histogram {
+  /** Number of points in each depth bin. */
+  counts: number[];
+  meanDepth: number;
+}
+
+interface Curve extends Histogram {
   nearDistance: number;
   lambda: number;
   mbps: number;
   kept: number;
-  /** Number of points in each depth bin. */
-  counts: number[];
-  meanDepth: number;
+}
+
+interface Sampled {
+  /** Points of the cloud. */
+  points: number;
+  /** Points that can be sent, and the depth of the farthest, m. */
+  valid: number;
+  maxDepth: number;
+  /** Width of a depth bin, m. */
+  binM: number;
+  whole: Histogram;
+  curves: Curve[];
 }
 
 export const bench: Bench = {
@@ -49,82 +65,81 @@ export const bench: Bench = {
     const framesPerSecond = numberOption('fps', values.fps, 0.1);
     const nearDistances = [...new Set([numberOption('near', values.near), 0])];
     const cloud = values.cloud === undefined ? await simulatedCloud() : await pcdCloud(values.cloud);
-    const { points } = cloud;
-
-    using encoder = new Points64Encoder(await loadCodecFromDisk(), points);
-    encoder.frameBits.set(new Uint32Array(cloud.frame.buffer, 0, points * 4));
-    const raw = encoder.sample({ points, count: points, seed: 0 });
-    const edge = raw.maxDepth / BINS;
-    const histogram = () => {
-      const counts = new Array<number>(BINS).fill(0);
-      let sum = 0;
-      for (const index of encoder.chosen) {
-        const z = cloud.frame[index * 4 + 2] as number;
-        const bin = Math.min(BINS - 1, Math.floor(z / edge));
-        counts[bin] = (counts[bin] as number) + 1;
-        sum += z;
-      }
-      return { counts, meanDepth: sum / encoder.chosen.length };
-    };
-    const whole = histogram();
-
-    const curves: Curve[] = [];
-    for (const nearDistance of nearDistances) {
-      for (const mbps of MEGABITS) {
-        const count = maxPoints({ bitsPerSecond: BitRate.fromMbps(mbps), framesPerSecond, points });
-        for (const lambda of LAMBDAS) {
-          const { kept } = encoder.sample({ points, count, lambda, nearDistance, seed: 1 });
-          curves.push({ nearDistance, lambda, mbps, kept, ...histogram() });
-        }
-      }
-    }
-
+    const sampled = sampleAll(await loadCodecFromDisk(), cloud, nearDistances, framesPerSecond);
     const name = values.cloud === undefined ? 'simulated office' : basename(values.cloud);
-    console.log(`${name}: ${points} points, ${raw.kept} of them valid, up to ${raw.maxDepth.toFixed(1)} m`);
-    printTable(
-      ['D m', 'Mbit/s', 'lambda', 'kept', 'mean depth m'],
-      [
-        ['', 'raw', '', raw.kept, whole.meanDepth],
-        ...curves.map((curve) => [
-          `${curve.nearDistance}`,
-          `${curve.mbps}`,
-          `${curve.lambda}`,
-          curve.kept,
-          curve.meanDepth,
-        ]),
-      ],
-    );
+    print(name, sampled);
     if (values.plot !== undefined) {
-      const edges = Array.from({ length: BINS + 1 }, (_, i) => i * edge);
-      await writeFile(values.plot, plot(name, framesPerSecond, points, edges, whole.counts, curves));
+      await writeFile(values.plot, plot(name, framesPerSecond, sampled));
       console.log(`plot: ${values.plot}`);
     }
     if (values.json) {
-      printJson({
-        bench: 'sampling',
-        cloud: name,
-        points,
-        valid: raw.kept,
-        binM: edge,
-        raw: whole.counts,
-        curves,
-      });
+      const { points, valid, binM, whole, curves } = sampled;
+      printJson({ bench: 'sampling', cloud: name, points, valid, binM, raw: whole.counts, curves });
     }
   },
 };
 
-function plot(
-  name: string,
+/** Samples the cloud at each bandwidth with each lambda. */
+function sampleAll(
+  codec: Codec,
+  { frame, points }: SceneCloud,
+  nearDistances: readonly number[],
   framesPerSecond: number,
-  points: number,
-  edges: readonly number[],
-  raw: readonly number[],
-  curves: readonly Curve[],
-): string {
+): Sampled {
+  using encoder = new Points64Encoder(codec, points);
+  encoder.frameBits.set(new Uint32Array(frame.buffer, 0, points * 4));
+  const raw = encoder.sample({ points, count: points, seed: 0 });
+  const binM = raw.maxDepth / BINS;
+  const whole = histogram(frame, encoder.chosen, binM);
+  const curves: Curve[] = [];
+  for (const nearDistance of nearDistances) {
+    for (const mbps of MEGABITS) {
+      const count = maxPoints({ bitsPerSecond: BitRate.fromMbps(mbps), framesPerSecond, points });
+      for (const lambda of LAMBDAS) {
+        const { kept } = encoder.sample({ points, count, lambda, nearDistance, seed: 1 });
+        curves.push({ nearDistance, lambda, mbps, kept, ...histogram(frame, encoder.chosen, binM) });
+      }
+    }
+  }
+  return { points, valid: raw.kept, maxDepth: raw.maxDepth, binM, whole, curves };
+}
+
+/** @param chosen indices of points in the frame */
+function histogram(frame: Float32Array, chosen: Uint32Array, binM: number): Histogram {
+  const counts = new Array<number>(BINS).fill(0);
+  let sum = 0;
+  for (const index of chosen) {
+    const z = frame[index * 4 + 2] as number;
+    const bin = Math.min(BINS - 1, Math.floor(z / binM));
+    counts[bin] = (counts[bin] as number) + 1;
+    sum += z;
+  }
+  return { counts, meanDepth: sum / chosen.length };
+}
+
+function print(name: string, { points, valid, maxDepth, whole, curves }: Sampled): void {
+  console.log(`${name}: ${points} points, ${valid} of them valid, up to ${maxDepth.toFixed(1)} m`);
+  printTable(
+    ['D m', 'Mbit/s', 'lambda', 'kept', 'mean depth m'],
+    [
+      ['', 'raw', '', valid, whole.meanDepth],
+      ...curves.map((curve) => [
+        `${curve.nearDistance}`,
+        `${curve.mbps}`,
+        `${curve.lambda}`,
+        curve.kept,
+        curve.meanDepth,
+      ]),
+    ],
+  );
+}
+
+function plot(name: string, framesPerSecond: number, { points, binM, whole, curves }: Sampled): string {
+  const edges = Array.from({ length: BINS + 1 }, (_, i) => i * binM);
   // A step holds until the next edge, so the last value is repeated at the end.
   const steps = (counts: readonly number[]) => [...counts, counts.at(-1) ?? 0];
   const axes = { xLabel: 'depth (m)', yLabel: `points per ${(edges[1] as number).toFixed(2)} m` };
-  const cloud: Series = { label: 'raw cloud', x: edges, y: steps(raw), shape: 'area' };
+  const cloud: Series = { label: 'raw cloud', x: edges, y: steps(whole.counts), shape: 'area' };
   const seriesOf = (curve: Curve, label: string): Series => ({
     label,
     x: edges,

@@ -79,14 +79,14 @@ export async function measure(layout: Layout, run: ShmRun): Promise<LayoutResult
   }
 }
 
-export interface ProducerOptions {
+interface ProducerOptions {
   layout: Layout;
-  /** Of the shared memory. */
+  /** Folder of the shared memory. */
   folder: string;
   /** Points of a side. */
   size: number;
   fps: number;
-  /** File in which it records when it began to write each frame. */
+  /** File in which the producer records when it began to write each frame. */
   log?: string;
   /** Whether frames have the scene's colours, and not one each. */
   scene: boolean;
@@ -171,7 +171,7 @@ async function watch(stack: LocalStack, producer: ChildProcess, run: ShmRun): Pr
   return { span, colours, rssMbMax };
 }
 
-/** Asks for pictures and videos, as the run says. */
+/** Asks the robot for pictures and videos, if the run has some. */
 async function requestCameras({ client }: SignaledOperator, { pictures = false, videos = 0 }: ShmRun) {
   if (pictures) {
     await client.message('cameras');

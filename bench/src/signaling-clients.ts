@@ -114,7 +114,7 @@ function sentAt(text: string | undefined): number {
 
 /** Counts the relays of all sessions. */
 class Relays {
-  /** Resolves when all have come, or nobody waits for them any more. */
+  /** Resolves when all have come, or after {@link giveUp}. */
   readonly ended: Promise<void>;
   giveUp = (): void => {};
   readonly #expected: number;
@@ -239,7 +239,7 @@ async function run(plan: ClientPlan): Promise<void> {
   peers.terminate();
 }
 
-/** Lets robots that are in no session come and go. */
+/** Lets robots that are in no session come and go until the timer is cleared. */
 function startChurn(peers: Peers, { robots, churn }: ClientPlan): NodeJS.Timeout | null {
   if (churn === 0) return null;
   let churned = 0;

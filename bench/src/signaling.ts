@@ -107,11 +107,11 @@ function startService(port: number, { robots, operators }: ClientPlan): Promise<
 }
 
 interface Measured {
-  /** The service before anyone connected, with all connected, and at the end. */
+  /** The service's metrics before anyone connected, with all connected, and at the end. */
   idle: Metrics;
   connected: Metrics;
   done: Metrics;
-  /** In which sessions were set up. */
+  /** Time in which sessions were set up. */
   seconds: number;
   result: ClientResult;
 }
@@ -237,7 +237,7 @@ class Clients {
   }
 }
 
-/** Of the service's process. */
+/** Metrics of the service's process. */
 interface Metrics {
   residentBytes: number;
   cpuSeconds: number;

@@ -70,6 +70,7 @@ const REFRESH_MS = 40;
 const RUN_UP_MS = 5000;
 const GIVES_UP_MS = 20_000;
 const START_MS = 1_000_000;
+const STEP_MS = 2;
 
 /** Nothing but floor. */
 function plain(): WorldDescription {
@@ -129,78 +130,121 @@ interface InFlight {
   stop: boolean;
 }
 
-/** Simulates one drive, at 2 ms steps, and measures the stop. */
-function stoppingRun(settings: StoppingSettings, ramps: RampLimits = RAMPS): Stop {
-  const { cause, askedMps, latencyMs, intervalMs, phase, bounded } = settings;
-  const robot = new DrivenRobot(askedMps, bounded, bounded ? ramps : NO_RAMPS);
-  const halfMs = latencyMs / 2;
-  const happensMs = START_MS + Math.ceil(RUN_UP_MS / intervalMs) * intervalMs + phase * intervalMs;
-  let pictures: number[] = [];
-  let commands: InFlight[] = [];
-  let [captureMs, commandMs, sequence] = [START_MS, START_MS, 0];
-  let drawnMs: number | null = null;
-  let pressed = false;
-  let before: { mps: number; metres: number; told: number } | null = null;
-  let brakesMs: number | null = null;
-  const stepMs = 2;
+/** Simulates one drive and measures the stop. */
+class StoppingRun {
+  readonly #settings: StoppingSettings;
+  readonly #robot: DrivenRobot;
+  readonly #happensMs: number;
+  /** Capture times of pictures, and commands, that have not arrived. */
+  #pictures: number[] = [];
+  #commands: InFlight[] = [];
+  #captureMs = START_MS;
+  #commandMs = START_MS;
+  #sequence = 0;
+  /** Capture time of what the page shows. */
+  #drawnMs: number | null = null;
+  /** Whether the driver has pressed STOP. */
+  #pressed = false;
+  #before: { mps: number; metres: number; told: number } | null = null;
+  #brakesMs: number | null = null;
 
-  for (let nowMs = START_MS; nowMs < happensMs + GIVES_UP_MS; nowMs += stepMs) {
-    const happened = nowMs >= happensMs;
-    if (happened && before === null) {
-      const { twist, odometryDistance } = robot.base.state;
-      before = { mps: twist.linear.x, metres: odometryDistance, told: robot.toldMps };
+  constructor(settings: StoppingSettings) {
+    const { askedMps, intervalMs, phase, bounded } = settings;
+    this.#settings = settings;
+    this.#robot = new DrivenRobot(askedMps, bounded, bounded ? RAMPS : NO_RAMPS);
+    this.#happensMs = START_MS + Math.ceil(RUN_UP_MS / intervalMs) * intervalMs + phase * intervalMs;
+  }
+
+  run(): Stop {
+    const { cause, askedMps } = this.#settings;
+    for (let nowMs = START_MS; nowMs < this.#happensMs + GIVES_UP_MS; nowMs += STEP_MS) {
+      const happened = nowMs >= this.#happensMs;
+      if (happened) this.#before ??= this.#state();
+      const cut = cause === 'link' && happened;
+      this.#capture(nowMs, cause === 'camera' && happened);
+      this.#draw(nowMs, cut || (cause === 'page' && happened));
+      this.#readHand(nowMs);
+      const arrived = this.#arrive(nowMs, cut);
+      this.#robot.step(nowMs, STEP_MS, arrived > 0);
+      const stop = this.#stopAt(nowMs);
+      if (stop !== null) return stop;
     }
-    while (captureMs <= nowMs) {
-      if (!(cause === 'camera' && happened)) {
-        pictures.push(captureMs);
-        robot.guard.view.sent(nowMs);
-      }
-      captureMs += intervalMs;
+    throw new Error(`a robot that is driven at ${askedMps} m/s does not stop after: ${cause}`);
+  }
+
+  #state() {
+    const { twist, odometryDistance } = this.#robot.base.state;
+    return { mps: twist.linear.x, metres: odometryDistance, told: this.#robot.toldMps };
+  }
+
+  #capture(nowMs: number, fails: boolean): void {
+    for (; this.#captureMs <= nowMs; this.#captureMs += this.#settings.intervalMs) {
+      if (fails) continue;
+      this.#pictures.push(this.#captureMs);
+      this.#robot.guard.view.sent(nowMs);
     }
-    const cut = cause === 'link' && happened;
-    const drawn = cut || (cause === 'page' && happened) ? [] : pictures.filter((at) => at + halfMs <= nowMs);
-    drawnMs = drawn.at(-1) ?? drawnMs;
-    pictures = pictures.filter((at) => at + halfMs > nowMs);
-    while (commandMs <= nowMs) {
-      const stop: boolean = cause === 'sight' && !pressed && drawnMs !== null && drawnMs >= happensMs;
-      pressed ||= stop;
-      commands.push({ arrivesMs: commandMs + halfMs, readMs: commandMs, seenMs: drawnMs, stop });
-      commandMs += COMMAND_MS;
+  }
+
+  #draw(nowMs: number, fails: boolean): void {
+    const halfMs = this.#settings.latencyMs / 2;
+    const drawn = fails ? [] : this.#pictures.filter((at) => at + halfMs <= nowMs);
+    this.#drawnMs = drawn.at(-1) ?? this.#drawnMs;
+    this.#pictures = this.#pictures.filter((at) => at + halfMs > nowMs);
+  }
+
+  /** Sends a command for each time at which the page reads the driver's hand. */
+  #readHand(nowMs: number): void {
+    const { cause, latencyMs } = this.#settings;
+    for (; this.#commandMs <= nowMs; this.#commandMs += COMMAND_MS) {
+      const [readMs, seenMs] = [this.#commandMs, this.#drawnMs];
+      const stop = cause === 'sight' && !this.#pressed && seenMs !== null && seenMs >= this.#happensMs;
+      this.#pressed ||= stop;
+      this.#commands.push({ arrivesMs: readMs + latencyMs / 2, readMs, seenMs, stop });
     }
-    const arrived = cut ? [] : commands.filter(({ arrivesMs }) => arrivesMs <= nowMs);
-    commands = commands.filter(({ arrivesMs }) => arrivesMs > nowMs);
-    for (const { seenMs, readMs, stop } of arrived) {
-      if (stop) robot.guard.latchEstop('operator', 'driver');
-      const twist = { ...zeroTwist(), linear: { x: askedMps, y: 0, z: 0 } };
-      const seen = seenMs === null ? {} : { seenUs: stampUsOf(seenMs) };
-      if (seenMs !== null) robot.guard.sentViews.sent('driver', seenMs);
-      const { lease } = robot;
-      robot.guard.onCommand(
-        'driver',
-        { type: 'command', sequence: sequence++, timeMs: readMs, lease, deadMan: true, twist, ...seen },
-        nowMs,
-      );
-    }
-    robot.step(nowMs, stepMs, arrived.length > 0);
-    if (before === null) continue;
-    if (brakesMs === null && robot.toldMps < before.told - 1e-9) brakesMs = nowMs - happensMs;
-    const { twist, odometryDistance } = robot.base.state;
-    const isEnd = twist.linear.x === 0 && robot.toldMps === 0 && (cause !== 'sight' || pressed);
-    if (!isEnd) continue;
+  }
+
+  /** @returns how many commands have arrived at the robot */
+  #arrive(nowMs: number, cut: boolean): number {
+    const arrived = cut ? [] : this.#commands.filter(({ arrivesMs }) => arrivesMs <= nowMs);
+    this.#commands = this.#commands.filter(({ arrivesMs }) => arrivesMs > nowMs);
+    for (const command of arrived) this.#accept(command, nowMs);
+    return arrived.length;
+  }
+
+  #accept({ seenMs, readMs, stop }: InFlight, nowMs: number): void {
+    const { guard, lease } = this.#robot;
+    if (stop) guard.latchEstop('operator', 'driver');
+    const twist = { ...zeroTwist(), linear: { x: this.#settings.askedMps, y: 0, z: 0 } };
+    const seen = seenMs === null ? {} : { seenUs: stampUsOf(seenMs) };
+    if (seenMs !== null) guard.sentViews.sent('driver', seenMs);
+    const sequence = this.#sequence++;
+    guard.onCommand(
+      'driver',
+      { type: 'command', sequence, timeMs: readMs, lease, deadMan: true, twist, ...seen },
+      nowMs,
+    );
+  }
+
+  /** @returns `null` while the robot moves, and before anything has happened */
+  #stopAt(nowMs: number): Stop | null {
+    const before = this.#before;
+    if (before === null) return null;
+    const { mps, metres, told } = this.#state();
+    if (told < before.told - 1e-9) this.#brakesMs ??= nowMs - this.#happensMs;
+    if (mps !== 0 || told !== 0 || (this.#settings.cause === 'sight' && !this.#pressed)) return null;
     return {
       drivenMps: before.mps,
-      brakesMs,
-      metres: odometryDistance - before.metres,
-      ms: nowMs - happensMs,
+      brakesMs: this.#brakesMs,
+      metres: metres - before.metres,
+      ms: nowMs - this.#happensMs,
     };
   }
-  throw new Error(`a robot that is driven at ${askedMps} m/s does not stop after: ${cause}`);
 }
 
 /** The worst of several instants between two pictures. */
 export function worstStop(settings: Omit<StoppingSettings, 'phase'>, phases = 8): Stop {
   const stops = Array.from({ length: phases }, (_, i) =>
-    stoppingRun({ ...settings, phase: (i + 0.06) / phases }),
+    new StoppingRun({ ...settings, phase: (i + 0.06) / phases }).run(),
   );
   const most = (of: (stop: Stop) => number) => Math.max(...stops.map(of));
   const braking = stops.flatMap(({ brakesMs }) => (brakesMs === null ? [] : [brakesMs]));

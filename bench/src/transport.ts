@@ -103,7 +103,7 @@ function robotArgs({ fps, mbps }: Options, packetLog: string): string[] {
 type PageStats = ReturnType<Window['farpoint']['stats']>;
 
 interface Received {
-  /** The page's counts at the beginning and the end, and its clock, ms. */
+  /** The page's statistics at the beginning and the end, with its clock, ms. */
   before: PageStats & { nowMs: number };
   after: PageStats & { nowMs: number };
   elapsedMs: number;
@@ -145,7 +145,7 @@ async function receive(
 
 type Figures = ReturnType<typeof figuresOf>;
 
-/** @returns what `--json` prints */
+/** @returns the object that `--json` prints */
 function figuresOf({ mbps, canvas }: Options, record: Received, packetLog: string) {
   const { before, after, elapsedMs, packets } = record;
   const received = after.packetsReceived - before.packetsReceived;

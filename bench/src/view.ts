@@ -53,49 +53,12 @@ export const bench: Bench = {
   name: 'view',
   summary: 'kernel: holes, similarity and depth error of what the operator sees, by renderer',
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        'rate-mbps': { type: 'string', default: '8' },
-        loss: { type: 'string', default: '0.01' },
-        fps: { type: 'string', default: '10' },
-        seconds: { type: 'string', default: '20' },
-        size: { type: 'string', default: '320' },
-        seed: { type: 'string', default: '1' },
-        pictures: { type: 'string' },
-        video: { type: 'boolean' },
-        'video-mbps': { type: 'string', default: '1.5' },
-        'colour-quality': { type: 'string', default: '31' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
-    });
-    if (values.help) return console.log(USAGE);
-    const options: DriveOptions = {
-      rateMbps: numberOption('rate-mbps', values['rate-mbps'], 0.1),
-      loss: numberOption('loss', values.loss),
-      framesPerSecond: numberOption('fps', values.fps, 1),
-      seed: numberOption('seed', values.seed),
-      size: numberOption('size', values.size, 32),
-    };
-    const seconds = numberOption('seconds', values.seconds, FROM_S + 1);
-    if (values.video) {
-      const videoMbps = numberOption('video-mbps', values['video-mbps'], 0.1);
-      const quality = numberOption('colour-quality', values['colour-quality']);
-      return compareColours({ ...options, videoMbps, quality, seconds, json: values.json === true });
-    }
-    const browser = await ViewBrowser.open();
-    const results: Record<string, ModeResult> = {};
-    const last: Picture[][] = EYES.map(() => []);
-    try {
-      for (const mode of MODES) {
-        console.error(`${mode.name} …`);
-        results[mode.name] = await drawn(browser, mode, options, seconds, last);
-      }
-    } finally {
-      await browser.close();
-    }
-    if (values.pictures !== undefined) writePictures(values.pictures, last, options.size);
+    const options = readOptions(argv);
+    if (options === null) return;
+    const { drive, seconds, video, json } = options;
+    if (video !== null) return compareColours({ ...drive, ...video, seconds, json });
+    const { results, last } = await compareModes(drive, seconds);
+    if (options.pictures !== undefined) writePictures(options.pictures, last, drive.size);
     printTable(
       ['', 'holes', 'ssim', 'depth error m', 'behind: holes', 'ssim', 'draw ms p50', 'main ms p50'],
       Object.entries(results).map(([name, { eyes, drawMs, mainThreadMs }]) => {
@@ -104,7 +67,7 @@ export const bench: Bench = {
         return [name, ...ofEye, shoulder.holes, shoulder.ssim, drawMs.p50, mainThreadMs.p50];
       }),
     );
-    if (!values.json) return;
+    if (!json) return;
     const flat = Object.fromEntries(
       Object.entries(results).map(([name, { eyes, ...others }]) => {
         const { eye, shoulder } = eyes;
@@ -113,9 +76,65 @@ export const bench: Bench = {
     );
     // As the page shows it where there is a GPU.
     const { memory, ...others } = flat;
-    printJson({ bench: 'view', ...options, seconds, ...memory, ...others });
+    printJson({ bench: 'view', ...drive, seconds, ...memory, ...others });
   },
 };
+
+/** @returns `null` if only the usage was requested @throws {Error} naming the option */
+function readOptions(argv: string[]) {
+  const { values } = parseArgs({
+    args: argv,
+    options: {
+      'rate-mbps': { type: 'string', default: '8' },
+      loss: { type: 'string', default: '0.01' },
+      fps: { type: 'string', default: '10' },
+      seconds: { type: 'string', default: '20' },
+      size: { type: 'string', default: '320' },
+      seed: { type: 'string', default: '1' },
+      pictures: { type: 'string' },
+      video: { type: 'boolean' },
+      'video-mbps': { type: 'string', default: '1.5' },
+      'colour-quality': { type: 'string', default: '31' },
+      json: { type: 'boolean' },
+      help: { type: 'boolean' },
+    },
+  });
+  if (values.help) {
+    console.log(USAGE);
+    return null;
+  }
+  const drive: DriveOptions = {
+    rateMbps: numberOption('rate-mbps', values['rate-mbps'], 0.1),
+    loss: numberOption('loss', values.loss),
+    framesPerSecond: numberOption('fps', values.fps, 1),
+    seed: numberOption('seed', values.seed),
+    size: numberOption('size', values.size, 32),
+  };
+  const seconds = numberOption('seconds', values.seconds, FROM_S + 1);
+  const video = values.video
+    ? {
+        videoMbps: numberOption('video-mbps', values['video-mbps'], 0.1),
+        quality: numberOption('colour-quality', values['colour-quality']),
+      }
+    : null;
+  return { drive, seconds, video, pictures: values.pictures, json: values.json === true };
+}
+
+/** Drives once in each mode. @returns the results, and the last second's pictures by eye */
+async function compareModes(options: DriveOptions, seconds: number) {
+  const browser = await ViewBrowser.open();
+  const results: Record<string, ModeResult> = {};
+  const last: Picture[][] = EYES.map(() => []);
+  try {
+    for (const mode of MODES) {
+      console.error(`${mode.name} …`);
+      results[mode.name] = await drawn(browser, mode, options, seconds, last);
+    }
+  } finally {
+    await browser.close();
+  }
+  return { results, last };
+}
 
 async function drawn(
   browser: ViewBrowser,

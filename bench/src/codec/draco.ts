@@ -7,7 +7,7 @@ import draco3d, {
   type PointCloud,
   type PointCloudBuilder,
 } from 'draco3d';
-import { type BenchCloud, blobPackets, type CodecRun } from './adapter.ts';
+import { type BenchCloud, blobPackets, type CodecRun, type DecodedCloud } from './adapter.ts';
 
 /** Members of the module that its published types lack. */
 interface PointEncoderModule extends Omit<EncoderModule, 'Encoder'> {
@@ -29,12 +29,21 @@ export async function loadDraco(): Promise<Draco> {
 }
 
 /** @param speed 10 is the fastest and keeps the order; below 10, points are sorted into a k-d tree */
-export function draco(
-  { encoder, decoder }: Draco,
-  cloud: BenchCloud,
-  stepMm: number,
-  speed: number,
-): CodecRun {
+export function draco(modules: Draco, cloud: BenchCloud, stepMm: number, speed: number): CodecRun {
+  return new DracoRun(modules, cloud, stepMm, speed);
+}
+
+/** The cloud's measured points, as Draco takes them. */
+interface DracoInput {
+  positions: Float32Array;
+  /** Bytes of each point: three of a colour, or one of an intensity. */
+  values: Uint8Array;
+  channels: number;
+  /** Size along the longest axis, m. */
+  extent: number;
+}
+
+function inputOf(cloud: BenchCloud): DracoInput {
   const { valid, frame } = cloud;
   const positions = new Float32Array(valid.length * 3);
   const colours = new Uint8Array(valid.length * 3);
@@ -53,66 +62,97 @@ export function draco(
     extent = Math.max(extent, most - least);
   }
   const channels = cloud.attribute === 'colour' ? 3 : 1;
-  const sent = channels === 3 ? colours : colours.filter((_, i) => i % 3 === 0);
-  const bits = Math.min(30, Math.max(1, Math.ceil(Math.log2((extent * 1000) / stepMm + 1))));
-  let blob = new Int8Array(0);
-  let out: DracoInt8Array | null = null;
-  let length = 0;
-  let metres = new Float32Array(0);
-  let values = new Uint8Array(0);
-  return {
-    codec: 'draco',
-    setting: `${bits} bits (≤ ${stepMm} mm), speed ${speed}`,
-    blob: true,
-    encode() {
-      const builder = new encoder.PointCloudBuilder();
-      const points = new encoder.PointCloud();
-      const coder = new encoder.Encoder();
-      if (out !== null) encoder.destroy(out);
-      out = new encoder.DracoInt8Array();
-      try {
-        builder.AddFloatAttribute(points, encoder.POSITION as unknown as number, valid.length, 3, positions);
-        builder.AddUInt8Attribute(points, encoder.COLOR as unknown as number, valid.length, channels, sent);
-        coder.SetSpeedOptions(speed, speed);
-        coder.SetAttributeQuantization(encoder.POSITION, bits);
-        length = coder.EncodePointCloudToDracoBuffer(points, false, out);
-        if (length <= 0) throw new Error('Draco did not encode');
-      } finally {
-        for (const object of [builder, points, coder]) encoder.destroy(object);
-      }
-    },
-    // Byte by byte, because this build offers nothing else.
-    settle() {
-      const bytes = out;
-      if (bytes !== null) blob = Int8Array.from({ length }, (_, i) => bytes.GetValue(i));
-    },
-    packetBytes: () => blobPackets(blob.length),
-    decode() {
-      const buffer = new decoder.DecoderBuffer();
-      const coder = new decoder.Decoder();
-      const points = new decoder.PointCloud();
-      try {
-        buffer.Init(blob, blob.length);
-        const status = coder.DecodeBufferToPointCloud(buffer, points);
-        if (!status.ok()) throw new Error(`Draco: ${status.error_msg()}`);
-        const count = points.num_points();
-        metres = readFloats(decoder, coder, points, count);
-        values = readBytes(decoder, coder, points, count * channels);
-      } finally {
-        for (const object of [buffer, coder, points]) decoder.destroy(object);
-      }
-    },
-    decoded() {
-      const count = metres.length / 3;
-      const rgb =
-        channels === 3 ? values : new Uint8Array(count * 3).map((_, i) => values[Math.floor(i / 3)] ?? 0);
-      return { points: count, metres, rgb, source: speed === 10 ? valid : null };
-    },
-    [Symbol.dispose]() {
-      if (out !== null) encoder.destroy(out);
-      out = null;
-    },
-  };
+  const values = channels === 3 ? colours : colours.filter((_, i) => i % 3 === 0);
+  return { positions, values, channels, extent };
+}
+
+class DracoRun implements CodecRun {
+  readonly codec = 'draco';
+  readonly setting: string;
+  readonly blob = true;
+  readonly #modules: Draco;
+  readonly #valid: Uint32Array;
+  readonly #input: DracoInput;
+  readonly #bits: number;
+  readonly #speed: number;
+  #out: DracoInt8Array | null = null;
+  #length = 0;
+  #blob = new Int8Array(0);
+  #metres = new Float32Array(0);
+  #values = new Uint8Array(0);
+
+  constructor(modules: Draco, cloud: BenchCloud, stepMm: number, speed: number) {
+    this.#modules = modules;
+    this.#valid = cloud.valid;
+    this.#input = inputOf(cloud);
+    const steps = (this.#input.extent * 1000) / stepMm + 1;
+    this.#bits = Math.min(30, Math.max(1, Math.ceil(Math.log2(steps))));
+    this.#speed = speed;
+    this.setting = `${this.#bits} bits (≤ ${stepMm} mm), speed ${speed}`;
+  }
+
+  encode(): void {
+    const { encoder } = this.#modules;
+    const { positions, values, channels } = this.#input;
+    const { length: count } = this.#valid;
+    const builder = new encoder.PointCloudBuilder();
+    const points = new encoder.PointCloud();
+    const coder = new encoder.Encoder();
+    if (this.#out !== null) encoder.destroy(this.#out);
+    this.#out = new encoder.DracoInt8Array();
+    try {
+      builder.AddFloatAttribute(points, encoder.POSITION as unknown as number, count, 3, positions);
+      builder.AddUInt8Attribute(points, encoder.COLOR as unknown as number, count, channels, values);
+      coder.SetSpeedOptions(this.#speed, this.#speed);
+      coder.SetAttributeQuantization(encoder.POSITION, this.#bits);
+      this.#length = coder.EncodePointCloudToDracoBuffer(points, false, this.#out);
+      if (this.#length <= 0) throw new Error('Draco did not encode');
+    } finally {
+      for (const object of [builder, points, coder]) encoder.destroy(object);
+    }
+  }
+
+  /** Copies byte by byte, because this build offers nothing else. */
+  settle(): void {
+    const bytes = this.#out;
+    if (bytes !== null) this.#blob = Int8Array.from({ length: this.#length }, (_, i) => bytes.GetValue(i));
+  }
+
+  packetBytes(): number[] {
+    return blobPackets(this.#blob.length);
+  }
+
+  decode(): void {
+    const { decoder } = this.#modules;
+    const buffer = new decoder.DecoderBuffer();
+    const coder = new decoder.Decoder();
+    const points = new decoder.PointCloud();
+    try {
+      buffer.Init(this.#blob, this.#blob.length);
+      const status = coder.DecodeBufferToPointCloud(buffer, points);
+      if (!status.ok()) throw new Error(`Draco: ${status.error_msg()}`);
+      const count = points.num_points();
+      this.#metres = readFloats(decoder, coder, points, count);
+      this.#values = readBytes(decoder, coder, points, count * this.#input.channels);
+    } finally {
+      for (const object of [buffer, coder, points]) decoder.destroy(object);
+    }
+  }
+
+  decoded(): DecodedCloud {
+    const count = this.#metres.length / 3;
+    const values = this.#values;
+    const rgb =
+      this.#input.channels === 3
+        ? values
+        : new Uint8Array(count * 3).map((_, i) => values[Math.floor(i / 3)] ?? 0);
+    return { points: count, metres: this.#metres, rgb, source: this.#speed === 10 ? this.#valid : null };
+  }
+
+  [Symbol.dispose](): void {
+    if (this.#out !== null) this.#modules.encoder.destroy(this.#out);
+    this.#out = null;
+  }
 }
 
 type PointDecoder = InstanceType<DecoderModule['Decoder']>;

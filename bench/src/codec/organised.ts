@@ -5,8 +5,9 @@ import {
   OrganisedDecoder,
   OrganisedEncoder,
   type OrganisedOptions,
+  type Pinhole,
 } from '@farpoint/wasm-codec';
-import type { BenchCloud, CodecRun } from './adapter.ts';
+import type { BenchCloud, CodecRun, DecodedCloud } from './adapter.ts';
 import { nativeOrganised } from './native.ts';
 import { verify } from './verify.ts';
 
@@ -84,7 +85,7 @@ function cheapest(
 function organisedAs(
   codec: Codec,
   cloud: BenchCloud,
-  { name, options }: OrganisedSetting,
+  setting: Pick<OrganisedSetting, 'name' | 'options'>,
 ): CodecRun | string {
   const { width, height, frame } = cloud;
   if (height === 1 || cloud.depth === 'range') return 'the cloud has no grid';
@@ -98,7 +99,7 @@ function organisedAs(
   const { camera } = fit;
   let header: Uint8Array;
   try {
-    header = encoder.begin(camera, { palette: options.colour === 'palette' });
+    header = encoder.begin(camera, { palette: setting.options.colour === 'palette' });
   } catch (error) {
     encoder[Symbol.dispose]();
     if (error instanceof CodecError && error.code === 'too-many-colours')
@@ -106,67 +107,106 @@ function organisedAs(
     throw error;
   }
   const decoder = new OrganisedDecoder(codec, header);
-  // This decoder also says which pixel each point belongs to; the other decoder is timed.
   const witness = new OrganisedDecoder(codec, header, { images: true });
-  let [packets, passes] = [0, 0];
-  let wanted: readonly number[] = [];
-  // In pairs, as the page does.
-  const put = (into: OrganisedDecoder, indices: readonly number[]) => {
+  return new OrganisedRun(cloud, setting, { camera, encoder, decoder, witness });
+}
+
+interface OrganisedParts {
+  camera: Pinhole;
+  encoder: OrganisedEncoder;
+  /** The decoder that is timed. */
+  decoder: OrganisedDecoder;
+  /** A decoder that also says which pixel each point belongs to. */
+  witness: OrganisedDecoder;
+}
+
+class OrganisedRun implements CodecRun {
+  readonly codec = 'organised';
+  readonly setting: string;
+  readonly blob = false;
+  readonly hasColour: boolean;
+  readonly passes?: () => number;
+  readonly independenceCost?: () => number;
+  readonly #cloud: BenchCloud;
+  readonly #options: OrganisedOptions;
+  readonly #parts: OrganisedParts;
+  #packets = 0;
+  #passes = 0;
+  #wanted: readonly number[] = [];
+
+  constructor(
+    cloud: BenchCloud,
+    { name, options }: Pick<OrganisedSetting, 'name' | 'options'>,
+    parts: OrganisedParts,
+  ) {
+    this.setting = name;
+    this.hasColour = options.colour !== 'none';
+    this.#cloud = cloud;
+    this.#options = options;
+    this.#parts = parts;
+    if (options.budgetBytes !== undefined) this.passes = () => this.#passes;
+    else
+      this.independenceCost = () => {
+        const bytes = this.packetBytes().reduce((sum, size) => sum + size, 0);
+        return bitsOfBytes(bytes) / parts.encoder.bitsInOnePacket() - 1;
+      };
+  }
+
+  encode(): void {
+    ({ packets: this.#packets, passes: this.#passes } = this.#parts.encoder.encode(this.#options));
+  }
+
+  /** Encoders meet a budget with what they learned from earlier frames, as in a stream. */
+  settle(): void {
+    if (this.#options.budgetBytes !== undefined) for (let frame = 0; frame < 8; frame++) this.encode();
+  }
+
+  native(rounds: number) {
+    return nativeOrganised(this.#cloud, this.#parts.camera, this.#options, rounds);
+  }
+
+  packetBytes(): number[] {
+    return Array.from({ length: this.#packets }, (_, i) => this.#parts.encoder.packet(i).length);
+  }
+
+  decode(indices: readonly number[]): void {
+    this.#wanted = indices;
+    this.#put(this.#parts.decoder, indices);
+  }
+
+  decoded(): DecodedCloud {
+    const { witness, camera } = this.#parts;
+    this.#put(witness, this.#wanted);
+    const { width } = this.#cloud;
+    const { depth, colour } = witness;
+    const source = Uint32Array.from(depth.keys()).filter((pixel) => (depth[pixel] as number) > 0);
+    const metres = new Float64Array(source.length * 3);
+    const rgb = new Uint8Array(source.length * 3);
+    source.forEach((pixel, i) => {
+      const z = depth[pixel] as number;
+      const [u, v] = [pixel % width, Math.floor(pixel / width)];
+      metres.set([((u - camera.cx) / camera.fx) * z, ((v - camera.cy) / camera.fy) * z, z], i * 3);
+      const word = colour[pixel] as number;
+      rgb.set([word & 0xff, (word >> 8) & 0xff, (word >> 16) & 0xff], i * 3);
+    });
+    return { points: source.length, metres, rgb, source };
+  }
+
+  [Symbol.dispose](): void {
+    const { encoder, decoder, witness } = this.#parts;
+    for (const object of [encoder, decoder, witness]) object[Symbol.dispose]();
+  }
+
+  /** Decodes packets in pairs, as the page does. */
+  #put(into: OrganisedDecoder, indices: readonly number[]): void {
     into.begin();
     for (let i = 0; i < indices.length; i += 2) {
-      const [first, second] = indices.slice(i, i + 2).map((index) => encoder.packet(index));
+      const [first, second] = indices.slice(i, i + 2).map((index) => this.#parts.encoder.packet(index));
       if (first === undefined) break;
       const results = second === undefined ? [into.put(first)] : into.putTwo(first, second);
       for (const result of results) {
         if ('fault' in result) throw new Error(`packet ${indices[i]} or the next: ${result.fault}`);
       }
     }
-  };
-  const run: CodecRun = {
-    codec: 'organised',
-    setting: name,
-    blob: false,
-    hasColour: options.colour !== 'none',
-    ...(options.budgetBytes === undefined ? {} : { passes: () => passes }),
-    encode() {
-      ({ packets, passes } = encoder.encode(options));
-    },
-    // Encoders meet a budget with what they learned from earlier frames, as in a stream.
-    settle() {
-      if (options.budgetBytes !== undefined) for (let frame = 0; frame < 8; frame++) run.encode();
-    },
-    ...(options.budgetBytes === undefined
-      ? {
-          independenceCost() {
-            const bytes = run.packetBytes().reduce((sum, size) => sum + size, 0);
-            return bitsOfBytes(bytes) / encoder.bitsInOnePacket() - 1;
-          },
-        }
-      : {}),
-    native: (rounds) => nativeOrganised(cloud, camera, options, rounds),
-    packetBytes: () => Array.from({ length: packets }, (_, i) => encoder.packet(i).length),
-    decode(indices) {
-      wanted = indices;
-      put(decoder, indices);
-    },
-    decoded() {
-      put(witness, wanted);
-      const { depth, colour } = witness;
-      const source = Uint32Array.from(depth.keys()).filter((pixel) => (depth[pixel] as number) > 0);
-      const metres = new Float64Array(source.length * 3);
-      const rgb = new Uint8Array(source.length * 3);
-      source.forEach((pixel, i) => {
-        const z = depth[pixel] as number;
-        const [u, v] = [pixel % width, Math.floor(pixel / width)];
-        metres.set([((u - camera.cx) / camera.fx) * z, ((v - camera.cy) / camera.fy) * z, z], i * 3);
-        const word = colour[pixel] as number;
-        rgb.set([word & 0xff, (word >> 8) & 0xff, (word >> 16) & 0xff], i * 3);
-      });
-      return { points: source.length, metres, rgb, source };
-    },
-    [Symbol.dispose]() {
-      for (const object of [encoder, decoder, witness]) object[Symbol.dispose]();
-    },
-  };
-  return run;
+  }
 }

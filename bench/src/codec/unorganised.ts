@@ -1,5 +1,5 @@
 import { type Codec, UnorganisedDecoder, UnorganisedEncoder } from '@farpoint/wasm-codec';
-import { type BenchCloud, type CodecRun, write565 } from './adapter.ts';
+import { type BenchCloud, type CodecRun, type DecodedCloud, write565 } from './adapter.ts';
 import { nativeUnorganised } from './native.ts';
 
 /** Grid steps that make sense for the sensor, millimetres. */
@@ -8,75 +8,110 @@ export function unorganisedSteps(cloud: BenchCloud): readonly number[] {
 }
 
 export function unorganised(codec: Codec, cloud: BenchCloud, stepMm: number): CodecRun {
-  const total = cloud.frame.length / 4;
-  const encoder = new UnorganisedEncoder(codec, total);
-  const decoder = new UnorganisedDecoder(codec, total);
-  const words = new Uint32Array(cloud.frame.buffer, cloud.frame.byteOffset, cloud.frame.length);
-  encoder.frameBits.set(words);
-  let packets = 0;
-  let indices: readonly number[] = [];
+  return new UnorganisedRun(codec, cloud, stepMm);
+}
+
+class UnorganisedRun implements CodecRun {
+  readonly codec = 'unorganised';
+  readonly setting: string;
+  readonly blob = false;
+  readonly #cloud: BenchCloud;
+  readonly #stepMm: number;
+  /** Points of the cloud. */
+  readonly #total: number;
+  readonly #intensity: boolean;
+  readonly #encoder: UnorganisedEncoder;
+  readonly #decoder: UnorganisedDecoder;
+  readonly #sent: Uint32Array;
+  #packets = 0;
+  #indices: readonly number[] = [];
   /** For each packet, its first point among those sent, if the frame's order was kept. */
-  let firsts: number[] = [];
-  const sent = sentPoints(cloud);
-  const intensity = cloud.attribute === 'intensity';
-  return {
-    codec: 'unorganised',
-    setting: `${stepMm} mm, ${intensity ? '8-bit intensity' : '5-6-5'}`,
-    blob: false,
-    native: (rounds) => nativeUnorganised(cloud, stepMm, rounds),
-    encode() {
-      ({ packets } = encoder.encode({
-        points: total,
-        stepMm,
-        attribute: intensity ? 'intensity8' : 'colour',
-      }));
-    },
-    // Packets are stored in the order in which they were packed, and are sent nearest first.
-    settle() {
-      const packed = Array.from({ length: packets }, (_, i) => i);
-      packed.sort((a, b) => encoder.packet(a).byteOffset - encoder.packet(b).byteOffset);
-      firsts = [];
-      let first = 0;
-      for (const packet of packed) {
-        firsts[packet] = first;
-        first += encoder.pointsOf(packet);
-      }
-    },
-    packetBytes: () => Array.from({ length: packets }, (_, i) => encoder.packet(i).length),
-    decode(wanted) {
-      indices = wanted;
-      decoder.clear();
-      for (const index of wanted) {
-        const points = decoder.decode(encoder.packet(index));
-        if (typeof points === 'string') throw new Error(`packet ${index}: ${points}`);
-      }
-    },
-    decoded() {
-      const { points } = decoder;
-      const count = points.length / 4;
-      const rgb = new Uint8Array(count * 3);
-      for (let i = 0; i < count; i++) {
-        const bits = (points[i * 4 + 3] as number) & 0xffff;
-        if (intensity) rgb.fill(bits, i * 3, i * 3 + 3);
-        else write565(bits, rgb, i * 3);
-      }
-      const metres = decoder.metres().slice();
-      const source = new Uint32Array(count);
-      let at = 0;
-      for (const index of indices) {
-        const first = firsts[index] as number;
-        const points = encoder.pointsOf(index);
-        source.set(sent.subarray(first, first + points), at);
-        at += points;
-      }
-      // If the encoder has sorted the points, they are matched by position.
-      return { points: count, metres, rgb, source: isSource(source, metres, cloud, stepMm) ? source : null };
-    },
-    [Symbol.dispose]() {
-      encoder[Symbol.dispose]();
-      decoder[Symbol.dispose]();
-    },
-  };
+  #firsts: number[] = [];
+
+  constructor(codec: Codec, cloud: BenchCloud, stepMm: number) {
+    this.#cloud = cloud;
+    this.#stepMm = stepMm;
+    this.#total = cloud.frame.length / 4;
+    this.#intensity = cloud.attribute === 'intensity';
+    this.setting = `${stepMm} mm, ${this.#intensity ? '8-bit intensity' : '5-6-5'}`;
+    this.#encoder = new UnorganisedEncoder(codec, this.#total);
+    this.#decoder = new UnorganisedDecoder(codec, this.#total);
+    const words = new Uint32Array(cloud.frame.buffer, cloud.frame.byteOffset, cloud.frame.length);
+    this.#encoder.frameBits.set(words);
+    this.#sent = sentPoints(cloud);
+  }
+
+  native(rounds: number) {
+    return nativeUnorganised(this.#cloud, this.#stepMm, rounds);
+  }
+
+  encode(): void {
+    ({ packets: this.#packets } = this.#encoder.encode({
+      points: this.#total,
+      stepMm: this.#stepMm,
+      attribute: this.#intensity ? 'intensity8' : 'colour',
+    }));
+  }
+
+  /** Packets are stored in the order in which they were packed, and are sent nearest first. */
+  settle(): void {
+    const encoder = this.#encoder;
+    const packed = Array.from({ length: this.#packets }, (_, i) => i);
+    packed.sort((a, b) => encoder.packet(a).byteOffset - encoder.packet(b).byteOffset);
+    this.#firsts = [];
+    let first = 0;
+    for (const packet of packed) {
+      this.#firsts[packet] = first;
+      first += encoder.pointsOf(packet);
+    }
+  }
+
+  packetBytes(): number[] {
+    return Array.from({ length: this.#packets }, (_, i) => this.#encoder.packet(i).length);
+  }
+
+  decode(wanted: readonly number[]): void {
+    this.#indices = wanted;
+    this.#decoder.clear();
+    for (const index of wanted) {
+      const points = this.#decoder.decode(this.#encoder.packet(index));
+      if (typeof points === 'string') throw new Error(`packet ${index}: ${points}`);
+    }
+  }
+
+  decoded(): DecodedCloud {
+    const { points } = this.#decoder;
+    const count = points.length / 4;
+    const rgb = new Uint8Array(count * 3);
+    for (let i = 0; i < count; i++) {
+      const bits = (points[i * 4 + 3] as number) & 0xffff;
+      if (this.#intensity) rgb.fill(bits, i * 3, i * 3 + 3);
+      else write565(bits, rgb, i * 3);
+    }
+    const metres = this.#decoder.metres().slice();
+    const source = this.#sourceOf(count);
+    // If the encoder has sorted the points, they are matched by position.
+    const isKept = isSource(source, metres, this.#cloud, this.#stepMm);
+    return { points: count, metres, rgb, source: isKept ? source : null };
+  }
+
+  [Symbol.dispose](): void {
+    this.#encoder[Symbol.dispose]();
+    this.#decoder[Symbol.dispose]();
+  }
+
+  /** Each decoded point's index in the frame, if its order was kept. */
+  #sourceOf(count: number): Uint32Array {
+    const source = new Uint32Array(count);
+    let at = 0;
+    for (const index of this.#indices) {
+      const first = this.#firsts[index] as number;
+      const points = this.#encoder.pointsOf(index);
+      source.set(this.#sent.subarray(first, first + points), at);
+      at += points;
+    }
+    return source;
+  }
 }
 
 function sentPoints(cloud: BenchCloud): Uint32Array {

@@ -1,5 +1,5 @@
 /** Line charts with a common x axis, in rows of panels, as an SVG document. */
-import { linearScale, tickLabel } from './scale.ts';
+import { linearScale, type Scale, tickLabel } from './scale.ts';
 import { element, escapeText, linePath } from './svg.ts';
 
 export interface Series {
@@ -93,6 +93,14 @@ export function renderChart(chart: Chart): string {
   )}\n`;
 }
 
+/** The part of a panel within its axes, pixels. */
+interface Area {
+  x: Scale;
+  y: Scale;
+  right: number;
+  bottom: number;
+}
+
 function renderPanel(panel: Panel, width: number, height: number): string {
   const right = width - MARGIN.right;
   const bottom = height - MARGIN.bottom;
@@ -104,84 +112,79 @@ function renderPanel(panel: Panel, width: number, height: number): string {
   );
   const [least, most] = extent(panel.series.map((series) => series.y));
   const y = linearScale(panel.yRange ?? [Math.min(0, least), most], [bottom, MARGIN.top], 6);
+  const area: Area = { x, y, right, bottom };
+  const colours = coloursOf(panel.series);
+  return [
+    ...(panel.spans ?? []).map((span) => renderSpan(span, area)),
+    ...y.ticks().map((tick) => renderYTick(tick, area)),
+    ...x.ticks().map((tick) => renderXTick(tick, area)),
+    renderTitles(panel, area, height),
+    ...panel.series.map((series, i) =>
+      renderSeries(series, colours[i] as string, x.pixel, y.pixel, y.pixel(Math.max(0, y.low))),
+    ),
+    renderLegend(panel.series, colours, right),
+  ].join('');
+}
 
-  const parts: string[] = [];
-  for (const span of panel.spans ?? []) {
-    const [from, to] = [x.pixel(Math.max(span.from, x.low)), x.pixel(Math.min(span.to, x.high))];
-    parts.push(
-      element('rect', {
-        x: from,
-        y: MARGIN.top,
-        width: to - from,
-        height: bottom - MARGIN.top,
-        fill: '#fff1e5',
-      }),
-    );
-    if (span.label !== undefined) {
-      parts.push(element('text', { x: from + 3, y: bottom - 5, 'font-size': 10 }, escapeText(span.label)));
-    }
-  }
-  for (const tick of y.ticks()) {
-    const at = y.pixel(tick);
-    parts.push(
-      element('path', {
-        d: linePath([
-          [MARGIN.left, at],
-          [right, at],
-        ]),
-        stroke: tick === 0 ? INK : GRID,
-      }),
-    );
-    parts.push(
-      element(
-        'text',
-        { x: MARGIN.left - 7, y: at + 4, 'font-size': 11, 'text-anchor': 'end' },
-        tickLabel(tick),
-      ),
-    );
-  }
-  for (const tick of x.ticks()) {
-    const at = x.pixel(tick);
-    parts.push(
-      element('path', {
-        d: linePath([
-          [at, bottom],
-          [at, bottom + 4],
-        ]),
-        stroke: INK,
-      }),
-    );
-    parts.push(
-      element('text', { x: at, y: bottom + 17, 'font-size': 11, 'text-anchor': 'middle' }, tickLabel(tick)),
-    );
-  }
+function renderSpan(span: Span, { x, bottom }: Area): string {
+  const [from, to] = [x.pixel(Math.max(span.from, x.low)), x.pixel(Math.min(span.to, x.high))];
+  const shade = element('rect', {
+    x: from,
+    y: MARGIN.top,
+    width: to - from,
+    height: bottom - MARGIN.top,
+    fill: '#fff1e5',
+  });
+  if (span.label === undefined) return shade;
+  return shade + element('text', { x: from + 3, y: bottom - 5, 'font-size': 10 }, escapeText(span.label));
+}
+
+/** Renders the label, and a line across the panel. */
+function renderYTick(tick: number, { y, right }: Area): string {
+  const at = y.pixel(tick);
+  const line = element('path', {
+    d: linePath([
+      [MARGIN.left, at],
+      [right, at],
+    ]),
+    stroke: tick === 0 ? INK : GRID,
+  });
+  const text = { x: MARGIN.left - 7, y: at + 4, 'font-size': 11, 'text-anchor': 'end' };
+  return line + element('text', text, tickLabel(tick));
+}
+
+function renderXTick(tick: number, { x, bottom }: Area): string {
+  const at = x.pixel(tick);
+  const line = element('path', {
+    d: linePath([
+      [at, bottom],
+      [at, bottom + 4],
+    ]),
+    stroke: INK,
+  });
+  const text = { x: at, y: bottom + 17, 'font-size': 11, 'text-anchor': 'middle' };
+  return line + element('text', text, tickLabel(tick));
+}
+
+/** Renders the labels of the axes, and the panel's title. */
+function renderTitles(panel: Panel, { right, bottom }: Area, height: number): string {
   const middle = (MARGIN.top + bottom) / 2;
   const axisText = { 'font-size': 12, 'text-anchor': 'middle' };
-  parts.push(
-    element('text', { x: (MARGIN.left + right) / 2, y: height - 10, ...axisText }, escapeText(panel.xLabel)),
-  );
-  parts.push(
-    element(
-      'text',
-      { transform: `translate(14 ${middle}) rotate(-90)`, ...axisText },
-      escapeText(panel.yLabel),
-    ),
-  );
-  if (panel.title !== undefined) {
-    const at = { x: MARGIN.left, y: 18, 'font-size': 13, 'font-weight': 600 };
-    parts.push(element('text', at, escapeText(panel.title)));
-  }
+  const x = { x: (MARGIN.left + right) / 2, y: height - 10, ...axisText };
+  const y = { transform: `translate(14 ${middle}) rotate(-90)`, ...axisText };
+  const axes = element('text', x, escapeText(panel.xLabel)) + element('text', y, escapeText(panel.yLabel));
+  if (panel.title === undefined) return axes;
+  const at = { x: MARGIN.left, y: 18, 'font-size': 13, 'font-weight': 600 };
+  return axes + element('text', at, escapeText(panel.title));
+}
 
+/** A colour for each series: its own, or the next of the palette. */
+function coloursOf(series: readonly Series[]): string[] {
   let next = 0;
-  const colours = panel.series.map((series) => {
-    if (series.colour !== undefined) return series.colour;
-    return series.shape === 'area' ? AREA_COLOUR : (PALETTE[next++ % PALETTE.length] as string);
+  return series.map(({ colour, shape }) => {
+    if (colour !== undefined) return colour;
+    return shape === 'area' ? AREA_COLOUR : (PALETTE[next++ % PALETTE.length] as string);
   });
-  panel.series.forEach((series, i) => {
-    parts.push(renderSeries(series, colours[i] as string, x.pixel, y.pixel, y.pixel(Math.max(0, y.low))));
-  });
-  parts.push(renderLegend(panel.series, colours, right));
-  return parts.join('');
 }
 
 function renderSeries(
