@@ -1,10 +1,11 @@
 /** How a robot's systems are linked: what each takes from those before it. `robot.ts` calls these in order. */
+
+import type { TimedBaseState } from '@farpoint/cloud-source';
 import type { TopicReading } from '@farpoint/ros';
 import type { Logger } from '@farpoint/service';
 import type { Refusal } from '@farpoint/webrtc';
 import type { SignalingClient } from './admit/signaling/signaling-client.ts';
 import { DriveCore } from './drive-core.ts';
-import type { TimedBaseState } from './ground/base.ts';
 import { monotonicMs } from './ground/clock.ts';
 import type { RobotCounters } from './ground/robot-counters.ts';
 import type { StageTimer } from './ground/stage-timer.ts';

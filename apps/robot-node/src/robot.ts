@@ -1,7 +1,7 @@
+import type { TimedBaseState } from '@farpoint/cloud-source';
 import type { Logger } from '@farpoint/service';
 import { SignalingClient } from './admit/signaling/signaling-client.ts';
 import type { DriveCore } from './drive-core.ts';
-import type { TimedBaseState } from './ground/base.ts';
 import { monotonicMs } from './ground/clock.ts';
 import { RobotCounters } from './ground/robot-counters.ts';
 import { StageTimer } from './ground/stage-timer.ts';

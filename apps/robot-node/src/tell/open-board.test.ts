@@ -1,7 +1,7 @@
+import type { SourceDescription } from '@farpoint/cloud-source';
 import { MAX_ALARMS, MAX_QUANTITIES, type Quantity } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
 import { expect, it } from 'vitest';
-import type { SourceDescription } from '../sense/sources/frame-source.ts';
 import { openBoard } from './open-board.ts';
 
 it('leaves out recorded quantities and alarms that have no room beside the robot’s own, and says so', () => {

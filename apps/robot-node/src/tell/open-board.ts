@@ -1,9 +1,9 @@
+import { NO_PLAYED_TELEMETRY, type PlayedTelemetry } from '@farpoint/cloud-source';
 import { MAX_ALARMS, MAX_QUANTITIES, type Quantity } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 import type { Logger } from '@farpoint/service';
 import { monotonicMs } from '../ground/clock.ts';
 import type { Capture } from '../sense/capture/capture.ts';
-import { NO_PLAYED_TELEMETRY, type PlayedTelemetry } from '../sense/sources/played-telemetry.ts';
 import type { AlarmRule } from './alarms/alarm-board.ts';
 import type { SessionRecording } from './session-recording.ts';
 import { TelemetryBoard } from './telemetry-board.ts';

@@ -1,5 +1,5 @@
+import type { TimedBaseState } from '@farpoint/cloud-source';
 import { fileFault, JsonLinesFile, type Logger } from '@farpoint/service';
-import type { TimedBaseState } from '../ground/base.ts';
 import type { RobotCounters } from '../ground/robot-counters.ts';
 import type { MotionStatus } from '../motion/drive/motion-status.ts';
 import type { SessionRecording } from './session-recording.ts';

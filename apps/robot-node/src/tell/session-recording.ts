@@ -1,4 +1,5 @@
 import type { AuditEvent } from '@farpoint/audit';
+import type { CameraDescription, TimedBaseState } from '@farpoint/cloud-source';
 import {
   type Command,
   type LatencyMeasured,
@@ -19,13 +20,11 @@ import {
 } from '@farpoint/recording';
 import type { CommandVerdict } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
-import type { TimedBaseState } from '../ground/base.ts';
 import { monotonicMs } from '../ground/clock.ts';
 import type { MotionStatus } from '../motion/drive/motion-status.ts';
 import type { Capture, CaptureRecording } from '../sense/capture/capture.ts';
 import type { ReadyFrame } from '../sense/capture/capture-messages.ts';
 import type { ReadyPicture } from '../sense/pictures/picture-messages.ts';
-import type { CameraDescription } from '../sense/sources/frame-source.ts';
 import type { VideoCamera } from '../sense/video/video-encoder.ts';
 import type { EncodedPicture } from '../sense/video/video-frame.ts';
 import type { VideoTaker } from '../sense/video/video-hub.ts';

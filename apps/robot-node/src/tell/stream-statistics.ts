@@ -1,5 +1,5 @@
+import type { TimedBaseState } from '@farpoint/cloud-source';
 import type { RateSnapshot } from '@farpoint/congestion';
-import type { TimedBaseState } from '../ground/base.ts';
 import type { RobotCounters } from '../ground/robot-counters.ts';
 import type { TelemetryTarget } from './telemetry-sender.ts';
 

@@ -1,12 +1,9 @@
 /** Everything that the robot tells about itself besides its state: readings, samples, components' reports, alarms, path, map, model. */
+
+import type { TimedBaseState } from '@farpoint/cloud-source';
+import { NO_PLAYED_TELEMETRY, type PlayedMessage, type PlayedTelemetry } from '@farpoint/cloud-source';
 import type { Alarm, Quantity } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
-import type { TimedBaseState } from '../ground/base.ts';
-import {
-  NO_PLAYED_TELEMETRY,
-  type PlayedMessage,
-  type PlayedTelemetry,
-} from '../sense/sources/played-telemetry.ts';
 import { AlarmBoard, type AlarmRule } from './alarms/alarm-board.ts';
 import { ComponentBoard } from './component-board.ts';
 import { ModelBoard } from './model-board.ts';

@@ -1,3 +1,4 @@
+import type { TimedBaseState } from '@farpoint/cloud-source';
 import type { RobotSessionMessage, StageTimings, StreamStatus } from '@farpoint/protocol';
 import {
   encodeJson,
@@ -9,7 +10,6 @@ import {
   zeroTwist,
 } from '@farpoint/protocol';
 import { BitRate } from '@farpoint/timing';
-import type { TimedBaseState } from '../ground/base.ts';
 import type { StageTimer } from '../ground/stage-timer.ts';
 import type { MotionStatus } from '../motion/drive/motion-status.ts';
 import type { OperatorPeer } from '../send/transport/operator-peer.ts';

@@ -2,6 +2,8 @@
  * A robot that is told to go full speed ahead under the obstacle guard alone: grid, guard and base as on the robot, in one
  * thread and in simulated time. What is around it, and what its sensors see of that, is up to the stage.
  */
+
+import type { SourceDescription } from '@farpoint/cloud-source';
 import { type Pose, zeroTwist } from '@farpoint/protocol';
 import {
   defaultObstacleGuardOptions,
@@ -15,7 +17,6 @@ import type { Codec } from '@farpoint/wasm-codec';
 import { GRID_SHAPE } from '../motion/obstacles/guarded-sensors.ts';
 import { CloudGuard } from '../sense/obstacles/cloud-guard.ts';
 import { makeSharedGrid, SharedGridReader } from '../sense/obstacles/shared-grid.ts';
-import type { SourceDescription } from '../sense/sources/frame-source.ts';
 import { SeenThings } from './seen-things.ts';
 
 /** A depth camera on the robot. */

@@ -1,7 +1,8 @@
 /** Draws points as a depth camera somewhere would see them. */
+
+import type { SourceDescription } from '@farpoint/cloud-source';
 import { compose, inverse, type Pose, rotationMatrix } from '@farpoint/protocol';
 import type { SimulatedBase } from '@farpoint/sim';
-import type { SourceDescription } from '../sense/sources/frame-source.ts';
 import type { StageCamera } from './guarded-drive.ts';
 
 export interface PointCameraOptions {

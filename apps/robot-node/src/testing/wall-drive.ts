@@ -2,6 +2,8 @@
  * A robot that drives at a wall under its obstacle guard, in simulated time, with exact knowledge of where it really is. What
  * its sensor sees goes through one of the robot's own sources, with whatever times and frames that is given.
  */
+
+import type { CaptureRoom, FrameSource } from '@farpoint/cloud-source';
 import { compose, type Pose, rotationMatrix, type Twist, zeroTwist } from '@farpoint/protocol';
 import { defaultGeofenceOptions, EarthFrame, Footprint, FREE } from '@farpoint/safety';
 import type { Codec } from '@farpoint/wasm-codec';
@@ -11,7 +13,6 @@ import { ObstacleStation } from '../motion/obstacles/obstacle-station.ts';
 import { BaseOdometry } from '../sense/base/base-odometry.ts';
 import { CloudGuard } from '../sense/obstacles/cloud-guard.ts';
 import { makeSharedGrid, SharedGridReader } from '../sense/obstacles/shared-grid.ts';
-import type { CaptureRoom, FrameSource } from '../sense/sources/frame-source.ts';
 import { bodyMount, opticalMount, type SensorMount } from '../sense/sources/sensor-mount.ts';
 
 /** What is true at an instant. */

@@ -1,7 +1,7 @@
+import type { TimedBaseState } from '@farpoint/cloud-source';
 import { type Twist, zeroTwist } from '@farpoint/protocol';
 import { defaultGeofenceOptions, EarthFrame } from '@farpoint/safety';
 import { describe, expect, test } from 'vitest';
-import type { TimedBaseState } from '../../ground/base.ts';
 import { BaseOdometry } from '../../sense/base/base-odometry.ts';
 import { openGeofence } from './open-geofence.ts';
 

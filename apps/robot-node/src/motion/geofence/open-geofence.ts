@@ -1,3 +1,4 @@
+import type { TimedBaseState } from '@farpoint/cloud-source';
 import { bodyYaw } from '@farpoint/protocol';
 import {
   type EarthFrame,
@@ -7,7 +8,6 @@ import {
   Geofence,
   type GeofenceOptions,
 } from '@farpoint/safety';
-import type { TimedBaseState } from '../../ground/base.ts';
 import { FixPosition } from './fix-position.ts';
 
 /** A fence, and what says where the robot is. */

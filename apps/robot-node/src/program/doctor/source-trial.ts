@@ -1,8 +1,9 @@
 /** Opens the source as the robot would, in its own thread, and observes its frames. */
+
+import type { SourceDescription } from '@farpoint/cloud-source';
 import { Capture } from '../../sense/capture/capture.ts';
 import type { CaptureOptions } from '../../sense/capture/capture-messages.ts';
 import { CODED_FORMATS } from '../../sense/encode/plan.ts';
-import type { SourceDescription } from '../../sense/sources/frame-source.ts';
 
 export interface SourceTrial {
   description: SourceDescription;

@@ -1,4 +1,4 @@
-import type { TimedBaseState } from '../../ground/base.ts';
+import type { TimedBaseState } from '@farpoint/cloud-source';
 import { Capture, type CaptureError, type CaptureRecording } from '../../sense/capture/capture.ts';
 import type { Budgets } from '../budgets/budgets.ts';
 import type { CloudClaim } from '../budgets/cloud-shares.ts';

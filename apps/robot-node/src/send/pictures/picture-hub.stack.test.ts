@@ -1,11 +1,11 @@
 /** The hub with its real thread: makes pictures, and reports those that cannot be shown. */
 import type { MessagePort } from 'node:worker_threads';
+import type { SourcePicture } from '@farpoint/cloud-source';
 import { PICTURE_CHUNK_HEADER_BYTES, readPictureFile } from '@farpoint/protocol';
 import { createLogger } from '@farpoint/service';
 import { expect, it, onTestFinished } from 'vitest';
 import type { ReadyPicture } from '../../sense/pictures/picture-messages.ts';
 import { PictureTap } from '../../sense/pictures/picture-tap.ts';
-import type { SourcePicture } from '../../sense/pictures/source-picture.ts';
 import { PictureHub, type PictureTarget } from './picture-hub.ts';
 
 /** A hub with a watcher, and the tap that a capture thread would have. */

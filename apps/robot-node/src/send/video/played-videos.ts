@@ -1,9 +1,9 @@
+import type { PlayedPicture } from '@farpoint/cloud-source';
 import { MAX_VIDEOS } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
 import { availableEncoders, chooseEncoders, VideoError } from '@farpoint/video';
 import { monotonicMs } from '../../ground/clock.ts';
 import type { Capture } from '../../sense/capture/capture.ts';
-import type { PlayedPicture } from '../../sense/sources/frame-source.ts';
 import { CodecEncoders } from '../../sense/video/codec-encoders.ts';
 import { ProcessEncoder } from '../../sense/video/process-encoder.ts';
 import type { VideoCamera } from '../../sense/video/video-encoder.ts';

@@ -1,8 +1,9 @@
 /** Messages between the main thread and the base's thread. */
+
+import type { TimedBaseState } from '@farpoint/cloud-source';
 import type { Twist } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 import type { EarthOrigin, Thing } from '@farpoint/sim';
-import type { TimedBaseState } from '../../ground/base.ts';
 import type { SimNavigationOptions } from './sim-navigation.ts';
 
 export interface BaseOptions {

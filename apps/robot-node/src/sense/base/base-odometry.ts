@@ -1,6 +1,6 @@
+import type { TimedBaseState } from '@farpoint/cloud-source';
 import { bodyYaw, type Twist } from '@farpoint/protocol';
 import { type MeasuredMotion, Odometry, type OdometryLimits } from '@farpoint/safety';
-import type { TimedBaseState } from '../../ground/base.ts';
 
 /** What the robot believes about where it is, from what its base reports. All that keeps it safe asks here. */
 export class BaseOdometry {

@@ -1,6 +1,6 @@
+import type { TimedBaseState } from '@farpoint/cloud-source';
 import { zeroTwist } from '@farpoint/protocol';
 import { afterEach, expect, it } from 'vitest';
-import type { TimedBaseState } from '../../ground/base.ts';
 import { BaseThread } from './base-thread.ts';
 import { SnapshotReader } from './shared-snapshot.ts';
 

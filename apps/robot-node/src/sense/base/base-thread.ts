@@ -1,8 +1,8 @@
 import { Worker } from 'node:worker_threads';
+import type { TimedBaseState } from '@farpoint/cloud-source';
 import type { Twist } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 import { officeWorld } from '@farpoint/sim';
-import type { TimedBaseState } from '../../ground/base.ts';
 import type { VelocitySink } from '../../ground/velocity-sink.ts';
 import type { BaseOptions, BaseReport, BaseRequest, BaseWorkerData } from './base-messages.ts';
 import { makeSharedSnapshot } from './shared-snapshot.ts';

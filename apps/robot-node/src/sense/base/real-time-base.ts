@@ -1,6 +1,6 @@
+import type { Base, BaseState } from '@farpoint/cloud-source';
 import type { Twist } from '@farpoint/protocol';
 import type { SimulatedBase } from '@farpoint/sim';
-import type { Base, BaseState } from '../../ground/base.ts';
 
 /** The most that the simulated robot catches up after a stall, s. */
 const MAX_STEP_S = 0.25;

@@ -1,6 +1,6 @@
+import type { Base } from '@farpoint/cloud-source';
 import { type Twist, zeroTwist } from '@farpoint/protocol';
 import { beforeEach, expect, it } from 'vitest';
-import type { Base } from '../../ground/base.ts';
 import { Wheels } from './wheels.ts';
 
 const WATCHDOG_MS = 150;

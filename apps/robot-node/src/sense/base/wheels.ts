@@ -1,6 +1,6 @@
+import type { Base } from '@farpoint/cloud-source';
 import { isZeroTwist, type Twist, zeroTwist } from '@farpoint/protocol';
 import { Watchdog } from '@farpoint/safety';
-import type { Base } from '../../ground/base.ts';
 
 /**
  * Drives a base with velocities that must be refreshed. After the watchdog's time without one, it stops the base.

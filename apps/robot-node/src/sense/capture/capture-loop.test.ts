@@ -1,6 +1,6 @@
+import type { FrameSource } from '@farpoint/cloud-source';
 import { describe, expect, it } from 'vitest';
 import { NO_BUDGET } from '../encode/capture-budget.ts';
-import type { FrameSource } from '../sources/frame-source.ts';
 import { CaptureLoop, type LoopFrames } from './capture-loop.ts';
 import type { CaptureReport } from './capture-messages.ts';
 

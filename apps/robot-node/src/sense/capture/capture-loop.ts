@@ -1,7 +1,6 @@
+import type { BaseState, FrameSource } from '@farpoint/cloud-source';
 import { EvenPace } from '@farpoint/timing';
-import type { BaseState } from '../../ground/base.ts';
 import { type CaptureBudget, NO_BUDGET } from '../encode/capture-budget.ts';
-import type { FrameSource } from '../sources/frame-source.ts';
 import { SourceRate } from '../sources/source-rate.ts';
 import type { CaptureReport, CaptureRequest, ReportSink } from './capture-messages.ts';
 import type { CapturePipeline } from './pipeline.ts';

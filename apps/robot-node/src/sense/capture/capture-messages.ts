@@ -1,16 +1,20 @@
 /** Messages between the main thread and the capture worker. */
 import type { MessagePort } from 'node:worker_threads';
+import type {
+  CameraDescription,
+  PlayedMessage,
+  PlayedPicture,
+  SourceDescription,
+  TimedBaseState,
+} from '@farpoint/cloud-source';
 import type { TopicReading } from '@farpoint/ros';
-import type { TimedBaseState } from '../../ground/base.ts';
 import type { CaptureBudget } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
 import type { EncodedFrame, SamplingOptions } from '../encode/encoded-frame.ts';
 import type { FrameAudience } from '../encode/frame-formats.ts';
 import type { PlanPolicy } from '../encode/plan.ts';
 import type { SensorGuardOptions } from '../obstacles/sensor-guard.ts';
-import type { CameraDescription, PlayedPicture, SourceDescription } from '../sources/frame-source.ts';
 import type { SourceOptions } from '../sources/open-source.ts';
-import type { PlayedMessage } from '../sources/played-telemetry.ts';
 
 export interface CaptureOptions {
   /** The sensor's index on this robot. */

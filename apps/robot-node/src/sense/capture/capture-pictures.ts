@@ -1,7 +1,7 @@
 import type { MessagePort } from 'node:worker_threads';
+import type { CameraDescription, FrameSource, ImageFrame } from '@farpoint/cloud-source';
 import type { TapReport } from '../pictures/picture-messages.ts';
 import { PictureTap } from '../pictures/picture-tap.ts';
-import type { CameraDescription, FrameSource, ImageFrame } from '../sources/frame-source.ts';
 
 const CLOUD_CAMERA: CameraDescription = { name: 'Camera', most: null, ofCloud: true };
 

@@ -1,8 +1,8 @@
 import { existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
+import type { TimedBaseState } from '@farpoint/cloud-source';
 import { emptyPlacement, emptyPointPacketHeader, readCloudPayload } from '@farpoint/protocol';
 import { afterEach, describe, expect, it } from 'vitest';
-import type { TimedBaseState } from '../../ground/base.ts';
 import { NO_BUDGET } from '../encode/capture-budget.ts';
 import { SLOT_BYTES, slotPayloadBytes } from '../encode/packetiser.ts';
 import type { SourceOptions } from '../sources/open-source.ts';

@@ -1,11 +1,15 @@
 import { type MessagePort, Worker } from 'node:worker_threads';
+import type {
+  CameraDescription,
+  PlayedMessage,
+  PlayedPicture,
+  SourceDescription,
+  TimedBaseState,
+} from '@farpoint/cloud-source';
 import type { CloudKind } from '@farpoint/recording';
 import type { TopicReading } from '@farpoint/ros';
-import type { TimedBaseState } from '../../ground/base.ts';
 import type { CaptureBudget } from '../encode/capture-budget.ts';
 import type { CodedStream } from '../encode/coded-frame-encoder.ts';
-import type { CameraDescription, PlayedPicture, SourceDescription } from '../sources/frame-source.ts';
-import type { PlayedMessage } from '../sources/played-telemetry.ts';
 import type { CaptureOptions, CaptureReport, CaptureRequest, ReadyFrame } from './capture-messages.ts';
 
 /** The capture thread ended unexpectedly. */

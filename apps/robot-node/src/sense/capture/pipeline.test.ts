@@ -1,8 +1,8 @@
+import type { CaptureWishes, FrameSource, PointFrame } from '@farpoint/cloud-source';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { describe, expect, it } from 'vitest';
 import { type CaptureBudget, NO_BUDGET } from '../encode/capture-budget.ts';
 import type { SensorGuard } from '../obstacles/sensor-guard.ts';
-import type { CaptureWishes, FrameSource, PointFrame } from '../sources/frame-source.ts';
 import type { CaptureReport } from './capture-messages.ts';
 import { CapturePictures } from './capture-pictures.ts';
 import { CapturePipeline, workOf } from './pipeline.ts';

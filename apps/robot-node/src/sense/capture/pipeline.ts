@@ -8,6 +8,8 @@
  * 5. send the packets to the main thread, where send/clouds/pipeline.ts goes on,
  * 6. offer its colour picture, and record it.
  */
+
+import type { CaptureWishes, FrameSource, SourceFrame } from '@farpoint/cloud-source';
 import { nextSequence32, packetCountOf } from '@farpoint/protocol';
 import type { CloudTap } from '@farpoint/recording';
 import { EvenPace } from '@farpoint/timing';
@@ -18,7 +20,6 @@ import { type FormattedFrame, type FormattedFrames, FrameFormats } from '../enco
 import { SLOT_BYTES } from '../encode/packetiser.ts';
 import { FramePlanner } from '../encode/plan.ts';
 import type { SensorGuard } from '../obstacles/sensor-guard.ts';
-import type { CaptureWishes, FrameSource, SourceFrame } from '../sources/frame-source.ts';
 import { BufferPool } from './buffer-pool.ts';
 import type { CaptureOptions, ReportSink } from './capture-messages.ts';
 import type { CapturePictures } from './capture-pictures.ts';

@@ -1,5 +1,6 @@
 /** Pictures and readings from recordings, as shown by a robot that plays them. */
 import { join } from 'node:path';
+import type { SourcePicture } from '@farpoint/cloud-source';
 import {
   cloudMessage,
   mcapOfTopics,
@@ -12,7 +13,6 @@ import { Peers } from '@farpoint/recording/testing/peers';
 import { type TopicReading, topicTableSchema } from '@farpoint/ros';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { beforeAll, describe, expect, it, onTestFinished } from 'vitest';
-import type { SourcePicture } from '../pictures/source-picture.ts';
 import { RecordingSource } from '../sources/recording-source.ts';
 import { Capture } from './capture.ts';
 

@@ -1,6 +1,7 @@
 /** Producers in shared memory, read by the real capture thread. */
 import { rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import type { CaptureRoom } from '@farpoint/cloud-source';
 import { emptyPlacement, emptyPointPacketHeader, type Pose, readCloudPayload } from '@farpoint/protocol';
 import { testFolder } from '@farpoint/service/testing/folder';
 import {
@@ -14,7 +15,6 @@ import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import { monotonicMs } from '../../ground/clock.ts';
 import { NO_BUDGET } from '../encode/capture-budget.ts';
 import { slotPayloadBytes } from '../encode/packetiser.ts';
-import type { CaptureRoom } from '../sources/frame-source.ts';
 import { ReferenceShmSource } from '../sources/reference-shm-source.ts';
 import { Capture } from './capture.ts';
 import type { ReadyFrame } from './capture-messages.ts';

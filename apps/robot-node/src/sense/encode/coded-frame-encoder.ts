@@ -1,5 +1,5 @@
+import type { CaptureRoom, SourceDescription, SourceFrame } from '@farpoint/cloud-source';
 import { type Codec, CodecError } from '@farpoint/wasm-codec';
-import type { CaptureRoom, SourceDescription, SourceFrame } from '../sources/frame-source.ts';
 import type { EncodedFrame, EncoderOptions, PacketSource } from './encoded-frame.ts';
 import { OrganisedFrameEncoder } from './organised-frame-encoder.ts';
 import type { CodedFormat } from './plan.ts';

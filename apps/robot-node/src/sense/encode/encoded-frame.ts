@@ -1,6 +1,6 @@
+import type { CaptureRoom, SourceFrame } from '@farpoint/cloud-source';
 import { type CloudFormat, type Placement, stampUsOf } from '@farpoint/protocol';
 import type { RejectedPoints } from '@farpoint/wasm-codec';
-import type { CaptureRoom, SourceFrame } from '../sources/frame-source.ts';
 
 /** The paper's weights (equations 4 and 5). */
 export interface SamplingOptions {

@@ -1,6 +1,6 @@
+import type { ImageFrame, PointFrame, SourceDescription } from '@farpoint/cloud-source';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { expect, it } from 'vitest';
-import type { ImageFrame, PointFrame, SourceDescription } from '../sources/frame-source.ts';
 import type { CodedBudget } from './capture-budget.ts';
 import { type FormattedFrame, FrameFormats } from './frame-formats.ts';
 import { type CodedFormat, FramePlanner } from './plan.ts';

@@ -1,6 +1,6 @@
+import type { CaptureRoom, SourceDescription, SourceFrame } from '@farpoint/cloud-source';
 import { MAX_POINT_DATA_BYTES } from '@farpoint/protocol';
 import type { Codec } from '@farpoint/wasm-codec';
-import type { CaptureRoom, SourceDescription, SourceFrame } from '../sources/frame-source.ts';
 import type { CaptureBudget } from './capture-budget.ts';
 import { CodedFrameEncoder, type CodedStream } from './coded-frame-encoder.ts';
 import type { EncodedFrame, EncoderOptions, PacketSource } from './encoded-frame.ts';

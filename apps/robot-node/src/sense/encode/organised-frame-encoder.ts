@@ -1,5 +1,5 @@
+import type { CaptureRoom, SourceDescription, SourceFrame } from '@farpoint/cloud-source';
 import { type Codec, type GridResult, OrganisedEncoder, type Pinhole } from '@farpoint/wasm-codec';
-import type { CaptureRoom, SourceDescription, SourceFrame } from '../sources/frame-source.ts';
 import {
   type EncodedFrame,
   type EncoderOptions,

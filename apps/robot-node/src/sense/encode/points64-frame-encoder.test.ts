@@ -1,3 +1,4 @@
+import type { PointFrame } from '@farpoint/cloud-source';
 import {
   emptyPlacement,
   emptyPointPacketHeader,
@@ -11,7 +12,6 @@ import {
 } from '@farpoint/protocol';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { describe, expect, it } from 'vitest';
-import type { PointFrame } from '../sources/frame-source.ts';
 import { SLOT_BYTES, slotPayload, slotSequenceOffset } from './packetiser.ts';
 import { Points64FrameEncoder } from './points64-frame-encoder.ts';
 

@@ -1,6 +1,6 @@
+import type { CaptureRoom, PointFrame } from '@farpoint/cloud-source';
 import { encodeUnorganisedStream } from '@farpoint/protocol';
 import { type Codec, UnorganisedEncoder } from '@farpoint/wasm-codec';
-import type { CaptureRoom, PointFrame } from '../sources/frame-source.ts';
 import {
   type EncodedFrame,
   type EncoderOptions,

@@ -1,11 +1,12 @@
 /** From a simulated sensor's whole cloud to the grid that the main thread reads. */
+
+import type { SourceDescription, SourceFrame } from '@farpoint/cloud-source';
 import { floorClasses, type SensorGrid } from '@farpoint/safety';
 import { DEFAULT_CAMERA, officeWorld, SimulatedBase, SimulatedCamera, SimulatedLidar } from '@farpoint/sim';
 import { cellClasses } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { describe, expect, it } from 'vitest';
 import { mountOf } from '../../motion/obstacles/guarded-sensors.ts';
-import type { SourceDescription, SourceFrame } from '../sources/frame-source.ts';
 import { STATIC_CAMERA_POSE } from '../sources/playback-source.ts';
 import { opticalMount } from '../sources/sensor-mount.ts';
 import { CloudGuard, type CloudGuardOptions } from './cloud-guard.ts';

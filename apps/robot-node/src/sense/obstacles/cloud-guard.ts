@@ -1,8 +1,9 @@
 /** In a capture thread: every whole cloud becomes a grid of the floor, for the main thread's obstacle guard. */
+
+import type { SourceDescription, SourceFrame } from '@farpoint/cloud-source';
 import { compose, inverse, type Pose, rotationMatrix } from '@farpoint/protocol';
 import { type Codec, CodecError, ObstacleGrid } from '@farpoint/wasm-codec';
 import { monotonicMs } from '../../ground/clock.ts';
-import type { SourceDescription, SourceFrame } from '../sources/frame-source.ts';
 import { STATIC_CAMERA_POSE } from '../sources/playback-source.ts';
 import { BlankFloor, FLOOR_SLOPE } from './blank-floor.ts';
 import { type GridShape, SharedGridWriter } from './shared-grid.ts';

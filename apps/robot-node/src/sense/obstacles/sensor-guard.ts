@@ -1,8 +1,9 @@
 /** All of a sensor's thread that judges for the obstacle guard: its clouds, and cameras that are there for nothing else. */
+
+import type { SourceDescription, SourceFrame } from '@farpoint/cloud-source';
 import type { CameraOptions } from '@farpoint/sim';
 import { EvenPace } from '@farpoint/timing';
 import type { Codec } from '@farpoint/wasm-codec';
-import type { SourceDescription, SourceFrame } from '../sources/frame-source.ts';
 import type { SourceOptions } from '../sources/open-source.ts';
 import { SimSource } from '../sources/sim-source.ts';
 import { CloudGuard, type CloudGuardOptions } from './cloud-guard.ts';

@@ -1,9 +1,9 @@
+import type { RawPicture } from '@farpoint/cloud-source';
 import { PictureCodec } from '@farpoint/pictures';
 import { readPictureFile } from '@farpoint/protocol';
 import { encode as encodePng } from 'fast-png';
 import { beforeAll, describe, expect, it } from 'vitest';
 import { PictureLossError, PictureMaker } from './picture-maker.ts';
-import type { RawPicture } from './source-picture.ts';
 
 const plan = { perSecond: 10, longestSide: 64, quality: 80, mostFileBytes: 8000, mostFileSide: 64 };
 const raw = (width: number, height: number): RawPicture => ({

@@ -2,6 +2,8 @@
  * Reads messages that hold a picture, from ROS and Foxglove, live or recorded, into the form in which sources give
  * pictures.
  */
+
+import type { SourcePicture } from '@farpoint/cloud-source';
 import {
   compressedImageSchema,
   compressedPicture,
@@ -12,7 +14,6 @@ import {
   imageSchema,
   stampNs,
 } from '@farpoint/ros';
-import type { SourcePicture } from './source-picture.ts';
 
 export type PictureMessage = Pick<SourcePicture, 'facts' | 'data'> & { stampNs: bigint };
 type ReadMessage = (message: unknown) => PictureMessage;

@@ -1,6 +1,7 @@
 /** Messages about pictures between the capture thread, the picture thread and the main thread. */
+
+import type { SourcePicture } from '@farpoint/cloud-source';
 import type { PictureHeader } from '@farpoint/protocol';
-import type { SourcePicture } from './source-picture.ts';
 
 /** How to make a camera's pictures. */
 export interface CameraPlan {

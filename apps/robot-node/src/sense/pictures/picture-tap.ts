@@ -1,6 +1,6 @@
+import type { PictureTaker, SourcePicture } from '@farpoint/cloud-source';
 import { RateLimit } from '@farpoint/ros';
 import type { OfferedPicture, TapReport } from './picture-messages.ts';
-import type { PictureTaker, SourcePicture } from './source-picture.ts';
 
 /** The port of the picture thread, which gets the offered pictures. */
 export interface TapPort {

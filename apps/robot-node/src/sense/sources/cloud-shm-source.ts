@@ -1,3 +1,12 @@
+import type {
+  BaseState,
+  CaptureRoom,
+  CaptureWishes,
+  FrameSource,
+  Mounted,
+  SourceDescription,
+  SourceFrame,
+} from '@farpoint/cloud-source';
 import { compose, inverse, type Pose } from '@farpoint/protocol';
 import {
   type CloudFrame,
@@ -7,16 +16,7 @@ import {
   SharedMemoryError,
   type TrustedOwner,
 } from '@farpoint/shared-memory';
-import type { BaseState } from '../../ground/base.ts';
 import { MOST_AHEAD_MS, REFUSED_AGE_MS } from '../../ground/ros/stamp-clock.ts';
-import type {
-  CaptureRoom,
-  CaptureWishes,
-  FrameSource,
-  Mounted,
-  SourceDescription,
-  SourceFrame,
-} from './frame-source.ts';
 import { STANDING, STATIC_CAMERA_POSE } from './playback-source.ts';
 import { openWhenThere, ProducerLink } from './producer-link.ts';
 

@@ -1,8 +1,8 @@
+import type { FrameSource, Mounted } from '@farpoint/cloud-source';
 import { monotonicMs } from '../../ground/clock.ts';
 import { type GraphOptions, openGraph } from '../../ground/ros/open-graph.ts';
 import { wallNs } from '../../ground/wall-clock.ts';
 import { type CloudShmOptions, CloudShmSource } from './cloud-shm-source.ts';
-import type { FrameSource, Mounted } from './frame-source.ts';
 import { openPcdSource, type PcdSourceOptions } from './pcd-source.ts';
 import { RecordingSource, type RecordingSourceOptions } from './recording-source.ts';
 import { type ReferenceShmOptions, ReferenceShmSource } from './reference-shm-source.ts';

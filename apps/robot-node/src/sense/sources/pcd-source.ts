@@ -1,7 +1,7 @@
 import { readdirSync, readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { decodePcd, type PcdHeader, parsePcdHeader } from '@farpoint/cloud-formats';
-import type { FrameSource } from './frame-source.ts';
+import type { FrameSource } from '@farpoint/cloud-source';
 import { PlaybackSource, STATIC_CAMERA_POSE } from './playback-source.ts';
 
 /** The axes of the file's points (REP-103): optical (z forward, x right, y down) or body (x forward, y left, z up). */

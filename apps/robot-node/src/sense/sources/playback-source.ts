@@ -1,6 +1,12 @@
+import type {
+  BaseState,
+  FrameSource,
+  ImageFrame,
+  PointFrame,
+  SourceDescription,
+  SourceFrame,
+} from '@farpoint/cloud-source';
 import { type Pose, zeroTwist } from '@farpoint/protocol';
-import type { BaseState } from '../../ground/base.ts';
-import type { FrameSource, ImageFrame, PointFrame, SourceDescription, SourceFrame } from './frame-source.ts';
 
 /** A decoded cloud: points or images, as the source's description says. */
 export type RecordedCloud =

@@ -1,7 +1,7 @@
+import type { PlayedMessage } from '@farpoint/cloud-source';
 import { type RecordedMessage, type RecordedTopic, RecordingError } from '@farpoint/recording';
 import fc from 'fast-check';
 import { beforeEach, describe, expect, it } from 'vitest';
-import type { PlayedMessage } from './played-telemetry.ts';
 import { RecordedTelemetry } from './recorded-telemetry.ts';
 
 const topicOf = (name: string, type: string, metadata: Record<string, string> = {}): RecordedTopic => ({

@@ -1,4 +1,6 @@
 /** The quantities, alarms and components' reports of a recording that is played: which there are, and what is due. */
+
+import type { PlayedMessage, PlayedTelemetry } from '@farpoint/cloud-source';
 import {
   ALARM_TYPES,
   alarmRecordSchema,
@@ -12,7 +14,6 @@ import {
 } from '@farpoint/recording';
 import { DIAGNOSTIC_TYPES, DiagnosticBoard, stampNs } from '@farpoint/ros';
 import * as z from 'zod';
-import type { PlayedMessage, PlayedTelemetry } from './played-telemetry.ts';
 
 /** As many as a page keeps. */
 const MOST_COMPONENT_TOPICS = 8;

@@ -1,8 +1,9 @@
 /** The videos of a recording that is played: which there are, and their coded pictures as they are due. */
+
+import { type PlayedPicture, RECORDED_CODINGS, type RecordedCoding } from '@farpoint/cloud-source';
 import { displayNameSchema, MAX_VIDEOS } from '@farpoint/protocol';
 import type { RecordedMessage, RecordedTopic } from '@farpoint/recording';
 import { FOXGLOVE_COMPRESSED_VIDEO_TYPES, foxgloveCompressedVideoSchema } from '@farpoint/ros';
-import { type PlayedPicture, RECORDED_CODINGS, type RecordedCoding } from './frame-source.ts';
 import { isKeyPicture } from './key-picture.ts';
 
 /** A video that a source plays. */

@@ -1,4 +1,16 @@
 import { setTimeout as delay } from 'node:timers/promises';
+import type {
+  BaseState,
+  CaptureRoom,
+  CaptureWishes,
+  FrameSource,
+  PictureTaker,
+  PlayedMessage,
+  PlayedPicture,
+  SourceDescription,
+  SourceFrame,
+} from '@farpoint/cloud-source';
+import { type CameraDescription, cameraOf } from '@farpoint/cloud-source';
 import {
   CloudPlayer,
   type PlayClock,
@@ -8,20 +20,8 @@ import {
   RecordingError,
 } from '@farpoint/recording';
 import type { TopicEntry, TopicReading, TopicTable } from '@farpoint/ros';
-import type { BaseState } from '../../ground/base.ts';
 import { ReadingTopic } from '../../ground/ros/reading-topic.ts';
 import { PICTURE_TYPES, readPicture } from '../pictures/picture-message.ts';
-import type { PictureTaker } from '../pictures/source-picture.ts';
-import type {
-  CaptureRoom,
-  CaptureWishes,
-  FrameSource,
-  PlayedPicture,
-  SourceDescription,
-  SourceFrame,
-} from './frame-source.ts';
-import { type CameraDescription, cameraOf } from './frame-source.ts';
-import type { PlayedMessage } from './played-telemetry.ts';
 import { RecordedTelemetry } from './recorded-telemetry.ts';
 import { RecordedVideos } from './recorded-videos.ts';
 

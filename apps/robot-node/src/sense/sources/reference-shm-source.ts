@@ -1,3 +1,10 @@
+import type {
+  CaptureRoom,
+  CaptureWishes,
+  FrameSource,
+  SourceDescription,
+  SourceFrame,
+} from '@farpoint/cloud-source';
 import {
   READY_OFFSET,
   REFERENCE_MAX_POINTS,
@@ -5,13 +12,6 @@ import {
   type TrustedOwner,
   type WatchOrder,
 } from '@farpoint/shared-memory';
-import type {
-  CaptureRoom,
-  CaptureWishes,
-  FrameSource,
-  SourceDescription,
-  SourceFrame,
-} from './frame-source.ts';
 import { STANDING, STATIC_CAMERA_POSE } from './playback-source.ts';
 import { openWhenThere, ProducerLink } from './producer-link.ts';
 

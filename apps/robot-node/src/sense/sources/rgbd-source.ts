@@ -7,9 +7,9 @@ import {
   parseIntrinsics,
   parseTrajectoryLog,
 } from '@farpoint/cloud-formats';
+import type { FrameSource } from '@farpoint/cloud-source';
 import { compose, inverse, type Pose } from '@farpoint/protocol';
 import { withoutMark } from '@farpoint/service';
-import type { FrameSource } from './frame-source.ts';
 import { PlaybackSource, STATIC_CAMERA_POSE } from './playback-source.ts';
 
 export interface RgbdSourceOptions {

@@ -1,3 +1,4 @@
+import type { CaptureRoom } from '@farpoint/cloud-source';
 import {
   axesOf,
   type CameraInfo,
@@ -18,7 +19,6 @@ import {
   type TopicEntry,
 } from '@farpoint/ros';
 import { type Listener, listen, listenBytes } from '../../ground/ros/ros-listener.ts';
-import type { CaptureRoom } from './frame-source.ts';
 import type { FedFrame, FeedShape, RosFeed } from './ros-feed.ts';
 
 /** A LiDAR's clouds vary in size. Room for this many times the first cloud, and at least this many points. */

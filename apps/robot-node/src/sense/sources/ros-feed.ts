@@ -1,7 +1,8 @@
 /** Where a ROS source's frames come from: a topic of clouds, or topics of depth and colour images. */
+
+import type { CaptureRoom } from '@farpoint/cloud-source';
 import type { CloudAxes, Pinhole, RosFault } from '@farpoint/ros';
 import type { Listener } from '../../ground/ros/ros-listener.ts';
-import type { CaptureRoom } from './frame-source.ts';
 
 /** Properties shared by all frames of a feed. */
 export interface FeedShape {

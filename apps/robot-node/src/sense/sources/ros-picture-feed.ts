@@ -1,8 +1,8 @@
+import type { PictureTaker } from '@farpoint/cloud-source';
 import { decoderOf, type RosFault, type RosGraph, type TopicEntry } from '@farpoint/ros';
 import type { CaptureTime } from '../../ground/ros/capture-time.ts';
 import { type Listener, listenBytes } from '../../ground/ros/ros-listener.ts';
 import { readPicture } from '../pictures/picture-message.ts';
-import type { PictureTaker } from '../pictures/source-picture.ts';
 
 /** Pictures for people to look at. A topic that nobody watches has no subscription. */
 export class RosPictureFeed {

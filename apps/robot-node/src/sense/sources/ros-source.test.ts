@@ -1,7 +1,7 @@
+import type { CaptureRoom, SourceFrame } from '@farpoint/cloud-source';
 import { topicTableSchema } from '@farpoint/ros';
 import { MemoryGraph } from '@farpoint/ros/testing';
 import { describe, expect, it } from 'vitest';
-import type { CaptureRoom, SourceFrame } from './frame-source.ts';
 import { RosSource } from './ros-source.ts';
 
 const CLOUD = 'sensor_msgs/msg/PointCloud2';

@@ -1,5 +1,15 @@
 /** Clouds, poses and readings from a live ROS graph, as the topic table allows. */
 
+import type { BaseState, PictureTaker } from '@farpoint/cloud-source';
+import {
+  type CaptureRoom,
+  type CaptureWishes,
+  cameraOf,
+  type FrameSource,
+  type Mounted,
+  type SourceDescription,
+  type SourceFrame,
+} from '@farpoint/cloud-source';
 import type { Pose } from '@farpoint/protocol';
 import {
   type CloudAxes,
@@ -9,19 +19,8 @@ import {
   type TopicTable,
   topicAs,
 } from '@farpoint/ros';
-import type { BaseState } from '../../ground/base.ts';
 import { capturedAtMs, LATE_MS, lateFault, type RosClock } from '../../ground/ros/capture-time.ts';
 import { REFUSED_AGE_MS, StampClock, stampRefusals } from '../../ground/ros/stamp-clock.ts';
-import type { PictureTaker } from '../pictures/source-picture.ts';
-import {
-  type CaptureRoom,
-  type CaptureWishes,
-  cameraOf,
-  type FrameSource,
-  type Mounted,
-  type SourceDescription,
-  type SourceFrame,
-} from './frame-source.ts';
 import { RosCloudFeed } from './ros-cloud-feed.ts';
 import type { FeedShape, RosFeed } from './ros-feed.ts';
 import { RosImageFeed } from './ros-image-feed.ts';

@@ -1,4 +1,6 @@
 /** The topics of a ROS graph that report the robot's pose and state, and what else they say for people. */
+
+import type { BaseState } from '@farpoint/cloud-source';
 import {
   fixStampNs,
   ModelTopic,
@@ -12,7 +14,6 @@ import {
   type TopicTable,
   WorldState,
 } from '@farpoint/ros';
-import type { BaseState } from '../../ground/base.ts';
 import type { RosClock } from '../../ground/ros/capture-time.ts';
 import { LATE_MS, lateFault } from '../../ground/ros/capture-time.ts';
 import { ReadingTopic } from '../../ground/ros/reading-topic.ts';

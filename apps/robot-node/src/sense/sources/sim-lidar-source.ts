@@ -1,12 +1,12 @@
-import { officeWorld, SimulatedLidar, type Thing, withThings } from '@farpoint/sim';
-import { SharedWorld } from '../base/shared-snapshot.ts';
 import type {
   CaptureRoom,
   CaptureWishes,
   FrameSource,
   SourceDescription,
   SourceFrame,
-} from './frame-source.ts';
+} from '@farpoint/cloud-source';
+import { officeWorld, SimulatedLidar, type Thing, withThings } from '@farpoint/sim';
+import { SharedWorld } from '../base/shared-snapshot.ts';
 import { STANDING } from './playback-source.ts';
 
 export interface SimLidarSourceOptions {

@@ -1,6 +1,6 @@
+import type { FrameSource, ImageFrame, SourceDescription } from '@farpoint/cloud-source';
 import { type CameraOptions, officeWorld, SimulatedCamera, type Thing, withThings } from '@farpoint/sim';
 import { SharedWorld } from '../base/shared-snapshot.ts';
-import type { FrameSource, ImageFrame, SourceDescription } from './frame-source.ts';
 import { STANDING } from './playback-source.ts';
 
 export interface SimSourceOptions {

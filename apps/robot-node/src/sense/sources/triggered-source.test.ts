@@ -1,5 +1,5 @@
+import type { FrameSource } from '@farpoint/cloud-source';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import type { FrameSource } from './frame-source.ts';
 import { TriggeredSource } from './triggered-source.ts';
 
 const WISHES = { bitsPerSecond: 0, latencyTest: false };

@@ -1,12 +1,13 @@
 /** A source that can be asked at any time, asked at the instants at which the cameras beside it capture. */
-import { SimTrigger } from '../video/feed/sim-trigger.ts';
+
 import type {
   CaptureRoom,
   CaptureWishes,
   FrameSource,
   SourceDescription,
   SourceFrame,
-} from './frame-source.ts';
+} from '@farpoint/cloud-source';
+import { SimTrigger } from '../video/feed/sim-trigger.ts';
 
 export class TriggeredSource implements FrameSource {
   readonly description: SourceDescription;

@@ -1,10 +1,10 @@
-/** Where clouds come from. A source lives in the capture worker. Its times are on the robot's clock, ms. */
+/** Where clouds come from. The robot calls a source in its capture thread. Its times are on the robot's clock, ms. */
 import type { Pose } from '@farpoint/protocol';
 import type { TopicEntry, TopicReading } from '@farpoint/ros';
 import type { Pinhole } from '@farpoint/wasm-codec';
-import type { BaseState } from '../../ground/base.ts';
-import type { PictureTaker } from '../pictures/source-picture.ts';
+import type { BaseState } from './base-state.ts';
 import type { PlayedMessage, PlayedTelemetry } from './played-telemetry.ts';
+import type { PictureTaker } from './source-picture.ts';
 
 export const RECORDED_CODINGS = ['h264', 'vp8'] as const;
 export type RecordedCoding = (typeof RECORDED_CODINGS)[number];
