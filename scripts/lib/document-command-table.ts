@@ -143,6 +143,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'sudo -u farpoint farpoint-robot release --id ROBOT --state-dir /var/lib/farpoint': { help: true },
   'farpoint-robot release': { help: true },
   'pnpm robot release': { help: true },
+  'farpoint-robot init --schema': { help: true },
   'farpoint-robot init --source KIND': { help: true },
   'farpoint-robot init --source ros2': { help: true },
   'systemctl kill -s HUP farpoint-robot': { because: 'needs systemd' },

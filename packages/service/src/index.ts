@@ -1,5 +1,6 @@
 export * from './admin-server.ts';
 export { closest } from './closest.ts';
+export * from './config-schema.ts';
 export * from './config-template.ts';
 export * from './health.ts';
 export * from './json-lines-file.ts';

@@ -17,11 +17,14 @@ export function text(limits: { min?: number; max?: number } = {}): z.ZodType<str
 }
 
 export function number(limits: { min?: number; max?: number } = {}): z.ZodType<number> {
-  return numeric('a number', limits, Number.isFinite);
+  return described(numeric('a number', limits, Number.isFinite), { type: 'number', ...bounds(limits) });
 }
 
 export function integer(limits: { min?: number; max?: number } = {}): z.ZodType<number> {
-  return numeric('a whole number', limits, Number.isSafeInteger);
+  return described(numeric('a whole number', limits, Number.isSafeInteger), {
+    type: 'integer',
+    ...bounds(limits),
+  });
 }
 
 /** A TCP or UDP port; 0 chooses any free one. */
@@ -35,7 +38,7 @@ const SIZE_UNITS: Readonly<Record<string, number>> = { '': 1, k: 1e3, m: 1e6, g:
 export function size(limits: { min: number; none?: boolean }): z.ZodType<number> {
   const { min, none = false } = limits;
   const message = `must be a size such as 500MB or 4GB, of at least ${min} bytes${none ? ', or none' : ''}`;
-  return z.unknown().transform((value, context) => {
+  const read = z.unknown().transform((value, context) => {
     if (none && (value === 'none' || value === false)) return Number.POSITIVE_INFINITY;
     const [, digits, unit = ''] = /^(\d+(?:\.\d+)?) ?([kmgt]?)b?$/i.exec(String(value).trim()) ?? [];
     const bytes = Number(digits) * (SIZE_UNITS[unit.toLowerCase()] ?? Number.NaN);
@@ -43,6 +46,7 @@ export function size(limits: { min: number; none?: boolean }): z.ZodType<number>
     context.addIssue({ code: 'custom', message });
     return z.NEVER;
   });
+  return described(read, { type: ['number', 'string'] });
 }
 
 export function boolean(): z.ZodType<boolean> {
@@ -56,13 +60,14 @@ export function boolean(): z.ZodType<boolean> {
     ['off', false],
     ['0', false],
   ]);
-  return z.unknown().transform((value, context) => {
+  const schema = z.unknown().transform((value, context) => {
     const read =
       typeof value === 'boolean' ? value : words.get(typeof value === 'string' ? value.toLowerCase() : '');
     if (read !== undefined) return read;
     context.addIssue({ code: 'custom', message: 'must be true or false' });
     return z.NEVER;
   });
+  return described(schema, { type: 'boolean' });
 }
 
 export function choice<const T extends readonly [string, ...string[]]>(values: T): z.ZodType<T[number]> {
@@ -85,15 +90,28 @@ export function list<T>(element: z.core.$ZodType<T>): z.ZodType<T[]> {
 
 /** A text that is never shown. */
 export function secret(schema: z.core.$ZodType<string>): z.ZodType<Secret> {
-  return z.pipe(
+  const held = z.pipe(
     schema,
     z.transform((text: string) => new Secret(text)),
   );
+  return described(held, { type: 'string' });
 }
 
 /** An option that may be omitted. Its default is `null`. */
 export function optional<T>(schema: z.core.$ZodType<T>): z.ZodType<T | null> {
   return z.nullable(schema);
+}
+
+/** Says what JSON Schema cannot read from a function that reads values. */
+function described<T>(schema: z.ZodType<T>, keywords: Readonly<Record<string, unknown>>): z.ZodType<T> {
+  return schema.meta(keywords);
+}
+
+function bounds({ min, max }: { min?: number; max?: number }): Record<string, number> {
+  return {
+    ...(min === undefined ? {} : { minimum: min }),
+    ...(max === undefined ? {} : { maximum: max }),
+  };
 }
 
 function numeric(

@@ -3,11 +3,18 @@ import { join } from 'node:path';
 import { resolveOptions } from '@farpoint/service';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { describe, expect, it } from 'vitest';
+import { parse } from 'yaml';
+import * as z from 'zod';
 import { robotProgram } from '../options/robot-program.ts';
 import { SOURCE_KINDS } from '../options/source.ts';
 import { init, robotTemplate } from './init.ts';
 
 const folder = useFolder();
+
+interface JsonSchema {
+  properties?: Record<string, JsonSchema>;
+  description?: string;
+}
 
 /** Runs `init`. @returns what it wrote, and its exit code */
 function run(...argv: string[]) {
@@ -59,6 +66,40 @@ describe('the file that init writes', () => {
       expect(lines[index - 1], key).toMatch(/^ +# \S/);
     }
     expect(Math.max(...lines.map((line) => line.length))).toBeLessThan(125);
+  });
+});
+
+describe('the schema that init writes', () => {
+  const schema = JSON.parse(run('--schema', '--output', '-').out) as JsonSchema;
+  const accepts = (text: string) => z.fromJSONSchema(schema as never).safeParse(parse(text)).success;
+
+  it.each(SOURCE_KINDS)('accepts the file that init writes for %s', (source) => {
+    const text = robotTemplate(source);
+    expect(accepts(text)).toBe(true);
+    expect(accepts(uncommented(text))).toBe(true);
+  });
+
+  it.each([
+    ['a key that nobody knows', 'robot: { limits: { maxLinaer: 1 } }'],
+    ['a value that is none of the choices', 'robot: { source: { kind: camera } }'],
+    ['a number out of its range', 'robot: { limits: { watchdogMs: 20 } }'],
+    ['a text where a number belongs', 'robot: { stream: { bitrateMbps: much } }'],
+    ['a fraction where a whole number belongs', 'robot: { limits: { maxOperators: 1.5 } }'],
+    ['a camera without a source', 'robot: { videos: [{ name: Front }] }'],
+    ['a section of no program', 'robots: { id: rover }'],
+  ])('refuses %s, as the robot does', (_, text) => {
+    expect(accepts(text)).toBe(false);
+    expect(() => values(text)).toThrow();
+  });
+
+  it('explains each key, and says no secret', () => {
+    const keys = (node: JsonSchema): JsonSchema[] =>
+      Object.values(node.properties ?? {}).flatMap((each) =>
+        each.description === undefined ? keys(each) : [each],
+      );
+    const described = keys(schema.properties?.robot ?? {});
+    expect(described.length).toBeGreaterThan(100);
+    expect(described.filter(({ description }) => (description?.length ?? 0) < 10)).toEqual([]);
   });
 });
 

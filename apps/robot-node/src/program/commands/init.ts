@@ -1,7 +1,7 @@
 /** `farpoint-robot init`: writes a configuration file with every option, explained. It asks no questions. */
 import { writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
-import { configTemplate, DEFAULT_CONFIG_PATH } from '@farpoint/service';
+import { configSchema, configTemplate, DEFAULT_CONFIG_PATH } from '@farpoint/service';
 import { playbackOptions } from '../options/playback.ts';
 import { measurementOptions } from '../options/recording.ts';
 import { robotProgram } from '../options/robot-program.ts';
@@ -86,13 +86,19 @@ export interface CommandRim {
   stderr: { write(text: string): unknown };
 }
 
-const HELP = `farpoint-robot init [--source KIND] [--output FILE] [--audit FILE] [--force]
+const DEFAULT_SCHEMA_PATH = 'farpoint.schema.json';
 
-Writes a configuration file for a robot, with a comment for each option.
+const HELP = `farpoint-robot init [--source KIND] [--output FILE] [--audit FILE] [--force]
+farpoint-robot init --schema [--output FILE] [--force]
+
+Writes a configuration file for a robot, with a comment for each option; or a JSON Schema of such files, by which an editor
+completes and checks them. In the configuration file, the first line names it:
+# yaml-language-server: $schema=${DEFAULT_SCHEMA_PATH}
 
   --source KIND  source of the clouds: ${SOURCE_KINDS.join(', ')} (default: sim)
-  --output FILE  file to write (default: ${DEFAULT_CONFIG_PATH}); - for standard output
+  --output FILE  file to write (default: ${DEFAULT_CONFIG_PATH}, or ${DEFAULT_SCHEMA_PATH}); - for standard output
   --audit FILE   record who did what in this file (audit.log)
+  --schema       write the JSON Schema
   --force        replace an existing file
 `;
 
@@ -118,20 +124,23 @@ export function init(argv: readonly string[], { stdout, stderr }: CommandRim): n
       `--source must be one of ${SOURCE_KINDS.join(', ')}, not ${JSON.stringify(values.source)}`,
       2,
     );
-  const text = robotTemplate(source, values.audit);
-  if (values.output === '-') {
+  const text = values.schema
+    ? `${JSON.stringify(configSchema(robotProgram), null, 2)}\n`
+    : robotTemplate(source, values.audit);
+  const output = values.output ?? (values.schema ? DEFAULT_SCHEMA_PATH : DEFAULT_CONFIG_PATH);
+  if (output === '-') {
     stdout.write(text);
     return 0;
   }
   try {
     // The file may hold a token: limit who can read it.
-    writeFileSync(values.output, text, { flag: values.force ? 'w' : 'wx', mode: 0o640 });
+    writeFileSync(output, text, { flag: values.force ? 'w' : 'wx', mode: 0o640 });
   } catch (error) {
     const { code, message } = error as NodeJS.ErrnoException;
-    if (code === 'EEXIST') return refuse(`${values.output} already exists; --force replaces it`, 1);
-    return refuse(`${values.output} cannot be written: ${message}`, 1);
+    if (code === 'EEXIST') return refuse(`${output} already exists; --force replaces it`, 1);
+    return refuse(`${output} cannot be written: ${message}`, 1);
   }
-  stdout.write(`Wrote ${values.output}. Next: ${next(source, values.output)}\n`);
+  stdout.write(values.schema ? `Wrote ${output}.\n` : `Wrote ${output}. Next: ${next(source, output)}\n`);
   return 0;
 }
 
@@ -150,7 +159,8 @@ function parse(argv: readonly string[]) {
     args: [...argv],
     options: {
       source: { type: 'string', default: 'sim' },
-      output: { type: 'string', default: DEFAULT_CONFIG_PATH },
+      output: { type: 'string' },
+      schema: { type: 'boolean', default: false },
       audit: { type: 'string' },
       force: { type: 'boolean', default: false },
       help: { type: 'boolean', short: 'h', default: false },

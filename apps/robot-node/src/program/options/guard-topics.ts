@@ -1,13 +1,9 @@
 /** The topics of the robot's ROS graph that bound its motion: laser scans, and what another program demands. */
 import type { TopicTable } from '@farpoint/ros';
-import { defineOption, optionGroup, schema } from '@farpoint/service';
+import { defineOption, type OptionValues, optionGroup, schema } from '@farpoint/service';
 import * as z from 'zod';
 import type { GraphOptions } from '../../ground/ros/open-graph.ts';
-import type {
-  CollisionType,
-  GuardScan,
-  GuardTopicsOptions,
-} from '../../motion/obstacles/guard-topics-messages.ts';
+import type { GuardScan, GuardTopicsOptions } from '../../motion/obstacles/guard-topics-messages.ts';
 import { mountSchema } from './mount.ts';
 import { type RosKindValues, rosKindOf } from './ros-kind.ts';
 
@@ -80,17 +76,14 @@ export const guardTopicsOptions = optionGroup('guard', {
   }),
 });
 
-export interface GuardTopicsValues extends RosKindValues {
-  guardScan: readonly GuardScan[];
-  guardCollisionTopic: string | null;
-  guardCollisionType: CollisionType;
-  stopSilenceMs: number;
-  guardCollisionSilent: 'stop' | 'slow';
-  guardClearanceM: number;
-  guardHeightM: number;
-  guardUnseenMps: number;
-  rosBaseFrame: string | null;
-}
+type GuardTopicsValues = RosKindValues &
+  OptionValues<typeof guardTopicsOptions> & {
+    stopSilenceMs: number;
+    guardClearanceM: number;
+    guardHeightM: number;
+    guardUnseenMps: number;
+    rosBaseFrame: string | null;
+  };
 
 /**
  * @param topics of the robot's graph @param graph the robot's graph of this kind

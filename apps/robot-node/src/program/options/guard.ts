@@ -1,10 +1,9 @@
 /** The obstacle guard: what the robot's own clouds say about its way. */
 import { type Corner, defaultObstacleGuardOptions, Footprint, FootprintError } from '@farpoint/safety';
-import { defineOption, optionGroup, schema } from '@farpoint/service';
+import { defineOption, type OptionValues, optionGroup, schema } from '@farpoint/service';
 import * as z from 'zod';
 import type { GuardTopicsOptions } from '../../motion/obstacles/guard-topics-messages.ts';
 import type { ObstacleGuardConfiguration } from '../../motion/obstacles/guarded-sensors.ts';
-import type { SensorMount } from '../../sense/sources/sensor-mount.ts';
 import { mountSchema } from './mount.ts';
 
 const RADIUS = 0.25;
@@ -104,21 +103,12 @@ export const guardOptions = optionGroup('guard', {
   }),
 });
 
-export interface GuardValues {
+type GuardValues = OptionValues<typeof guardOptions> & {
   source: string;
-  obstacleGuard: ObstacleGuardConfiguration['mode'];
-  footprint: string;
-  guardMount: SensorMount | null;
   guardScanFloor: 'unseen' | 'seen';
-  guardBlankFloor: 'missing' | 'unseen';
-  guardClearanceM: number;
-  guardHeightM: number;
-  guardDropM: number;
-  guardMarginM: number;
-  guardUnseenMps: number;
   decelerationMps2: number;
   turnRadps2: number;
-}
+};
 
 /** @param topics of a ROS graph that bound its motion too @param refuse what contradicts something else */
 export function toObstacleGuard(

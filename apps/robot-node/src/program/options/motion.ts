@@ -1,6 +1,6 @@
 /** How the robot's motion is bounded. */
 import { Footprint } from '@farpoint/safety';
-import { defineOption, optionGroup, schema } from '@farpoint/service';
+import { defineOption, type OptionValues, optionGroup, schema } from '@farpoint/service';
 import type { MotionLimits } from '../../motion/open-drive.ts';
 import { footprintOf } from './guard.ts';
 
@@ -61,17 +61,7 @@ export const motionOptions = optionGroup('motion', {
   }),
 });
 
-export interface MotionValues {
-  view: 'required' | 'optional';
-  viewSlowMs: number;
-  viewBrakeMs: number;
-  blindTravelM: number;
-  accelerationMps2: number;
-  decelerationMps2: number;
-  emergencyMps2: number;
-  turnRadps2: number;
-  footprint: string;
-}
+export type MotionValues = OptionValues<typeof motionOptions> & { footprint: string };
 
 /** @param refuse what contradicts something else */
 export function toMotion(
