@@ -7,6 +7,7 @@ import { join } from 'node:path';
 import { makeIssuer, type TestIssuer } from '@farpoint/grants/testing';
 import { BridgeProcess, LocalStack, type ManagedProcess } from '@farpoint/local-stack';
 import { SignaledOperator, type SignaledOperatorOptions } from '@farpoint/robot-node/testing';
+import { metricOf } from '@farpoint/robot-node/testing/metric-of';
 import { Bystanders } from './bystanders.ts';
 import { HarmError, inTime, mustHold } from './harm.ts';
 import { LiveDriver } from './live-driver.ts';
@@ -148,9 +149,7 @@ export class Scene {
   }
 
   async metric(name: string, labels = '', robot = ROBOT): Promise<number> {
-    const response = await fetch(`${this.stack.robotAdminUrl(robot)}/metrics`);
-    const line = (await response.text()).split('\n').find((row) => row.startsWith(`${name}${labels} `));
-    return line === undefined ? 0 : Number(line.split(' ').at(-1));
+    return metricOf(this.stack.robotAdminUrl(robot), `${name}${labels}`);
   }
 
   /** Closes what the last attack has opened, and judges what came of it. @returns `null` if everything held */

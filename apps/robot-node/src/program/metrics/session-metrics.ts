@@ -87,6 +87,11 @@ export function addBroadcastMetrics(
     () => broadcast.bytesSent,
   );
   metrics.sum(
+    'broadcast_mountpoints',
+    'How often the mountpoint was created',
+    () => broadcast.keeper.created,
+  );
+  metrics.sum(
     'broadcast_failures',
     'Datagrams to the present mountpoint that could not be sent',
     () => broadcast.failures,

@@ -37,6 +37,12 @@ function addEncodedMetrics(metrics: PulledMetrics, streams: Streams): void {
     byCamera(streams, ({ counters }) => counters.frames),
   );
   metrics.sums(
+    'video_key_frames',
+    'Of these, frames that need no other, by camera',
+    'camera',
+    byCamera(streams, ({ counters }) => counters.keyFrames),
+  );
+  metrics.sums(
     'video_bytes',
     'Bytes of the encoded frames, by camera',
     'camera',

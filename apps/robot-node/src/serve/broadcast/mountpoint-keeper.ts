@@ -64,6 +64,8 @@ export class MountpointKeeper {
   #lost = false;
   /** Whether a failure was reported since things last worked. */
   #reported = false;
+  /** How often a mountpoint was created. */
+  created = 0;
 
   constructor(parts: MountpointKeeperParts, events: MountpointKeeperEvents) {
     this.#parts = parts;
@@ -183,6 +185,7 @@ export class MountpointKeeper {
     this.#exists = true;
     this.#described = true;
     this.#lost = false;
+    this.created++;
     log.info({ url: options.url, mountpoint: id, encrypted: srtp !== null }, 'broadcast: mountpoint created');
     this.#events.onMountpoint({ address, ports: streams as StreamPorts[], srtp });
   }
