@@ -6,15 +6,42 @@ import type { VelocitySink } from './ground/velocity-sink.ts';
 import { openSink } from './motion/drive/open-sink.ts';
 import { guardedSensors, hasOdometry } from './motion/obstacles/guarded-sensors.ts';
 import { type ObstacleStation, openObstacleGuard } from './motion/obstacles/obstacle-station.ts';
-import { inWorld, videosInWorld } from './program/in-world.ts';
 import type { RobotOptions } from './program/robot-configuration.ts';
+import type { CloudSensorOptions } from './send/clouds/cloud-sensor.ts';
 import { CloudSensors } from './send/clouds/cloud-sensors.ts';
 import { openPlayedVideos } from './send/video/played-videos.ts';
 import { BaseThread } from './sense/base/base-thread.ts';
 import type { Capture } from './sense/capture/capture.ts';
 import type { VideoCamera } from './sense/video/video-encoder.ts';
+import type { VideoCameraOptions } from './serve/cameras/open-video-cameras.ts';
 import { openVideoCameras } from './serve/cameras/open-video-cameras.ts';
 import { SessionRecording } from './tell/session-recording.ts';
+
+/** Gives simulated sensors the world of the simulated base, so that they see the robot move. */
+export function inWorld(
+  sensors: readonly CloudSensorOptions[],
+  base: BaseThread | null,
+): CloudSensorOptions[] {
+  return sensors.map((sensor) => {
+    const { source } = sensor.capture;
+    if (base === null || (source.kind !== 'sim' && source.kind !== 'sim-lidar')) return sensor;
+    const { snapshot, things } = base;
+    return { ...sensor, capture: { ...sensor.capture, source: { ...source, snapshot, things } } };
+  });
+}
+
+/** The same for simulated cameras that are streamed as video. */
+function videosInWorld(
+  cameras: readonly VideoCameraOptions[],
+  base: BaseThread | null,
+): VideoCameraOptions[] {
+  return cameras.map((camera) => {
+    const { source } = camera;
+    if (base === null || source.kind !== 'sim') return camera;
+    const { snapshot, things } = base;
+    return { ...camera, source: { ...source, snapshot, things } };
+  });
+}
 
 /** What a robot is made of, opened and ready. */
 export interface RobotParts {

@@ -1,11 +1,42 @@
 /** `farpoint-robot doctor`: checks everything that a robot needs, and says what to do about each fault. */
+
+import { withoutCredentials } from '@farpoint/service';
 import { checkConfiguration } from '../doctor/check-configuration.ts';
 import { configurationCheck, machineChecks, robotChecks } from '../doctor/checks.ts';
+import type { Verdict } from '../doctor/finding.ts';
 import { type Finding, runCheck } from '../doctor/finding.ts';
 import { thisHost } from '../doctor/host.ts';
-import { countVerdicts, findingLine, jsonReport, summaryLine } from '../doctor/report.ts';
 import { graphsOf } from '../doctor/ros-probe.ts';
 import type { CommandRim } from './init.ts';
+
+const SIGNS: Record<Verdict, string> = { ok: '✓', warn: '!', fail: '✗' };
+const NAME_WIDTH = 15;
+
+/** The finding and its remedy in one line. */
+export function findingLine({ check, verdict, detail, remedy }: Finding): string {
+  const what = remedy === undefined ? detail : `${detail} → ${remedy}`;
+  // A message from another program may contain newlines.
+  return `${SIGNS[verdict]} ${check.padEnd(NAME_WIDTH)} ${withoutCredentials(what.replaceAll(/\s*\n\s*/g, '; '))}\n`;
+}
+
+/** What all findings come to, for people. */
+export function summaryLine(findings: readonly Finding[]): string {
+  const { fail, warn } = countVerdicts(findings);
+  if (fail > 0) return `${fail} to fix${warn > 0 ? `, ${warn} worth a look` : ''}.\n`;
+  return warn > 0 ? `Ready; ${warn} worth a look.\n` : 'Ready.\n';
+}
+
+/** `--json`: a single object. */
+export function jsonReport(findings: readonly Finding[]): string {
+  const { fail } = countVerdicts(findings);
+  return `${withoutCredentials(JSON.stringify({ ready: fail === 0, findings }, null, 2))}\n`;
+}
+
+function countVerdicts(findings: readonly Finding[]): Record<Verdict, number> {
+  const counts = { ok: 0, warn: 0, fail: 0 };
+  for (const { verdict } of findings) counts[verdict]++;
+  return counts;
+}
 
 const HELP = `farpoint-robot doctor [--json] [any option of farpoint-robot]
 

@@ -11,8 +11,14 @@ import { checkMonotonicClock, checkTimeOfDay, type ServerTime } from './check-cl
 import type { Configuration } from './check-configuration.ts';
 import { checkRecording, checkSharedMemory, checkState } from './check-files.ts';
 import { checkAddresses, checkUdpPorts, judgeIce } from './check-ice.ts';
-import { checkMemory, checkNode, checkSocketBuffers } from './check-machine.ts';
-import { checkProcessor, judgeCodec, timeCodec } from './check-processor.ts';
+import {
+  checkMemory,
+  checkNode,
+  checkProcessor,
+  checkSocketBuffers,
+  judgeCodec,
+  timeCodec,
+} from './check-machine.ts';
 import { judgeSignaling } from './check-signaling.ts';
 import { judgeSound } from './check-sound.ts';
 import { judgeClosedSource, judgeSource, trialSource } from './check-source.ts';

@@ -5,15 +5,14 @@ import { useFolder } from '@farpoint/service/testing/folder';
 import { isAvailable } from '@farpoint/shared-memory';
 import { describe, expect, it } from 'vitest';
 import type { SourceOptions } from '../../sense/sources/open-source.ts';
+import { findingLine, jsonReport, summaryLine } from '../commands/doctor.ts';
 import { checkMonotonicClock, checkTimeOfDay } from './check-clock.ts';
 import { checkRecording, checkSharedMemory } from './check-files.ts';
 import { checkAddresses } from './check-ice.ts';
-import { checkMemory, checkNode, checkSocketBuffers } from './check-machine.ts';
-import { checkProcessor, judgeCodec } from './check-processor.ts';
+import { checkMemory, checkNode, checkProcessor, checkSocketBuffers, judgeCodec } from './check-machine.ts';
 import { judgeClosedSource, judgeSource, trialSource } from './check-source.ts';
 import { type Result, runCheck } from './finding.ts';
 import type { Host } from './host.ts';
-import { findingLine, jsonReport, summaryLine } from './report.ts';
 import { judgeRunning } from './running-robot.ts';
 import type { SourceTrial } from './source-trial.ts';
 

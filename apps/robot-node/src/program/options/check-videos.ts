@@ -1,7 +1,7 @@
 /** Faults of cameras with video that only show beside the robot's other options. */
 import { DEFAULT_CAMERA } from '@farpoint/sim';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
-import { rosKindOf } from './ros-kind.ts';
+import { rosKindOf } from './sink.ts';
 import type { ConfiguredVideo } from './videos.ts';
 
 type SimVideo = Extract<ConfiguredVideo['source'], { kind: 'sim' }>;

@@ -4,8 +4,8 @@ import { defineOption, type OptionValues, optionGroup, schema } from '@farpoint/
 import * as z from 'zod';
 import type { GraphOptions } from '../../ground/ros/open-graph.ts';
 import type { GuardScan, GuardTopicsOptions } from '../../motion/obstacles/guard-topics-messages.ts';
-import { mountSchema } from './mount.ts';
-import { type RosKindValues, rosKindOf } from './ros-kind.ts';
+import { mountSchema } from './guard.ts';
+import { type RosKindValues, rosKindOf } from './sink.ts';
 
 const MOST_SCANS = 4;
 

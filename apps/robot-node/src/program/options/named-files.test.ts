@@ -6,9 +6,8 @@ import { uselessFiles } from '@farpoint/service/testing/useless-files';
 import { describe, expect, it, test } from 'vitest';
 import { GrantKeysFile } from '../../admit/access/grant-keys-file.ts';
 import { RobotKey } from '../../admit/access/robot-key-file.ts';
-import { openPcdSource } from '../../sense/sources/pcd-source.ts';
+import { openPcdSource, openRgbdSource } from '../../sense/sources/open-source.ts';
 import { RecordingSource } from '../../sense/sources/recording-source.ts';
-import { openRgbdSource } from '../../sense/sources/rgbd-source.ts';
 import { robotOf } from './testing/robot-of.ts';
 
 /** Self-signed; of nobody. */

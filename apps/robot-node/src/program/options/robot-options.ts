@@ -25,7 +25,7 @@ import { toMotion } from './motion.ts';
 import { readCertificates } from './read-text.ts';
 import type { RobotOptionKey } from './robot-program.ts';
 import { type RobotOptionValues, robotProgram } from './robot-program.ts';
-import { rosKindOf } from './ros-kind.ts';
+import { rosKindOf } from './sink.ts';
 import { toStateFolder } from './state.ts';
 import { toFence } from './to-fence.ts';
 import { toGraph } from './to-graph.ts';

@@ -12,7 +12,7 @@ import { SIM_FIX } from '../../sense/base/sim-topics.ts';
 import { footprintOf } from './guard.ts';
 import { readText } from './read-text.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
-import { configuresOdometry } from './ros-kind.ts';
+import { configuresOdometry } from './sink.ts';
 
 /** The fence keeps this much more than the footprint inside: a base skids, and its odometry slips. Chosen. */
 const BESIDE_FOOTPRINT_M = 0.25;

@@ -2,7 +2,7 @@ import { defaultReturnOptions } from '@farpoint/safety';
 import type { GraphOptions } from '../../ground/ros/open-graph.ts';
 import type { ReturnConfiguration } from '../../motion/return/return-announcer.ts';
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
-import { configuresOdometry, rosKindOf } from './ros-kind.ts';
+import { configuresOdometry, rosKindOf } from './sink.ts';
 
 /** The lease must be free by then, and its holder told. */
 const AFTER_LEASE_S = 1;

@@ -1,9 +1,117 @@
-import type { CaptureRoom, SourceDescription, SourceFrame } from '@farpoint/cloud-source';
-import { type Codec, CodecError } from '@farpoint/wasm-codec';
-import type { EncodedFrame, EncoderOptions, PacketSource } from './encoded-frame.ts';
+import type { CaptureRoom, PointFrame, SourceDescription, SourceFrame } from '@farpoint/cloud-source';
+import { encodeUnorganisedStream } from '@farpoint/protocol';
+import { type Codec, CodecError, UnorganisedEncoder } from '@farpoint/wasm-codec';
+import {
+  type EncodedFrame,
+  type EncoderOptions,
+  isSameMemory,
+  type PacketSource,
+  placementOf,
+} from './encoded-frame.ts';
 import { OrganisedFrameEncoder } from './organised-frame-encoder.ts';
+import { Packetiser, SLOT_BYTES, SLOT_DATA_OFFSET } from './packetiser.ts';
 import type { CodedFormat } from './plan.ts';
-import { UnorganisedFrameEncoder } from './unorganised-frame-encoder.ts';
+
+/** Quantisation step, mm. The error of a coordinate is at most half of it. */
+const STEP_MM = 10;
+/** The largest multiple of the receiver's unit that int16 holds. */
+const MOST_UNITS = 32_767;
+/** The format refuses coordinates beyond this, m. */
+const MOST_METRES = 500;
+
+/** Encodes a frame of points without a grid into complete `unorganised` packets (docs/unorganised-codec.md). */
+class UnorganisedFrameEncoder implements PacketSource {
+  readonly #encoder: UnorganisedEncoder;
+  readonly #lambda: number;
+  readonly #sensor: number;
+  readonly #now: () => number;
+  readonly #packetiser = new Packetiser();
+  readonly room: CaptureRoom;
+  #slots = new Uint8Array(0);
+  #unitMm = 0;
+  /** The stream's header, with the unit of the receivers' coordinates. The unit grows when a frame extends further. */
+  header: Uint8Array | null = null;
+
+  constructor(codec: Codec, capacity: number, sampling: EncoderOptions, now: () => number) {
+    const encoder = new UnorganisedEncoder(codec, capacity);
+    this.#encoder = encoder;
+    this.room = {
+      get points() {
+        return encoder.frame;
+      },
+      depth: new Float32Array(0),
+      colour: new Uint32Array(0),
+    };
+    this.#lambda = sampling.lambda;
+    this.#sensor = sampling.sensor;
+    this.#now = now;
+  }
+
+  /**
+   * @param budgetBytes for the data of all packets
+   * @param latencyTest makes the whole frame green
+   * @throws {CodecError} for a frame beyond the capacity
+   */
+  encode(frame: PointFrame, frameNumber: number, budgetBytes: number, latencyTest: boolean): EncodedFrame {
+    const encoder = this.#encoder;
+    const begin = this.#now();
+    const words = new Uint32Array(frame.points.buffer, frame.points.byteOffset, frame.count * 4);
+    const { frameBits } = encoder;
+    if (!isSameMemory(words, frameBits)) frameBits.set(words);
+    if (latencyTest) for (let i = 3; i < words.length; i += 4) frameBits[i] = 0xff00_ff00;
+    this.#chooseUnit(frame);
+    const middle = this.#now();
+    const report = encoder.encode({
+      points: frame.count,
+      stepMm: STEP_MM,
+      attribute: 'colour',
+      budgetBytes: Math.max(1, Math.floor(budgetBytes)),
+      lambda: Math.min(this.#lambda, 8),
+    });
+    if (this.#slots.length < report.packets * SLOT_BYTES) {
+      this.#slots = new Uint8Array(Math.ceil(report.packets * 1.25) * SLOT_BYTES);
+    }
+    const placement = placementOf(frame, 'unorganised', this.#sensor, latencyTest, false);
+    this.#packetiser.begin(this.#slots, frameNumber, report.kept, placement);
+    for (let i = 0; i < report.packets; i++) {
+      const packet = encoder.packet(i);
+      this.#slots.set(packet, i * SLOT_BYTES + SLOT_DATA_OFFSET);
+      this.#packetiser.add(encoder.pointsOf(i), packet.length);
+    }
+    const { notFinite, outOfRange } = report.rejected;
+    return {
+      format: 'unorganised',
+      frameNumber,
+      points: report.kept,
+      packets: report.packets,
+      validPoints: report.kept + report.thinned,
+      rejected: { notFinite, nonPositiveDepth: 0, outOfRange, notDrawn: report.thinned },
+      saturated: 0,
+      sampleMs: middle - begin,
+      packMs: this.#now() - middle,
+    };
+  }
+
+  copyPackets(into: Uint8Array, packets: number): void {
+    into.set(this.#slots.subarray(0, packets * SLOT_BYTES));
+  }
+
+  /** Chooses the finest unit, a power of two in millimetres, in which the farthest point fits. */
+  #chooseUnit({ points, count }: PointFrame): void {
+    let most = 0;
+    for (let i = 0; i < count * 4; i += 4) {
+      for (let axis = 0; axis < 3; axis++) {
+        const metres = Math.abs(points[i + axis] as number);
+        if (metres > most && metres <= MOST_METRES) most = metres;
+      }
+    }
+    let unitMm = Math.max(this.#unitMm, 1);
+    while (most * 1000 > unitMm * MOST_UNITS) unitMm *= 2;
+    if (unitMm === this.#unitMm) return;
+    this.#unitMm = unitMm;
+    this.header = encodeUnorganisedStream({ unitMm });
+  }
+}
 
 /** What receivers need before the packets of a format. */
 export interface CodedStream {

@@ -1,6 +1,6 @@
 import { compose, rotate } from '@farpoint/protocol';
 import { describe, expect, it } from 'vitest';
-import { bodyToOptical } from './pcd-source.ts';
+import { bodyToOptical } from './open-source.ts';
 import { STATIC_CAMERA_POSE } from './playback-source.ts';
 
 describe('playback', () => {

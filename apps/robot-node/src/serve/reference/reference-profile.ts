@@ -9,6 +9,7 @@
  * second.
  */
 import type { RateController } from '@farpoint/congestion';
+import type { IceServer } from '@farpoint/protocol';
 import {
   type ReferenceRobotToService,
   type ReferenceServiceToRobot,
@@ -17,12 +18,45 @@ import {
 } from '@farpoint/protocol';
 import { answerMisfit, MessageLine } from '@farpoint/reference-profile';
 import type { Logger } from '@farpoint/service';
+import type { SignalingOptions } from '../../admit/signaling/signaling-client.ts';
 import type { Budgets } from '../../send/budgets/budgets.ts';
 import type { FrameTarget } from '../../send/clouds/pipeline.ts';
+import { makeRateController, type RateControlOptions } from '../../send/transport/make-rate-controller.ts';
 import type { PacketLog } from '../../send/transport/packet-log.ts';
 import type { SendLoop } from '../../send/transport/send-loop.ts';
+import type { RobotSessionHost } from '../session/robot-session-host.ts';
 import { type ReferenceHost, ReferenceOperator } from './reference-operator.ts';
 import type { ReferencePeerOptions } from './reference-peer.ts';
+
+interface ReferenceOptions extends RateControlOptions {
+  /** The reference signaling service's port for robots; if undefined, the robot is not visible there. */
+  referenceSignaling?: string | undefined;
+  name: string;
+  signaling: Pick<SignalingOptions, 'ca'>;
+  iceServers: IceServer[];
+}
+
+type ReferenceProfileParts = Pick<ReferenceProfileOptions, 'packetLog' | 'sendLoop' | 'budgets'> & {
+  peer: Omit<ReferenceProfileOptions['peer'], 'iceServers'>;
+};
+
+/** @returns `null` if the robot is not to be visible to the reference system's operators */
+export function openReferenceProfile(
+  options: ReferenceOptions,
+  { peer, ...parts }: ReferenceProfileParts,
+  host: RobotSessionHost,
+  log: Logger,
+): ReferenceProfile | null {
+  const { referenceSignaling: url, name, signaling, iceServers } = options;
+  if (url === undefined) return null;
+  const makeController = () => makeRateController(options, true);
+  const { ca } = signaling;
+  return new ReferenceProfile(
+    { url, ca, name, peer: { ...peer, iceServers }, makeController, ...parts },
+    host,
+    log,
+  );
+}
 
 export interface ReferenceProfileOptions {
   /** The reference signaling's port for robots. */

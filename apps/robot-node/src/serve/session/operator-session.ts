@@ -1,4 +1,8 @@
-import type { Sound, StageTimings, StreamStatus } from '@farpoint/protocol';
+import type { RateController } from '@farpoint/congestion';
+import type { IceCandidate, Sound, StageTimings, StreamStatus, VideoCodec } from '@farpoint/protocol';
+import type { CandidateRefusal } from '@farpoint/webrtc';
+import type { Budgets } from '../../send/budgets/budgets.ts';
+import type { CloudClaim } from '../../send/budgets/cloud-shares.ts';
 import type { PathBudget } from '../../send/budgets/path-budget.ts';
 import { FrameReceiver } from '../../send/clouds/frame-receiver.ts';
 import { droppedFrames, StreamMeter } from '../../send/clouds/stream-meter.ts';
@@ -8,7 +12,13 @@ import { OperatorSound } from '../../send/sound/operator-sound.ts';
 import type { AnswerVerdict } from '../../send/transport/answer-gate.ts';
 import { OperatorPeer } from '../../send/transport/operator-peer.ts';
 import type { PacketLog } from '../../send/transport/packet-log.ts';
-import type { PeerEnd, SoundLine, VideoLine } from '../../send/transport/peer-events.ts';
+import type {
+  OperatorPeerEvents,
+  OperatorPeerOptions,
+  PeerEnd,
+  SoundLine,
+  VideoLine,
+} from '../../send/transport/peer-events.ts';
 import type { RtpTransport } from '../../send/transport/rtp-transport.ts';
 import type { SendLoop } from '../../send/transport/send-loop.ts';
 import { SharedFrame } from '../../send/transport/shared-frame.ts';
@@ -21,10 +31,42 @@ import { SOUND_STREAM } from '../../sense/sound/sound-frame.ts';
 import type { VideoFrame } from '../../sense/video/video-frame.ts';
 import { type LatencyTest, LatencyTests } from './latency-tests.ts';
 import { OperatorMessages, type SessionHost } from './operator-messages.ts';
-import type { OperatorSessionEvents, OperatorSessionOptions } from './operator-session-options.ts';
 import type { WishesListener } from './operator-wishes.ts';
 import { RestartPolicy } from './restart-policy.ts';
 import { ResumeKey } from './resume-key.ts';
+
+export interface OperatorSessionOptions {
+  /** The session's handle, by which the guard also knows the operator. */
+  session: string;
+  operatorName: string;
+  peer: OperatorPeerOptions;
+  /** Makes the connection; default: over WebRTC. */
+  openPeer?: ((options: OperatorPeerOptions, events: OperatorPeerEvents) => OperatorPeer) | undefined;
+  /** @param transportFeedback whether the operator sends transport-wide feedback */
+  makeController: (transportFeedback: boolean) => RateController;
+  packetLog?: PacketLog | undefined;
+  /** The largest share of the path that pictures may take, 0–1. */
+  pictureShare: number;
+  /** What the robot's cloud sensors claim of a path, indexed by sensor number. */
+  claims: () => readonly CloudClaim[];
+  /** Told when streaming starts or pauses, or when its bit rate or formats may have changed. */
+  budgets: Pick<Budgets, 'update'>;
+  /** What a video may use at most, bit/s without headers; 0 while it has no pictures. */
+  mostVideoBitsPerSecond: (video: number, codecs: ReadonlySet<VideoCodec>) => number;
+}
+
+export interface OperatorSessionEvents {
+  onCandidate(candidate: IceCandidate): void;
+  onCandidateRefused(reason: CandidateRefusal, detail: string): void;
+  onConnected(): void;
+  /** The operator has named the formats or sensors that it reads, and may need the streams' headers. */
+  onCloudFormats(): void;
+  /** The operator can continue with a video only from a key frame. */
+  onNeedsKeyFrame(video: number): void;
+  /** A latency test's green frame was dropped; another is needed. */
+  onLatencyFrameLost(): void;
+  onEnded(end: PeerEnd, detail: string): void;
+}
 
 export interface WishedParts {
   clouds: WantedClouds;

@@ -3,7 +3,22 @@
 import { bodyYaw, type CloudView, opticalYaw, RobotWorld } from '@farpoint/cloud-view';
 import type { RobotBody } from '@farpoint/protocol';
 import { shortestTurn } from '@farpoint/protocol';
-import { type Camera, Color, Group, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import {
+  BoxGeometry,
+  BufferGeometry,
+  type Camera,
+  Color,
+  EdgesGeometry,
+  Float32BufferAttribute,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  PerspectiveCamera,
+  Scene,
+  WebGLRenderer,
+} from 'three';
 import { DEFAULT_HEADSET, type HeadsetSettings } from '../../ground/headset-settings.ts';
 import { FrontPointer } from '../headset/front-pointer.ts';
 import { HeadsetRig } from '../headset/headset-rig.ts';
@@ -19,8 +34,50 @@ import { NearRing } from './near-ring.ts';
 import { PlannedPathLine } from './planned-path-line.ts';
 import type { PredictedView } from './predicted-view.ts';
 import { RobotGhost } from './robot-ghost.ts';
-import { RobotMarker } from './robot-marker.ts';
 import { TopDownCamera } from './top-down-camera.ts';
+
+/** Footprint of a small wheeled robot, metres. */
+const LENGTH = 0.5;
+const WIDTH = 0.4;
+const HEIGHT = 0.25;
+
+/** A plain outline of the robot and its heading. */
+class RobotMarker {
+  /** In the world's axes (REP-103), at base_link. */
+  readonly object = new Group();
+  readonly #outline: LineBasicMaterial;
+  readonly #heading: MeshBasicMaterial;
+  readonly #box: LineSegments;
+
+  constructor() {
+    this.#outline = new LineBasicMaterial({ color: 0x35c9b5, transparent: true, opacity: 0.8 });
+    this.#heading = new MeshBasicMaterial({ color: 0x35c9b5, transparent: true, opacity: 0.7 });
+    const box = new EdgesGeometry(new BoxGeometry(LENGTH, WIDTH, HEIGHT));
+    const outline = new LineSegments(box, this.#outline);
+    outline.position.z = HEIGHT / 2 + 0.03;
+    const arrow = new BufferGeometry();
+    arrow.setAttribute(
+      'position',
+      new Float32BufferAttribute([0.62, 0, 0.02, 0.4, 0.12, 0.02, 0.4, -0.12, 0.02], 3),
+    );
+    arrow.setIndex([0, 1, 2]);
+    const heading = new Mesh(arrow, this.#heading);
+    this.#box = outline;
+    this.object.add(outline, heading);
+    this.object.visible = false;
+  }
+
+  /** Whether it has a box of a usual robot's size: not where the robot's own outline is shown. */
+  set boxed(boxed: boolean) {
+    this.#box.visible = boxed;
+  }
+
+  /** Whether points that are nearer do not hide it. */
+  set onTop(onTop: boolean) {
+    this.#outline.depthTest = !onTop;
+    this.#heading.depthTest = !onTop;
+  }
+}
 
 const BACKGROUND = 0x0b0f14;
 const NEAR_M = 0.05;

@@ -2,8 +2,7 @@
 
 import { VIDEO_RECEIVERS, type VideoReceiverName } from '../../ground/settings.ts';
 import type { OpenReader } from './readers/open-reader.ts';
-import { hasTrackProcessor, openTrack } from './readers/track-reader.ts';
-import { hasFrameCallbacks, openNative } from './readers/video-reader.ts';
+import { hasFrameCallbacks, hasTrackProcessor, openNative, openTrack } from './readers/video-reader.ts';
 import { hasWebCodecs, WebCodecsReceiver } from './webcodecs/webcodecs-receiver.ts';
 
 export interface VideoReceiver {
