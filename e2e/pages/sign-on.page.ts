@@ -78,5 +78,7 @@ test('who signs in drives; what the issuer refuses is said, and a grant that nob
   await obstacle.getByRole('button', { name: 'Try again' }).click();
   await stage.run(500);
   await expect(obstacle).toBeHidden();
+  // That the robot is there comes at once, and does not hide who has signed in.
+  await expect(page.getByText('Signed in: Ada Lovelace may drive: stage-*')).toBeVisible();
   expect((await stage.state()).session).toBe('live');
 });

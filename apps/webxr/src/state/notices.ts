@@ -19,7 +19,7 @@ export function tellNotices(client: RobotClient, notices: Notices): void {
   });
   client.on('grantExpires', (inS) => notices.tell(`Your grant ends in ${inS} s.`, 'warning'));
   client.on('refused', (message) => notices.tell(message, 'warning'));
-  client.on('welcome', ({ name }) => notices.tell(`Connected to ${name}`, 'good'));
+  client.on('welcome', ({ name }) => notices.mention(`Connected to ${name}`));
   client.on('commandRejected', ({ reason, detail }) => {
     console.info('command refused:', reason, detail);
     notices.tell(wordsOfRejection(reason, client.driver.holder), 'warning');
@@ -34,6 +34,11 @@ export function tellNotices(client: RobotClient, notices: Notices): void {
 }
 
 const SHOWN_MS = 5000;
+/**
+ * Good news stays for as long before it makes room for what is only mentioned, ms: chosen, a dozen words are read in it. Otherwise
+ * a robot that is found at once hides who has signed in.
+ */
+const LEAST_GOOD_MS = 2000;
 
 export interface Failure {
   readonly title: string;
@@ -46,11 +51,15 @@ export class Notices {
   readonly #last = signal<Words | null>(null);
   readonly #gone = signal(false);
   #timer: ReturnType<typeof setTimeout> | undefined;
+  /** Runs until the good news that is shown has been read. */
+  #reading: ReturnType<typeof setTimeout> | undefined;
+  #mentioned: string | null = null;
 
   /** The last line told, whether it is still shown or not. */
   readonly last: ReadonlySignal<Words | null> = this.#last;
   readonly shown: ReadonlySignal<Words | null> = computed(() => (this.#gone.value ? null : this.#last.value));
 
+  /** Shows a line at once: what somebody has done, or must know. */
   tell(text: string, tone: Tone = 'neutral'): void {
     this.#last.value = { text, tone };
     this.#gone.value = false;
@@ -58,5 +67,20 @@ export class Notices {
     this.#timer = setTimeout(() => {
       this.#gone.value = true;
     }, SHOWN_MS);
+    clearTimeout(this.#reading);
+    // What has happened since is newer than what waited.
+    this.#mentioned = null;
+    this.#reading = tone === 'good' ? setTimeout(() => this.#onRead(), LEAST_GOOD_MS) : undefined;
+  }
+
+  /** Shows good news that came by itself, but not before other good news has been read. */
+  mention(text: string): void {
+    if (this.#reading === undefined) this.tell(text, 'good');
+    else this.#mentioned = text;
+  }
+
+  #onRead(): void {
+    this.#reading = undefined;
+    if (this.#mentioned !== null) this.tell(this.#mentioned, 'good');
   }
 }
