@@ -9,6 +9,7 @@ import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { root } from './lib/run.ts';
 import { readWorkspaceFile } from './lib/workspace-files.ts';
+import { CHANGED_MS } from './test/changed.ts';
 import { countFlakes, flakeLines } from './test/flakes.ts';
 import { groupStates } from './test/group-states.ts';
 import { pinTo, startLoad } from './test/load.ts';
@@ -28,9 +29,11 @@ const HELP = `pnpm test [--only STEP[,STEP…]] [--changed] [--all] [--pictures]
 
 ${STEPS.map(({ name, what }) => `  ${name.padEnd(11)} ${what}`).join('\n')}
 
-  --changed   what a change needs most, in about a minute: lint, types, and the pure, scenario and page tests of which
-              something has changed, in their packages or in what these use, since they last passed on this machine
-  --all       also the groups of tests (tests/groups.yaml) that have passed here with the same inputs, and the long forms
+  --changed   what a change needs most, in a minute: lint, types, and the pure, scenario and page tests of which
+              something has changed, in their packages or in what these use, since they last passed on this machine;
+              the nearest to the change first. Again: those for which the minute had no room
+  --all       also the groups of tests (tests/groups.yaml) that have passed here with the same inputs, and the long
+              forms; with --changed: everything that has changed, however long it takes
   --pictures  browser tests save the pictures that only people look at (e2e/output)
   --repeat N  the steps N times; the end says which tests failed how often, and whether that is within the budget of
               their layer (docs/tests.md). Also appended to .farpoint/flakes.jsonl
@@ -70,7 +73,13 @@ if (values.pictures) process.env.FARPOINT_PICTURES = '1';
 const began = performance.now();
 const say = (line: string): void => console.log(`  ${line}`);
 const selection = new TestSelection();
-const changed = values.changed ? selection.changed(STEPS.map(({ name }) => name)) : null;
+const limitMs = values.all ? Number.POSITIVE_INFINITY : CHANGED_MS;
+const changed = values.changed
+  ? selection.changed(
+      STEPS.map(({ name }) => name),
+      limitMs,
+    )
+  : null;
 const chosen = STEPS.filter(
   ({ name }) => (only?.includes(name) ?? true) && (changed?.steps.includes(name) ?? true),
 );

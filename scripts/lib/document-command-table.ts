@@ -35,6 +35,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'pnpm test --all': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm test --pictures': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm test --changed': { help: true, because: 'runs until it is ended, and every test of it' },
+  'pnpm test --changed --all': { help: true, because: 'runs until it is ended, and every test of it' },
   'pnpm test --only pure --repeat 10 --load 2': {
     help: true,
     because: 'runs until it is ended, and every test of it',

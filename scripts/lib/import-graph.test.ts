@@ -45,3 +45,12 @@ it('follows the entry that is meant', () => {
 it('where the entry is not known, all of the package counts', () => {
   expect(names('packages/b/src/own.ts')).toHaveLength(7);
 });
+
+it('says how far a file is from those that have changed', () => {
+  const distances = graph.distancesTo(['packages/a/src/one.ts']);
+  const of = (...names: string[]) => names.map((name) => distances.get(`packages/${name}`));
+  expect(of('a/src/one.ts', 'a/src/index.ts', 'b/src/b.ts', 'a/src/two.ts')).toEqual([0, 1, 2, 2]);
+  expect(of('a/src/comment.ts', 'a/src/parts/index.ts', 'b/src/part.ts')).toEqual(
+    [1, 1, 1].map(() => undefined),
+  );
+});

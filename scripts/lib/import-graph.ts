@@ -41,6 +41,24 @@ export class ImportGraph {
     return [...closure].sort();
   }
 
+  /** How many imports lie between a file and the nearest of these. Files that need none of them are not there. */
+  distancesTo(files: Iterable<string>): ReadonlyMap<string, number> {
+    const importers = new Map<string, string[]>();
+    for (const file of this.#files) {
+      for (const imported of this.#importsOf(file)) {
+        const known = importers.get(imported);
+        if (known === undefined) importers.set(imported, [file]);
+        else known.push(file);
+      }
+    }
+    const distances = new Map([...files].map((file) => [file, 0]));
+    // A map is walked in the order of its entries, those added meanwhile as well: the nearest come first.
+    for (const [file, distance] of distances)
+      for (const importer of importers.get(file) ?? [])
+        if (!distances.has(importer)) distances.set(importer, distance + 1);
+    return distances;
+  }
+
   #importsOf(file: string): readonly string[] {
     const known = this.#imports.get(file);
     if (known !== undefined) return known;

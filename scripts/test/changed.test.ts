@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { selectChanged, testFiles, type Workspace } from './changed.ts';
+import { type Layer, msTaken, selectChanged, type TestFile, testFiles, type Workspace } from './changed.ts';
 
 const FILES: Record<string, string> = {
   'packages/a/package.json': '{}',
@@ -21,7 +21,11 @@ const FILES: Record<string, string> = {
   'pnpm-lock.yaml': '',
 };
 
-function hashes(changes: Record<string, string> = {}, tools = ''): Map<string, string | null> {
+function read(
+  changes: Record<string, string> = {},
+  tools = '',
+  known: ReadonlySet<string> | null = null,
+): TestFile[] {
   const all = { ...FILES, ...changes };
   const packages = ['packages/a', 'packages/c', 'apps/webxr'].map((folder) => ({
     ...{ folder, name: `@farpoint/${folder.split('/')[1]}`, exports: { '.': './src/index.ts' } },
@@ -30,7 +34,11 @@ function hashes(changes: Record<string, string> = {}, tools = ''): Map<string, s
     ...{ files: Object.keys(all), packages },
     read: (file) => new TextEncoder().encode(all[file as keyof typeof all] ?? ''),
   };
-  return new Map(testFiles(workspace, tools).map(({ step, file, hash }) => [`${step} ${file}`, hash]));
+  return testFiles(workspace, tools, { hasInput: (hash) => known?.has(hash) ?? false });
+}
+
+function hashes(changes?: Record<string, string>, tools?: string): Map<string, string | null> {
+  return new Map(read(changes, tools).map(({ step, file, hash }) => [`${step} ${file}`, hash]));
 }
 
 /** The tests that have to run after these changes, if all had passed before. */
@@ -71,29 +79,115 @@ describe('a test has to run', () => {
   });
 });
 
+describe('distance', () => {
+  const known = new Set(read().flatMap(({ inputs }) => inputs));
+  const distancesAfter = (changes: Record<string, string>) =>
+    Object.fromEntries(
+      read(changes, '', known).map(({ file, distance }) => [file.replace(/.*\//, ''), distance]),
+    );
+  const none = Number.POSITIVE_INFINITY;
+
+  it('counts the imports to what has changed', () => {
+    expect(distancesAfter({ 'packages/a/src/a.ts': 'new' })).toEqual({
+      ...{ 'a.test.ts': 1, 'c.test.ts': 2, 'stop.page.ts': 3 },
+      ...{ 'b.test.ts': none, 'far.scenario.test.ts': none, 'rules.test.ts': none },
+    });
+  });
+
+  it('a test that may read data that has changed is as near as its package', () => {
+    expect(distancesAfter({ 'packages/c/vectors/one.json': '2' })).toMatchObject({
+      ...{ 'c.test.ts': 0, 'far.scenario.test.ts': 0, 'a.test.ts': none },
+    });
+  });
+});
+
 describe('selection', () => {
-  const tests = [
-    { step: 'pure', file: 'a.test.ts', hash: 'a' },
-    { step: 'pure', file: 'b.test.ts', hash: 'b' },
-    { step: 'page', file: 'c.page.ts', hash: 'c' },
+  const LAYERS: Layer[] = [
+    { step: 'pure', tests: /pure/, startMs: 1000, fileMs: 500 },
+    { step: 'page', tests: /page/, startMs: 2000, fileMs: 5000, after: ['build'] },
   ];
-  const select = (proven: string[], steps: string[]) =>
-    selectChanged(tests, (hash) => proven.includes(hash), steps);
+  const STEPS = ['lint', 'types', 'pure', 'build', 'page', 'stack'];
+  const test = (step: string, name: string, distance = 1): TestFile => ({
+    ...{ step, file: `${name}.${step}.ts`, hash: name, inputs: [], distance },
+  });
+  const tests = [test('pure', 'a'), test('pure', 'b'), test('page', 'c')];
+
+  interface Choice {
+    tests?: readonly TestFile[];
+    /** Names of tests. */
+    passed?: readonly string[];
+    ms?: Readonly<Record<string, number>>;
+    steps?: readonly string[];
+    limitMs?: number;
+  }
+
+  function select({ passed = [], ms = {}, steps = STEPS, limitMs = 60_000, ...choice }: Choice) {
+    const before = {
+      has: (hash: string) => passed.includes(hash),
+      hasInput: () => false,
+      msOf: (name: string) => ms[name],
+    };
+    return selectChanged(choice.tests ?? tests, before, steps, limitMs, LAYERS);
+  }
 
   it('runs lint, types and what has not passed, and says what it leaves out', () => {
-    const { steps, files, leftOut } = select(['a', 'c'], ['lint', 'types', 'pure', 'build', 'page', 'stack']);
+    const { steps, files, leftOut } = select({ passed: ['a', 'c'] });
     expect(steps).toEqual(['lint', 'types', 'pure']);
-    expect([...files]).toEqual([['pure', ['b.test.ts']]]);
+    expect([...files]).toEqual([['pure', ['b.pure.ts']]]);
     expect(leftOut).toBe(
       'left out: 2 of 3 files of tests, which have passed here with what they depend on; build, stack',
     );
   });
 
   it('builds the page before its tests', () => {
-    expect(select(['a', 'b'], ['lint', 'pure', 'build', 'page']).steps).toEqual(['lint', 'build', 'page']);
+    expect(select({ passed: ['a', 'b'] }).steps).toEqual(['lint', 'types', 'build', 'page']);
   });
 
   it('a step that does not exist is no fault', () => {
-    expect(select([], ['lint', 'pure']).steps).toEqual(['lint', 'pure']);
+    expect(select({ steps: ['lint', 'pure'] }).steps).toEqual(['lint', 'pure']);
+  });
+
+  const many = [
+    ...[test('pure', 'far', 3), test('pure', 'near', 1), test('pure', 'slow', 2), test('pure', 'quick', 2)],
+    ...[test('page', 'page', 0), { ...test('pure', 'whole', 9), hash: null }],
+  ];
+  const ms = { lint: 1000, types: 2000, build: 4000, 'slow.pure.ts': 900, 'quick.pure.ts': 100 };
+  const chosen = (limitMs: number) => [...select({ tests: many, ms, limitMs }).files.values()].flat();
+  const inOrder = ['whole.pure.ts', 'near.pure.ts', 'quick.pure.ts', 'slow.pure.ts', 'far.pure.ts'];
+
+  it('takes what looks at everything, then the nearest, of equally near ones the quickest, as long as there is time', () => {
+    const ends = [0, 4500, 5000, 5100, 6000, 6500].map((limitMs) => chosen(limitMs).length);
+    expect(ends).toEqual([1, 1, 2, 3, 4, 5]);
+    expect(chosen(6500)).toEqual(inOrder);
+  });
+
+  it('counts what has to run before a layer', () => {
+    expect(chosen(17_499)).toEqual(inOrder);
+    expect(chosen(17_500)).toEqual([...inOrder, 'page.page.ts']);
+  });
+
+  it('says what is left for another run', () => {
+    expect(select({ tests: many, ms, limitMs: 6100 }).leftOut).toMatch(
+      /left for later: 1 pure, 1 page .*again goes on/,
+    );
+    expect(select({ tests: many, ms, limitMs: Number.POSITIVE_INFINITY }).leftOut).not.toContain('later');
+  });
+});
+
+it('what a step took is shared among its files, and what failed took nothing', () => {
+  const passed = (file: string, ms: number) => ({
+    ...{ file, title: '', status: 'passed' as const, ms, reason: '', line: null, attachments: [] },
+    ...{ verdict: 'passed' as const, alone: [] },
+  });
+  const layers: Layer[] = [{ step: 'pure', tests: /./, startMs: 1000, fileMs: 0 }];
+  const steps = [
+    { name: 'lint', ms: 700, ok: true, judged: [] },
+    { name: 'types', ms: 900, ok: false, judged: [] },
+    { name: 'pure', ms: 1550, ok: true, judged: [passed('a', 10), passed('a', 30), passed('b', 970)] },
+  ];
+  expect(msTaken(steps, layers)).toEqual({
+    lint: 700,
+    a: expect.closeTo(550 * (70 / 1070)),
+    b: expect.closeTo(550 * (1000 / 1070)),
   });
 });

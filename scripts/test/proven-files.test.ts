@@ -6,12 +6,19 @@ import { ProvenFiles } from './proven-files.ts';
 
 const folder = useFolder();
 
-it('remembers what has passed, and forgets the oldest', () => {
+it('remembers what has passed and what it took, and forgets the oldest', () => {
   const file = join(folder, 'new', 'files.json');
   const proven = new ProvenFiles(file);
-  proven.keep(Array.from({ length: 20_001 }, (_, n) => `hash ${n}`));
+  const names = (word: string) => Array.from({ length: 20_001 }, (_, n) => `${word} ${n}`);
+  proven.keep({
+    tests: names('test'),
+    inputs: names('input'),
+    ms: Object.fromEntries(names('file').map((name, n) => [name, n])),
+  });
   const again = new ProvenFiles(file);
-  expect([again.has('hash 0'), again.has('hash 1'), again.has('hash 20000')]).toEqual([false, true, true]);
+  expect([0, 1, 20_000].map((n) => again.has(`test ${n}`))).toEqual([false, true, true]);
+  expect([0, 1, 20_000].map((n) => again.hasInput(`input ${n}`))).toEqual([false, true, true]);
+  expect([0, 1, 20_000].map((n) => again.msOf(`file ${n}`))).toEqual([undefined, 1, 20_000]);
 });
 
 it('a damaged file proves nothing', () => {

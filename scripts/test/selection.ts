@@ -6,7 +6,7 @@ import * as z from 'zod';
 import { type ExportingPackage, ImportGraph } from '../lib/import-graph.ts';
 import { root } from '../lib/run.ts';
 import { readWorkspaceFile, workspaceFiles } from '../lib/workspace-files.ts';
-import { LAYERS, type Selection, selectChanged, type TestFile, testFiles } from './changed.ts';
+import { LAYERS, msTaken, type Selection, selectChanged, type TestFile, testFiles } from './changed.ts';
 import { ProvenFiles } from './proven-files.ts';
 import type { StepSummary } from './summary.ts';
 
@@ -30,7 +30,7 @@ export function pureTestsOf(files: Iterable<string>): Map<string, readonly strin
   return new Map([...new Set(files)].map((file) => [file, reaching(file)]));
 }
 
-function readTests(): TestFile[] {
+function readTests(passed: ProvenFiles): TestFile[] {
   const contents = new Map<string, Uint8Array>();
   const read = (file: string): Uint8Array => {
     const known = contents.get(file) ?? readFileSync(join(root, file));
@@ -38,13 +38,14 @@ function readTests(): TestFile[] {
     return known;
   };
   const tools = createHash('sha256').update([process.version, process.platform, process.arch].join());
-  return testFiles({ files: workspaceFiles, packages: exportingPackages(), read }, tools.digest('hex'));
+  const workspace = { files: workspaceFiles, packages: exportingPackages(), read };
+  return testFiles(workspace, tools.digest('hex'), passed);
 }
 
 /** None where a file is gone: what has passed then is not what is there. */
-function hashesNow(): ReadonlySet<string | null> {
+function hashesNow(passed: ProvenFiles): ReadonlySet<string | null> {
   try {
-    return new Set(readTests().map(({ hash }) => hash));
+    return new Set(readTests(passed).map(({ hash }) => hash));
   } catch {
     return new Set();
   }
@@ -56,18 +57,18 @@ export class TestSelection {
 
   /** Reads all files of the workspace, as they are before the tests. */
   constructor(proven = new ProvenFiles()) {
-    this.#tests = readTests();
+    this.#tests = readTests(proven);
     this.#proven = proven;
   }
 
-  /** @param steps all that there are, in their order */
-  changed(steps: readonly string[]): Selection {
-    return selectChanged(this.#tests, (hash) => this.#proven.has(hash), steps);
+  /** @param steps all that there are, in their order @param limitMs of {@link selectChanged} */
+  changed(steps: readonly string[], limitMs: number): Selection {
+    return selectChanged(this.#tests, this.#proven, steps, limitMs);
   }
 
   /** Remembers the files of which every test has passed, and nothing has changed meanwhile. */
   keepPassed(summaries: readonly StepSummary[]): void {
-    const now = hashesNow();
+    const now = hashesNow(this.#proven);
     const passed = this.#tests.filter(({ step, file, hash }) => {
       if (!now.has(hash)) return false;
       const own = summaries
@@ -78,6 +79,10 @@ export class TestSelection {
         own.every(({ verdict }) => verdict === 'passed' || verdict === 'skipped')
       );
     });
-    this.#proven.keep(passed.flatMap(({ hash }) => (hash === null ? [] : [hash])));
+    this.#proven.keep({
+      tests: passed.flatMap(({ hash }) => (hash === null ? [] : [hash])),
+      inputs: new Set(passed.flatMap(({ inputs }) => inputs)),
+      ms: msTaken(summaries),
+    });
   }
 }
