@@ -8,13 +8,14 @@ import type { SignalingClient } from './admit/signaling/signaling-client.ts';
 import { DriveCore } from './drive-core.ts';
 import { monotonicMs } from './ground/clock.ts';
 import type { RobotCounters } from './ground/robot-counters.ts';
-import type { StageTimer } from './ground/stage-timer.ts';
+import { StageTimer } from './ground/stage-timer.ts';
 import type { Drive } from './motion/open-drive.ts';
 import type { RobotStops } from './motion/stops/robot-stops.ts';
 import { hasSound, type RobotOptions } from './program/robot-configuration.ts';
 import type { RobotParts } from './robot-parts.ts';
 import { failureReading } from './send/clouds/cloud-sensor.ts';
 import { MOTORS_TOPIC } from './sense/base/sim-topics.ts';
+import type { Capture } from './sense/capture/capture.ts';
 import { openSessions } from './serve/open-sessions.ts';
 import type { ReferenceProfile } from './serve/reference/reference-profile.ts';
 import { openReferenceProfile } from './serve/reference/reference-profile.ts';
@@ -23,7 +24,8 @@ import type { OperatorSession } from './serve/session/operator-session.ts';
 import type { OperatorSessions } from './serve/session/operator-sessions.ts';
 import type { RobotSessionHost } from './serve/session/robot-session-host.ts';
 import { welcome } from './serve/session/welcome.ts';
-import type { MeasurementLogs } from './tell/measurement-logs.ts';
+import { MeasurementLogs } from './tell/measurement-logs.ts';
+import { openBoard } from './tell/open-board.ts';
 import { RobotReports } from './tell/robot-reports.ts';
 import type { TelemetryBoard } from './tell/telemetry-board.ts';
 import { TelemetrySender } from './tell/telemetry-sender.ts';
@@ -38,6 +40,17 @@ export interface RobotContext {
   logs: MeasurementLogs;
   board: TelemetryBoard;
   log: Logger;
+}
+
+export function openContext(
+  options: RobotOptions,
+  parts: RobotParts,
+  { signaling, counters }: Pick<RobotContext, 'signaling' | 'counters'>,
+  log: Logger,
+): RobotContext {
+  const board = openBoard(options, parts.captures[0] as Capture, parts.recording, log);
+  const logs = new MeasurementLogs(options);
+  return { options, parts, signaling, counters, stages: new StageTimer(), logs, board, log };
 }
 
 /** Sensors, cameras and sound, on their way to those who watch. @param ends what they tell to systems that come later */

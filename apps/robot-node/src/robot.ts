@@ -4,26 +4,24 @@ import { SignalingClient } from './admit/signaling/signaling-client.ts';
 import type { DriveCore } from './drive-core.ts';
 import { monotonicMs } from './ground/clock.ts';
 import { RobotCounters } from './ground/robot-counters.ts';
-import { StageTimer } from './ground/stage-timer.ts';
 import type { DriveStation } from './motion/drive/drive-station.ts';
 import type { Drive } from './motion/open-drive.ts';
 import { type RobotStops, startStops } from './motion/stops/robot-stops.ts';
 import type { RobotOptions } from './program/robot-configuration.ts';
 import * as link from './robot-links.ts';
 import { openParts, type RobotParts } from './robot-parts.ts';
-import type { Capture } from './sense/capture/capture.ts';
 import type { ReferenceProfile } from './serve/reference/reference-profile.ts';
 import type { RobotStreams, StreamsAudience } from './serve/robot-streams.ts';
 import type { OperatorSession } from './serve/session/operator-session.ts';
 import type { OperatorSessions } from './serve/session/operator-sessions.ts';
-import { MeasurementLogs } from './tell/measurement-logs.ts';
-import { openBoard } from './tell/open-board.ts';
 import type { RobotReports } from './tell/robot-reports.ts';
 
 const UPDATE_EVERY_MS = 25;
 
 /** The complete robot: a base, a velocity sink, sensors, operators, and one guard over the wheels. */
 export class Robot implements StreamsAudience {
+  /** What was opened before: sources, wheels, guard, recording. */
+  readonly parts: RobotParts;
   /** Clouds, pictures, videos and sound. */
   readonly streams: RobotStreams;
   readonly sessions: OperatorSessions;
@@ -44,17 +42,9 @@ export class Robot implements StreamsAudience {
 
   private constructor(parts: RobotParts, options: RobotOptions, log: Logger) {
     const { id, name, stops } = options;
+    this.parts = parts;
     this.signaling = new SignalingClient({ id, name, ...options.signaling }, log);
-    const context: link.RobotContext = {
-      options,
-      parts,
-      signaling: this.signaling,
-      counters: this.counters,
-      stages: new StageTimer(),
-      logs: new MeasurementLogs(options),
-      board: openBoard(options, parts.captures[0] as Capture, parts.recording, log),
-      log,
-    };
+    const context = link.openContext(options, parts, this, log);
     this.#context = context;
     const onFailure = (error: Error) => this.onFailure?.(error);
     const onState = (state: TimedBaseState) => {
@@ -85,24 +75,6 @@ export class Robot implements StreamsAudience {
     robot.streams.broadcast?.start();
     robot.reference = link.linkReference(robot.#context, robot.streams, robot.#core);
     return robot;
-  }
-
-  /** `null` if the wheels are not simulated. */
-  get base(): RobotParts['base'] {
-    return this.#context.parts.base;
-  }
-
-  get sink(): RobotParts['sink'] {
-    return this.#context.parts.sink;
-  }
-
-  get obstacles(): RobotParts['obstacles'] {
-    return this.#context.parts.obstacles;
-  }
-
-  /** `null` if nothing is recorded. */
-  get recording(): RobotParts['recording'] {
-    return this.#context.parts.recording;
   }
 
   get operators(): ReadonlyMap<string, OperatorSession> {

@@ -5,7 +5,8 @@ import { guardHealth } from '../motion/obstacles/guard-report.ts';
 import type { MeasuredRobot } from './metrics/measured-robot.ts';
 
 export function addRobotHealth(health: Health, robot: MeasuredRobot): void {
-  const { sink, stops, driving, recording } = robot;
+  const { stops, driving } = robot;
+  const { sink, obstacles, recording } = robot.parts;
   const { returns } = driving;
   // Connected operators go on without signaling, so its loss is not a failure of the robot.
   health.add('signaling', () => ({ ok: true, detail: { registered: robot.signaling.registered } }));
@@ -13,7 +14,7 @@ export function addRobotHealth(health: Health, robot: MeasuredRobot): void {
     ok: sink.fault == null,
     detail: { sink: sink.kind, ...(sink.fault == null ? {} : { fault: sink.fault }) },
   }));
-  health.add('guard', () => guardHealth(robot.obstacles.report(monotonicMs())));
+  health.add('guard', () => guardHealth(obstacles.report(monotonicMs())));
   if (stops.states.size > 0)
     health.add('stops', () => ({ ok: stops.areWell, detail: Object.fromEntries(stops.states) }));
   if (returns !== null)

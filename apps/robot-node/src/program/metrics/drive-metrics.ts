@@ -18,7 +18,7 @@ export function addDriveMetrics(metrics: PulledMetrics, robot: MeasuredRobot): v
     () => counters.interventions.entries(),
   );
   metrics.gauge('wheels_present', '1 while something takes the velocities, otherwise 0', () =>
-    robot.sink.fault == null ? 1 : 0,
+    robot.parts.sink.fault == null ? 1 : 0,
   );
   metrics.sums('robot_stops', 'Stops by a stop at the robot itself, by its kind', 'stop', () =>
     robot.stops.stopped.entries(),
@@ -27,8 +27,8 @@ export function addDriveMetrics(metrics: PulledMetrics, robot: MeasuredRobot): v
     robot.stops.areWell ? 1 : 0,
   );
   metrics.sums('thread_restarts', 'Restarts of threads that had ended or hung, by thread', 'thread', () => [
-    ['velocities', robot.sink.restarts ?? 0],
-    ['guard-topics', robot.obstacles.report(monotonicMs()).restarts],
+    ['velocities', robot.parts.sink.restarts ?? 0],
+    ['guard-topics', robot.parts.obstacles.report(monotonicMs()).restarts],
     ['pictures', robot.streams.cameras.pictures?.counters.restarts ?? 0],
   ]);
   const { returns } = robot.driving;
@@ -36,10 +36,7 @@ export function addDriveMetrics(metrics: PulledMetrics, robot: MeasuredRobot): v
 }
 
 /** Metrics of the obstacle guard: what it sees, how old that is, and what it costs. */
-export function addGuardMetrics(
-  metrics: PulledMetrics,
-  { obstacles }: Pick<MeasuredRobot, 'obstacles'>,
-): void {
+export function addGuardMetrics(metrics: PulledMetrics, { obstacles }: MeasuredRobot['parts']): void {
   const report = () => obstacles.report(monotonicMs());
   const bySensor = (read: (sensor: GuardedSensorReport) => number) => () =>
     report().sensors.map((sensor): [string, number] => [sensor.name, read(sensor)]);
@@ -78,11 +75,14 @@ export function addGuardMetrics(
       return reason === null ? [] : [[reason, 1]];
     },
   );
-  addGuardTopicMetrics(metrics, obstacles);
+  addGuardTopicMetrics(metrics, { obstacles });
 }
 
 /** Metrics of the topics that the obstacle guard hears. None if it hears none. */
-function addGuardTopicMetrics(metrics: PulledMetrics, obstacles: MeasuredRobot['obstacles']): void {
+function addGuardTopicMetrics(
+  metrics: PulledMetrics,
+  { obstacles }: Pick<MeasuredRobot['parts'], 'obstacles'>,
+): void {
   const report = () => obstacles.report(monotonicMs());
   if (obstacles.topics?.collision == null) return;
   metrics.gauges(

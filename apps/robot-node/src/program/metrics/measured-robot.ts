@@ -12,15 +12,17 @@ import type { SessionRecording } from '../../tell/session-recording.ts';
 
 /** The parts of a robot that have metrics; `null` for those that it does not have. */
 export interface MeasuredRobot {
+  readonly parts: {
+    readonly sink: VelocitySink;
+    readonly base: BaseThread | null;
+    readonly obstacles: ObstacleStation;
+    readonly recording: SessionRecording | null;
+  };
   readonly counters: RobotCounters;
   readonly operators: ReadonlyMap<string, OperatorSession>;
   readonly signaling: SignalingClient;
-  readonly sink: VelocitySink;
-  readonly base: BaseThread | null;
   readonly stops: RobotStops;
   readonly driving: Drive;
-  readonly obstacles: ObstacleStation;
   readonly streams: RobotStreams;
-  readonly recording: SessionRecording | null;
   readonly reference: ReferenceProfile | null;
 }

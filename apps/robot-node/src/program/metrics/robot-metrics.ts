@@ -11,7 +11,7 @@ import {
 import { addDeviceMetrics, addPictureMetrics, addSoundMetrics, addVideoMetrics } from './video-metrics.ts';
 
 /** Metrics of the recording's size and of what was left out. None if nothing is recorded. */
-function addRecordingMetrics(metrics: PulledMetrics, { recording }: Pick<MeasuredRobot, 'recording'>): void {
+function addRecordingMetrics(metrics: PulledMetrics, { recording }: MeasuredRobot['parts']): void {
   if (recording === null || !recording.hasFile) return;
   metrics.sum('recording_bytes', 'Bytes of the recording', () => recording.counts.bytes);
   metrics.sums(
@@ -23,7 +23,7 @@ function addRecordingMetrics(metrics: PulledMetrics, { recording }: Pick<Measure
 }
 
 /** Metrics of the server for Foxglove. None if there is none. */
-function addLiveMetrics(metrics: PulledMetrics, { recording }: Pick<MeasuredRobot, 'recording'>): void {
+function addLiveMetrics(metrics: PulledMetrics, { recording }: MeasuredRobot['parts']): void {
   if (recording === null || recording.live === null) return;
   const report = () => recording.live?.report ?? null;
   metrics.gauge('foxglove_clients', 'Viewers connected now', () => report()?.clients ?? 0);
@@ -48,7 +48,7 @@ export function registerRobotMetrics(registry: Registry, robot: MeasuredRobot): 
   addSessionMetrics(metrics, robot);
   addSignalingMetrics(metrics, robot);
   addDriveMetrics(metrics, robot);
-  addGuardMetrics(metrics, robot);
+  addGuardMetrics(metrics, robot.parts);
   addSensorMetrics(metrics, robot);
   addPathMetrics(metrics, robot);
   addPictureMetrics(metrics, robot);
@@ -56,7 +56,7 @@ export function registerRobotMetrics(registry: Registry, robot: MeasuredRobot): 
   addSoundMetrics(metrics, robot);
   addDeviceMetrics(metrics, robot);
   addBroadcastMetrics(metrics, robot);
-  addRecordingMetrics(metrics, robot);
-  addLiveMetrics(metrics, robot);
+  addRecordingMetrics(metrics, robot.parts);
+  addLiveMetrics(metrics, robot.parts);
   addReferenceMetrics(metrics, robot);
 }
