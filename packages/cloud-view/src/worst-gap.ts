@@ -1,7 +1,7 @@
 import { RecentWorst } from '@farpoint/timing';
 
 /**
- * How late a page's own timer comes, as the longest time between two of its ticks within the last second or so: what keeps
+ * How late a page's own timer comes, as the longest time between two of its calls within the last second or so: what keeps
  * it from running keeps it from reading the operator's hand as well. No clock here.
  */
 export class WorstGap {
@@ -13,7 +13,7 @@ export class WorstGap {
    *
    * @param nowMs `performance.now()`
    */
-  tick(nowMs: number): void {
+  measure(nowMs: number): void {
     if (this.#calledMs !== null) this.#gaps.add(nowMs - this.#calledMs, nowMs);
     this.#calledMs = nowMs;
   }

@@ -109,7 +109,7 @@ export class App {
   #openInputs(notices: Notices): OperatorInputs {
     return new OperatorInputs(
       {
-        onChange: () => this.client.driver.tick(performance.now()),
+        onChange: () => this.client.driver.sendDue(performance.now()),
         onAction: (action, timeMs) => this.#panels.controls.act(action, timeMs),
         onRelease: (control, held) => this.#panels.estop.hold(control, held),
         onTalk: (control, held) => this.#panels.sound.hold(control, held),

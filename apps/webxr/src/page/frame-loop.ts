@@ -70,7 +70,7 @@ export class FrameLoop {
 
   /** Measures how late the page runs. Call this whenever the timer fires that reads the operator's hand. */
   measureGap(nowMs: number): void {
-    this.#gaps.tick(nowMs);
+    this.#gaps.measure(nowMs);
   }
 
   /** Call this a few times a second. Draws less if the machine cannot keep up, and follows the scene that is seen. */
@@ -120,7 +120,7 @@ export class FrameLoop {
     // Videos are shown beside the scene: they need not wait until it can be drawn again.
     const nowOnClockMs = performance.now();
     videos.present(nowOnClockMs);
-    held.tick(videos.shownMs, nowOnClockMs);
+    held.advance(videos.shownMs, nowOnClockMs);
     const inVr = vr.active.peek();
     // In VR the headset's compositor sets the pace.
     if (!inVr && this.#completion.busy) return;

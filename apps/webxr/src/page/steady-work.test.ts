@@ -14,7 +14,7 @@ function standIns() {
       return result as T;
     });
   return {
-    client: { driver: { suspended: false, letGo: called('letGo') }, tick: called('send') },
+    client: { driver: { suspended: false, letGo: called('letGo') }, update: called('send') },
     inputs: { poll: called('poll') },
     estop: { update: called('estop') },
     cloudPanel: { update: called('cloudPanel') },
@@ -49,7 +49,7 @@ describe('the hands', () => {
   test('are read before commands are sent, and the robot is drawn where it is then', () => {
     work.drive(40);
     expect(order).toEqual(['gap', 'poll', 'estop', 'send', 'robot', 'near']);
-    expect(parts.client.tick).toHaveBeenCalledWith(40);
+    expect(parts.client.update).toHaveBeenCalledWith(40);
     expect(parts.estop.update).toHaveBeenCalledWith(40, false);
   });
 

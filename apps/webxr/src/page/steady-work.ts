@@ -18,7 +18,7 @@ const STATUS_EVERY_MS = 250;
 export interface SteadyWorkParts {
   client: {
     driver: Pick<RobotClient['driver'], 'suspended' | 'letGo'>;
-    tick: RobotClient['tick'];
+    update: RobotClient['update'];
   };
   inputs: Pick<OperatorInputs, 'poll'>;
   estop: Pick<EstopUi, 'update'>;
@@ -72,7 +72,7 @@ export class SteadyWork {
     estop.update(nowMs, away);
     client.driver.suspended = away || state.driving.role.value === 'watch';
     if (this.#left.decide(vr.active.value ? vr.hidden : this.#page.hidden, nowMs)) client.driver.letGo(nowMs);
-    client.tick(nowMs);
+    client.update(nowMs);
     showRobot(nowMs);
     near.update(nowMs);
   }

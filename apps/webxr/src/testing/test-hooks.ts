@@ -64,10 +64,10 @@ function scriptedDrive({ client: { driver } }: App): Pick<FarpointTestApi, 'driv
   return {
     async drive(wish, ms) {
       script.hold(wish);
-      driver.tick(performance.now());
+      driver.sendDue(performance.now());
       await new Promise((resolve) => setTimeout(resolve, ms));
       script.release();
-      driver.tick(performance.now());
+      driver.sendDue(performance.now());
     },
     hold(wish) {
       clearTimeout(release);
@@ -76,7 +76,7 @@ function scriptedDrive({ client: { driver } }: App): Pick<FarpointTestApi, 'driv
         script.hold(wish);
         release = setTimeout(() => script.release(), LONGEST_HOLD_MS);
       }
-      driver.tick(performance.now());
+      driver.sendDue(performance.now());
     },
   };
 }

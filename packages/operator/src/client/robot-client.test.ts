@@ -114,7 +114,7 @@ describe('RobotClient', () => {
     const { client } = bench();
     client.drive({ forward: 1, left: 0 });
     expect(client.driver.input?.wish.forward).toBe(1);
-    client.tick(performance.now() + 1000);
+    client.update(performance.now() + 1000);
     expect(client.driver.input).toBe(null);
     client.drive({ forward: 1, left: 0 });
     client.stop();

@@ -95,7 +95,7 @@ export class RobotClient {
   start(): void {
     if (this.#closed) return;
     this.link.start();
-    this.#timer ??= setInterval(() => this.tick(performance.now()), UPDATE_EVERY_MS);
+    this.#timer ??= setInterval(() => this.update(performance.now()), UPDATE_EVERY_MS);
   }
 
   /** Ends the session and frees everything. The client cannot be started again. */
@@ -151,13 +151,13 @@ export class RobotClient {
   drive(wish: DriveWish): void {
     const nowMs = performance.now();
     this.#wish.renew(wish, nowMs);
-    this.driver.tick(nowMs);
+    this.driver.sendDue(nowMs);
   }
 
   /** Stops at once, without waiting for the wish to expire. The operator keeps the lease. */
   stop(): void {
     this.#wish.release();
-    this.driver.tick(performance.now());
+    this.driver.sendDue(performance.now());
   }
 
   /** Takes over from another operator. */
@@ -271,16 +271,21 @@ export class RobotClient {
     this.statistics.onDrawn(nowMs);
   }
 
-  /** Called by the client's own timer, and by an app that has just read its devices. @param nowMs `performance.now()` */
-  tick(nowMs: number): void {
+  /**
+   * Sends what is due: commands, an emergency stop that is not confirmed yet, a latency test's request. The client's own
+   * timer calls it; an app that has just read its devices calls it at once.
+   *
+   * @param nowMs `performance.now()`
+   */
+  update(nowMs: number): void {
     this.#wish.lapse(nowMs);
-    this.stops.tick(nowMs);
-    this.driver.tick(nowMs);
+    this.stops.sendDue(nowMs);
+    this.driver.sendDue(nowMs);
     this.#switch.decide(presentRobot(this.link, this.driver.holder), nowMs);
-    this.latency.tick(nowMs);
+    this.latency.sendDue(nowMs);
     if (nowMs < this.#statisticsDueMs) return;
     this.#statisticsDueMs = nowMs + STATISTICS_MS;
-    this.statistics.tick(nowMs);
+    this.statistics.update(nowMs);
   }
 
   #onBatch(batch: Batch): void {

@@ -1,7 +1,7 @@
 /** The interface of input devices: each reports the state of one hand. */
 import type { DriveWish } from './velocity-mapping.ts';
 
-/** A device that can drive the robot. It is read at every tick of the client. */
+/** A device that can drive the robot. It is read at every {@link RobotClient.update}. */
 export interface DriveInput {
   /** What kind of device it is. */
   readonly name: 'keyboard' | 'gamepad' | 'touch' | 'headset' | 'script';

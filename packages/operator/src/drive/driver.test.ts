@@ -25,7 +25,7 @@ function driving() {
   made.driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
   made.hand.held = true;
   made.hand.wish.forward = 1;
-  made.driver.tick(0);
+  made.driver.sendDue(0);
   return made;
 }
 
@@ -34,11 +34,11 @@ describe('Driver', () => {
     const { commands, messages, hand, driver } = bench();
     hand.held = true;
     hand.wish.forward = 1;
-    for (const now of [0, 25, 50]) driver.tick(now);
+    for (const now of [0, 25, 50]) driver.sendDue(now);
     expect(messages).toEqual([{ type: 'leaseRequest', take: false }]);
     expect(commands).toEqual([]);
     driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
-    driver.tick(75);
+    driver.sendDue(75);
     expect(commands).toHaveLength(1);
     expect(commands[0]?.twist.linear.x).toBe(1);
   });
@@ -46,10 +46,10 @@ describe('Driver', () => {
   test('requests the lease again while there is no answer, but never takes it over', () => {
     const { messages, hand, driver, told } = bench();
     hand.held = true;
-    for (let now = 0; now <= 1000; now += 25) driver.tick(now);
+    for (let now = 0; now <= 1000; now += 25) driver.sendDue(now);
     expect(messages).toHaveLength(3);
     driver.onLease({ type: 'lease', holder: 'other' });
-    for (let now = 1000; now <= 2000; now += 25) driver.tick(now);
+    for (let now = 1000; now <= 2000; now += 25) driver.sendDue(now);
     expect(messages).toHaveLength(3);
     expect(told()).toBe(1);
   });
@@ -57,7 +57,7 @@ describe('Driver', () => {
   test('the grip counts as released while the page is hidden', () => {
     const { commands, driver } = driving();
     driver.suspended = true;
-    for (let now = 25; now < 1000; now += 25) driver.tick(now);
+    for (let now = 25; now < 1000; now += 25) driver.sendDue(now);
     expect(commands.slice(1).every((command) => !command.deadMan && command.twist.linear.x === 0)).toBe(true);
     expect(commands.length).toBeLessThan(8);
   });
@@ -74,12 +74,12 @@ describe('Driver', () => {
     driver.reset();
     driver.onLimits({ maxLinear: 1, maxAngular: 1, watchdogMs: 150, maxCommandsPerSecond: 100 });
     driver.onLease({ type: 'lease', holder: 'nobody' });
-    for (let now = 50; now < 1000; now += 25) driver.tick(now);
+    for (let now = 50; now < 1000; now += 25) driver.sendDue(now);
     expect([commands.length, messages.length]).toEqual([2, 1]);
     hand.held = false;
-    driver.tick(1000);
+    driver.sendDue(1000);
     hand.held = true;
-    driver.tick(1025);
+    driver.sendDue(1025);
     expect(messages.at(-1)).toEqual({ type: 'leaseRequest', take: false });
   });
 
@@ -87,20 +87,20 @@ describe('Driver', () => {
     const { commands, hand, driver } = driving();
     expect(commands.splice(0).map(({ deadMan }) => deadMan)).toEqual([true]);
     driver.onPath(1000);
-    for (let now = 1025; now < 5000; now += 25) driver.tick(now);
+    for (let now = 1025; now < 5000; now += 25) driver.sendDue(now);
     // The grip is released and pressed again while nothing reaches the robot.
     hand.held = false;
-    driver.tick(5000);
+    driver.sendDue(5000);
     hand.held = true;
-    driver.tick(5025);
+    driver.sendDue(5025);
     driver.onPath(6000);
     commands.splice(0);
-    for (let now = 6025; now < 9000; now += 25) driver.tick(now);
+    for (let now = 6025; now < 9000; now += 25) driver.sendDue(now);
     expect(commands.splice(0).every(({ deadMan, twist }) => !deadMan && twist.linear.x === 0)).toBe(true);
     hand.held = false;
-    driver.tick(9025);
+    driver.sendDue(9025);
     hand.held = true;
-    for (let now = 9050; now < 9150; now += 25) driver.tick(now);
+    for (let now = 9050; now < 9150; now += 25) driver.sendDue(now);
     // Zero commands come first: the robot may not have heard that the grip was released.
     expect(commands.filter(({ deadMan }) => deadMan).map(({ twist }) => twist.linear.x)).toEqual([
       0, 0, 1, 1,
@@ -123,7 +123,7 @@ describe('Driver', () => {
       for (let now = fromMs; now < toMs; now += 25) {
         // The last frame comes 14 ms before the command.
         if (reads) headset.readMs = now - 14;
-        driver.tick(now);
+        driver.sendDue(now);
       }
       return commands.splice(0);
     };
@@ -158,7 +158,7 @@ describe('Driver', () => {
     expect(hand.held).toBe(false);
     const sentAt = (nowMs: number, reads: boolean) => {
       if (reads) keys.readMs = nowMs;
-      driver.tick(nowMs);
+      driver.sendDue(nowMs);
       return commands
         .splice(0)
         .map(({ deadMan, unread, twist }) => [deadMan, unread ?? false, twist.linear.x]);
@@ -183,13 +183,13 @@ describe('Driver', () => {
 
     test('is told now and then that the hand is open, as long as it is', () => {
       const { commands, hand, driver } = bench();
-      for (let now = 0; now < 1500; now += 25) driver.tick(now);
+      for (let now = 0; now < 1500; now += 25) driver.sendDue(now);
       expect(commands.map(noLease)).toEqual(Array(3).fill(['none', false, 0]));
       hand.held = true;
-      for (let now = 1500; now < 4000; now += 25) driver.tick(now);
+      for (let now = 1500; now < 4000; now += 25) driver.sendDue(now);
       expect(commands).toHaveLength(3);
       driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
-      driver.tick(4000);
+      driver.sendDue(4000);
       expect(commands.at(-1)?.lease).toBe('x');
     });
 
@@ -200,7 +200,7 @@ describe('Driver', () => {
         sendSession: () => undefined,
         onOtherDrives: () => undefined,
       });
-      for (let now = 0; now < 2000; now += 25) driver.tick(now);
+      for (let now = 0; now < 2000; now += 25) driver.sendDue(now);
       expect(commands).toEqual([]);
     });
 
@@ -210,15 +210,15 @@ describe('Driver', () => {
       driver.onLease({ type: 'lease', holder: 'other' });
       hand.held = true;
       hand.wish.forward = 1;
-      driver.tick(0);
+      driver.sendDue(0);
       expect(driver.lost).toBe('other-drives');
       driver.onLease({ type: 'lease', holder: 'nobody' });
-      for (let now = 25; now < 2000; now += 25) driver.tick(now);
+      for (let now = 25; now < 2000; now += 25) driver.sendDue(now);
       expect([messages, commands]).toEqual([[], []]);
       hand.held = false;
-      driver.tick(2000);
+      driver.sendDue(2000);
       hand.held = true;
-      driver.tick(2025);
+      driver.sendDue(2025);
       expect(messages).toEqual([{ type: 'leaseRequest', take: false }]);
     });
   });

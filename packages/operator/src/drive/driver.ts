@@ -128,7 +128,7 @@ export class Driver {
    */
   letGo(nowMs: number): void {
     this.#grips.lose(this.#inputs, 'let-go');
-    this.tick(nowMs);
+    this.sendDue(nowMs);
     if (this.#holder === 'you') this.releaseLease();
     // The robot would reject zero commands that arrive after the release.
     this.stream.setLease(null);
@@ -143,7 +143,7 @@ export class Driver {
   onPath(nowMs: number): void {
     this.#grips.lose(this.#inputs, 'path-lost');
     this.stream.restFirst();
-    this.tick(nowMs);
+    this.sendDue(nowMs);
   }
 
   /**
@@ -153,7 +153,7 @@ export class Driver {
    *
    * @param nowMs `performance.now()`
    */
-  tick(nowMs: number): void {
+  sendDue(nowMs: number): void {
     const lost = this.#grips.update(this.#inputs, nowMs, this.#suspended);
     if (lost !== null) this.#port.onGripLost?.(lost);
     this.#input = activeInput(this.#inputs, this.#input, this.#holds);

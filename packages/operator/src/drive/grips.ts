@@ -34,7 +34,7 @@ export class Grips {
   readonly #readings = new Map<DriveInput, Reading>();
 
   /**
-   * Takes note of every device's state. Call it at each tick, before {@link holds}.
+   * Takes note of every device's state. Call it whenever something may be sent, before {@link holds}.
    *
    * @param away whether no grip may drive now
    * @returns why a grip that had been held until now was lost; `null` if none was

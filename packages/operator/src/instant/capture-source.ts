@@ -41,7 +41,7 @@ export class CaptureSource<Payload> {
   intervalMs = ASSUMED_INTERVAL_MS;
   /** Typical delay from capture to arrival, ms; only differences between sources mean anything. */
   delayMs = 0;
-  /** Whether this source was presented in step with others at the last tick. */
+  /** Whether this source was presented in step with others by the last {@link Compositor.decide}. */
   inStep = false;
   #newestMs = Number.NEGATIVE_INFINITY;
   #arrivedMs = Number.NEGATIVE_INFINITY;

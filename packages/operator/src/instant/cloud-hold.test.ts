@@ -20,15 +20,15 @@ describe('clouds', () => {
 
   test('wait for the videos that were captured with them, and keep their order', () => {
     const { hold, passed, add } = bench();
-    hold.tick(1000, 0);
+    hold.advance(1000, 0);
     add(1010, 1);
     add(1030, 2);
     add(1066, 3);
     add(1020, 4);
     expect(passed).toEqual([1010]);
-    hold.tick(1033, 40);
+    hold.advance(1033, 40);
     expect(passed).toEqual([1010, 1030]);
-    hold.tick(1066, 70);
+    hold.advance(1066, 70);
     expect(passed).toEqual([1010, 1030, 1066, 1020]);
     expect(hold.stats.aheadMs?.max).toBe(10);
     expect(hold.stats.heldMs?.max).toBe(67);
@@ -37,43 +37,43 @@ describe('clouds', () => {
   test('that come seldom belong to the nearest picture, too', () => {
     const { hold, passed, add } = bench();
     for (let ms = 0; ms <= 9000; ms += 30) {
-      hold.tick(ms, ms);
+      hold.advance(ms, ms);
       if (ms % 90 === 0) add(ms, ms);
     }
     passed.length = 0;
     add(9090, 9001);
-    hold.tick(9030, 9030);
+    hold.advance(9030, 9030);
     expect(passed).toEqual([]);
     // Half of the 90 ms between clouds before the cloud.
-    hold.tick(9060, 9060);
+    hold.advance(9060, 9060);
     expect(passed).toEqual([9090]);
   });
 
   test('that pictures paint wait for the picture of their very instant, no longer than ever', () => {
     const { hold, passed, add } = bench(driverHold);
     hold.exact = true;
-    for (let ms = 0; ms <= 990; ms += 33) hold.tick(ms, ms);
+    for (let ms = 0; ms <= 990; ms += 33) hold.advance(ms, ms);
     add(1035, 1030);
     // A picture near it would do otherwise.
-    hold.tick(1023, 1040);
+    hold.advance(1023, 1040);
     expect(passed).toEqual([]);
-    hold.tick(1056, 1070);
+    hold.advance(1056, 1070);
     expect(passed).toEqual([1035]);
     add(1068, 1071);
-    hold.tick(1056, 1110);
+    hold.advance(1056, 1110);
     expect(passed).toEqual([1035]);
     // One that does not come is waited for as long as any other.
-    hold.tick(1056, 1115);
+    hold.advance(1056, 1115);
     expect(passed).toEqual([1035, 1068]);
   });
 
   test('belong to the nearest picture of slow cameras, and a picture that is left out changes little', () => {
     const { hold, passed, add } = bench();
-    for (let ms = 0; ms <= 6600; ms += 66) hold.tick(ms, ms);
+    for (let ms = 0; ms <= 6600; ms += 66) hold.advance(ms, ms);
     add(6632, 6601);
     add(6636, 6602);
     expect(passed).toEqual([6632]);
-    hold.tick(6732, 6732);
+    hold.advance(6732, 6732);
     expect(passed).toEqual([6632, 6636]);
     add(6772, 6734);
     expect(passed).toEqual([6632, 6636]);
@@ -81,11 +81,11 @@ describe('clouds', () => {
 
   test('wait no longer than 200 ms, also for videos that have stopped', () => {
     const { hold, passed, add } = bench();
-    hold.tick(1000, 0);
+    hold.advance(1000, 0);
     add(1100, 50);
-    hold.tick(1000, 199);
+    hold.advance(1000, 199);
     expect(passed).toEqual([]);
-    hold.tick(1000, 201);
+    hold.advance(1000, 201);
     expect(passed).toEqual([1100]);
     add(1500, 450);
     expect(passed).toEqual([1100, 1500]);
@@ -93,7 +93,7 @@ describe('clouds', () => {
 
   test('all pass when another session begins', () => {
     const { hold, passed, add } = bench();
-    hold.tick(1000, 0);
+    hold.advance(1000, 0);
     add(1100, 1);
     hold.clear();
     expect(passed).toEqual([1100]);
@@ -103,7 +103,7 @@ describe('clouds', () => {
 
   test('pass at once if nothing is to be in step', () => {
     const { hold, passed, add } = bench(noHold);
-    hold.tick(1000, 0);
+    hold.advance(1000, 0);
     add(1500, 1);
     expect(passed).toEqual([1500]);
     expect(hold.passedMs).toBe(1500);
@@ -111,12 +111,12 @@ describe('clouds', () => {
 
   test('wait for a driver no longer than from one picture to the next and 10 ms', () => {
     const { hold, passed, add } = bench(driverHold);
-    hold.tick(1000, 0);
-    hold.tick(1030, 30);
+    hold.advance(1000, 0);
+    hold.advance(1030, 30);
     add(1060, 31);
-    hold.tick(1030, 70);
+    hold.advance(1030, 70);
     expect(passed).toEqual([]);
-    hold.tick(1030, 71);
+    hold.advance(1030, 71);
     expect(passed).toEqual([1060]);
   });
 
@@ -131,7 +131,7 @@ describe('clouds', () => {
         const { length } = passed;
         add(nowMs, nowMs);
         const addedAtMs = nowMs;
-        hold.tick(nowMs - videoDelayMs, nowMs);
+        hold.advance(nowMs - videoDelayMs, nowMs);
         waitedMs = passed.length > length && passed.at(-1) === addedAtMs ? 0 : 1;
       }
       return waitedMs;

@@ -88,8 +88,8 @@ export class CloudHold {
    * Takes a cloud that has arrived.
    *
    * @param captureMs when it was captured: ms on the robot's clock
-   * @param nowMs when it arrived: ms on the clock of {@link tick}
-   * @param pass called once, now or at one of the next ticks, in the order of arrival
+   * @param nowMs when it arrived: ms on the clock of {@link advance}
+   * @param pass called once, now or at a later {@link advance}, in the order of arrival
    */
   add(captureMs: number, nowMs: number, pass: () => void): void {
     this.#waiting.push({ captureMs, arrivedMs: nowMs, pass });
@@ -108,7 +108,7 @@ export class CloudHold {
    *
    * @param videoMs the newest capture instant of what is shown of the videos, robot's clock; `null` for none
    */
-  tick(videoMs: number | null, nowMs: number): void {
+  advance(videoMs: number | null, nowMs: number): void {
     if (videoMs !== this.#videoMs) {
       this.#wentOnMs = nowMs;
       const stepMs = (videoMs ?? 0) - (this.#videoMs ?? Number.POSITIVE_INFINITY);

@@ -160,7 +160,7 @@ test('a source that is always much later than the others is presented by itself,
   expect(shareInStep(run, ['a', 'b'])).toBeGreaterThan(0.98);
 });
 
-test('unsynchronised, everything is presented at the next tick', () => {
+test('unsynchronised, everything is presented at the next decision', () => {
   const sources: SimulatedSource[] = [
     { name: 'a', intervalMs: HZ_30, delayMs: 20, jitterMs: 5 },
     { name: 'b', intervalMs: HZ_30, delayMs: 45, jitterMs: 5 },
@@ -186,9 +186,9 @@ describe('what is not presented comes back with a reason', () => {
     const { compositor, reasons } = bench();
     compositor.offer('a', 100, 'a100', 120);
     compositor.offer('a', 133, 'a133', 153);
-    expect(compositor.tick(153)?.items).toEqual([{ source: 'a', captureMs: 133, payload: 'a133' }]);
+    expect(compositor.decide(153)?.items).toEqual([{ source: 'a', captureMs: 133, payload: 'a133' }]);
     compositor.offer('a', 120, 'a120', 154);
-    expect(compositor.tick(155)).toBe(null);
+    expect(compositor.decide(155)).toBe(null);
     expect(reasons()).toEqual(['a100 superseded', 'a120 late']);
   });
 
@@ -202,6 +202,6 @@ describe('what is not presented comes back with a reason', () => {
     expect(dropped).toHaveLength(8);
     // Afterwards the source begins anew, also with an earlier instant.
     compositor.offer('a', 1, 'again', 10);
-    expect(compositor.tick(10)?.items).toHaveLength(1);
+    expect(compositor.decide(10)?.items).toHaveLength(1);
   });
 });

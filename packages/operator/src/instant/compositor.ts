@@ -64,11 +64,11 @@ export class Compositor<Payload> {
   }
 
   /**
-   * Takes an item, to be presented at one of the next ticks.
+   * Takes an item, to be presented by a later {@link decide}.
    *
    * @param source names what it comes from; the caller limits how many there are
    * @param captureMs when it was captured: ms on the robot's clock, the same clock for all sources
-   * @param nowMs when it arrived: ms on the clock of {@link tick}
+   * @param nowMs when it arrived: ms on the clock of {@link decide}
    */
   offer(source: string, captureMs: number, payload: Payload, nowMs: number): void {
     let into = this.#sources.get(source);
@@ -86,7 +86,7 @@ export class Compositor<Payload> {
    *
    * @returns `null` if nothing changes
    */
-  tick(nowMs: number): Presentation<Payload> | null {
+  decide(nowMs: number): Presentation<Payload> | null {
     const members = this.#members(nowMs);
     this.#dropLate(members);
     const step = newestStep(members, nowMs);
@@ -121,7 +121,7 @@ export class Compositor<Payload> {
     this.#steppedMs = Number.NEGATIVE_INFINITY;
   }
 
-  /** What was presented and what not. @param nowMs on the clock of {@link tick} */
+  /** What was presented and what not. @param nowMs on the clock of {@link decide} */
   stats(nowMs: number): CompositorStats {
     const { presentations, spreadMs, heldMs } = this.#statistics;
     const leastMs = Math.min(...[...this.#sources.values()].map(({ delayMs }) => delayMs));

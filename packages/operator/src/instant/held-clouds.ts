@@ -39,7 +39,7 @@ export class HeldClouds implements CloudSource {
   /** Called with each batch as it comes, before it is held; it must copy what it keeps. */
   onBatch: ((batch: Batch) => void) | null = null;
 
-  /** @param now the clock of {@link tick}, such as `performance.now()` */
+  /** @param now the clock of {@link advance}, such as `performance.now()` */
   constructor(source: ClockedCloudSource, hold: CloudHold, now: () => number) {
     this.latency = source.latency;
     this.#source = source;
@@ -80,12 +80,12 @@ export class HeldClouds implements CloudSource {
   }
 
   /**
-   * Call this for each display frame, after the videos and before the clouds.
+   * Passes clouds that have waited long enough. Call it for each display frame, after the videos and before the clouds.
    *
    * @param videoMs the newest capture instant of what is shown of the videos, robot's clock; `null` for none
    */
-  tick(videoMs: number | null, nowMs: number): void {
-    this.#hold.tick(videoMs, nowMs);
+  advance(videoMs: number | null, nowMs: number): void {
+    this.#hold.advance(videoMs, nowMs);
   }
 
   #take(batch: Batch, take: (batch: Batch) => void): void {

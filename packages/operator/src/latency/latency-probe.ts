@@ -133,7 +133,7 @@ export class LatencyProbe {
    *
    * @param nowMs `performance.now()`
    */
-  tick(nowMs: number): void {
+  sendDue(nowMs: number): void {
     const waiting = this.#waiting;
     if (waiting === null) return;
     if (nowMs >= waiting.deadlineMs) this.fail('timeout');

@@ -123,7 +123,7 @@ export class StreamStatistics {
    *
    * @param nowMs `performance.now()`
    */
-  tick(nowMs: number): void {
+  update(nowMs: number): void {
     this.#bytes.update(this.#report?.bytesReceived ?? 0, nowMs);
     this.#lost.update(this.#report?.packetsLost ?? 0, nowMs);
     this.#received.update(this.#report?.packetsReceived ?? 0, nowMs);

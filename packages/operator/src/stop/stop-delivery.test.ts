@@ -29,11 +29,11 @@ describe('a press of STOP', () => {
   it('is sent on both channels at once, and repeated on control until it is acknowledged', () => {
     const { stops, session, control, statuses } = setUp();
     expect(stops.press(0)).toBe(true);
-    for (let t = 0; t < 200; t += 25) stops.tick(t);
+    for (let t = 0; t < 200; t += 25) stops.sendDue(t);
     expect(session).toEqual([{ type: 'estop', latch: true, press: 1 }]);
     expect(control).toEqual(Array(4).fill({ type: 'estop', press: 1 }));
     stops.onAck(1);
-    stops.tick(1000);
+    stops.sendDue(1000);
     expect(control).toHaveLength(4);
     expect(statuses).toEqual(['unconfirmed', 'confirmed']);
   });
@@ -57,7 +57,7 @@ describe('a press of STOP', () => {
     const { stops, control, link } = setUp();
     link.interrupted = true;
     stops.press(0);
-    for (let t = 0; t < 2000; t += 25) stops.tick(t);
+    for (let t = 0; t < 2000; t += 25) stops.sendDue(t);
     expect(control).toHaveLength(4);
   });
 
@@ -65,16 +65,16 @@ describe('a press of STOP', () => {
     const { stops, session, control, link, newSession } = setUp();
     link.phase = 'waiting';
     expect(stops.press(0)).toBe(true);
-    stops.tick(30_000);
+    stops.sendDue(30_000);
     expect([...session, ...control]).toEqual([]);
     newSession();
     link.phase = 'live';
-    stops.tick(30_025);
+    stops.sendDue(30_025);
     expect(session).toHaveLength(1);
     expect(control).toHaveLength(1);
     // This session is lost too, before the acknowledgement.
     newSession();
-    stops.tick(30_050);
+    stops.sendDue(30_050);
     expect(session).toHaveLength(2);
     expect(stops.status).toBe('unconfirmed');
   });
@@ -83,12 +83,12 @@ describe('a press of STOP', () => {
     const { stops, session, link } = setUp();
     link.phase = 'waiting';
     stops.press(0);
-    stops.tick(STOP_KEPT_MS - 1);
+    stops.sendDue(STOP_KEPT_MS - 1);
     expect(stops.status).toBe('unconfirmed');
-    stops.tick(STOP_KEPT_MS);
+    stops.sendDue(STOP_KEPT_MS);
     expect(stops.status).toBe('undelivered');
     link.phase = 'live';
-    stops.tick(STOP_KEPT_MS + 25);
+    stops.sendDue(STOP_KEPT_MS + 25);
     expect(session).toEqual([]);
     stops.press(STOP_KEPT_MS + 50);
     expect(session).toEqual([{ type: 'estop', latch: true, press: 2 }]);
@@ -100,7 +100,7 @@ describe('a press of STOP', () => {
     stops.press(0);
     link.robotId = 'other';
     link.phase = 'live';
-    stops.tick(25);
+    stops.sendDue(25);
     expect(session).toEqual([]);
     expect(stops.status).toBe('undelivered');
     link.robotId = null;
@@ -110,7 +110,7 @@ describe('a press of STOP', () => {
   it('to a robot that does not number latches is plain, and confirmed by its being latched', () => {
     const { stops, session, control } = setUp(unnumbered);
     stops.press(0);
-    for (let t = 0; t < 200; t += 25) stops.tick(t);
+    for (let t = 0; t < 200; t += 25) stops.sendDue(t);
     expect(session).toEqual([{ type: 'estop', latch: true }]);
     expect(control).toEqual([]);
     stops.onState({ type: 'estop', latched: true, by: 'operator' });
@@ -126,7 +126,7 @@ describe('a press of STOP', () => {
     opened.estop = { type: 'estop', latched: true, by: 'operator', latch: 1 };
     stops.onState(opened.estop);
     expect(stops.status).toBe('unconfirmed');
-    stops.tick(25);
+    stops.sendDue(25);
     expect(session).toEqual([
       { type: 'estop', latch: true },
       { type: 'estop', latch: true, press: 1 },
@@ -232,7 +232,7 @@ it('whatever is lost, repeated, overtaken or cut: confirms only what has latched
           if (copy !== undefined) loose.push(copy);
         } else if (each.kind === 'wait') {
           nowMs += each.ms;
-          stops.tick(nowMs);
+          stops.sendDue(nowMs);
         }
         if (stops.status === 'confirmed') expect(robot.latched).toBe(true);
       }
@@ -241,7 +241,7 @@ it('whatever is lost, repeated, overtaken or cut: confirms only what has latched
       link.interrupted = false;
       for (let i = 0; i < 200; i++) {
         nowMs += 25;
-        stops.tick(nowMs);
+        stops.sendDue(nowMs);
         deliver(loose.length);
         while (loose.length > 0) deliver(0);
       }

@@ -73,12 +73,12 @@ export class StopDelivery {
       sentNumbered: null,
     };
     this.#set('unconfirmed');
-    this.tick(nowMs);
+    this.sendDue(nowMs);
     return true;
   }
 
   /** Sends what is due. Call it at least every 50 ms. @param nowMs `performance.now()` */
-  tick(nowMs: number): void {
+  sendDue(nowMs: number): void {
     const pending = this.#pending;
     if (pending === null) return;
     if (this.#link.robotId !== pending.robotId || nowMs - pending.sinceMs >= STOP_KEPT_MS) {

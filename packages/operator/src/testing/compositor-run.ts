@@ -66,7 +66,7 @@ export function runCompositor({
       compositor.offer(name, captureMs, next, atMs);
       mostInside = Math.max(mostInside, inside);
     }
-    const presentation = compositor.tick(nowMs);
+    const presentation = compositor.decide(nowMs);
     if (presentation === null) continue;
     const now = new Map(shown.at(-1));
     for (const { source, captureMs, payload } of presentation.items) {

@@ -239,7 +239,7 @@ export class WatchApp {
   #frame(nowMs: number): void {
     const beganMs = performance.now();
     this.videos.present(beganMs);
-    this.#held.tick(this.videos.shownMs, beganMs);
+    this.#held.advance(this.videos.shownMs, beganMs);
     this.cloud.update(beganMs);
     this.#clouds.update(beganMs);
     const { renderer, scene, viewCamera } = this.#stage;

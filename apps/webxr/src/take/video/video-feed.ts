@@ -92,7 +92,7 @@ export class VideoFeed {
 
   /** Draws what is to be shown from now on. Call it for each display frame. */
   present(nowMs: number): void {
-    const presentation = this.#compositor.tick(nowMs);
+    const presentation = this.#compositor.decide(nowMs);
     if (presentation === null) return;
     const { client, views, presented } = this.#parts;
     presented?.show(presentation.instantMs, nowMs);
