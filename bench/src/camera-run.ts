@@ -122,7 +122,8 @@ function stackOptions(
       args: ['--config', config, '--stats', stats, '--command-log', commands, ...cloudArgs(setup)],
     },
     canvas: setup.canvas,
-    query: `barcode=1&sync=${setup.synchronised ? 1 : 0}&video=${setup.receiver ?? ''}`,
+    query: `barcode=1&video=${setup.receiver ?? ''}`,
+    stored: { 'farpoint.settings': { synchronised: setup.synchronised } },
     ...(trace === null ? {} : { connectAtMbps: 20, link: linkSpec(trace, link) }),
     log,
   };

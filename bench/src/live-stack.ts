@@ -23,6 +23,8 @@ export interface LiveStackOptions {
   ownCanvas?: boolean;
   /** Additional parameters of the page's address. */
   query?: string;
+  /** What the page's browser keeps of an earlier visit, by its key. */
+  stored?: Readonly<Record<string, Readonly<Record<string, unknown>>>>;
   /** A bad network between the robots and everything else. */
   link?: EmulatedLinkSpec;
   /** Capacity of the link until `reset`, Mbit/s; default: as its options say. */
@@ -79,6 +81,9 @@ export async function startLiveStack(options: LiveStackOptions): Promise<LiveSta
       const page = await browser.newPage({
         viewport: { width: Math.max(width, 320), height: Math.max(height, 180) },
       });
+      await page.addInitScript((stored) => {
+        for (const [key, value] of Object.entries(stored)) localStorage[key] = JSON.stringify(value);
+      }, options.stored ?? {});
       const canvas = options.ownCanvas ? '' : `canvas=${options.canvas}&measure=1&`;
       await page.goto(`${stack.webUrl}?${canvas}${options.query ?? ''}`);
       await page.waitForFunction(() => window.farpoint !== undefined);

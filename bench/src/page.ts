@@ -58,7 +58,8 @@ export const bench: Bench = {
         args: ['--fps', String(fps), '--rate-control', 'fixed', '--bitrate-mbps', String(mbps)],
       },
       canvas: values.canvas,
-      query: `every=${every}&surface=${Number(values.surface)}&memory=${Number(values.memory)}`,
+      query: `every=${every}`,
+      stored: { 'farpoint.clouds': { surface: values.surface, memory: values.memory } },
       log: (line) => console.error(line),
     });
     try {

@@ -6,6 +6,7 @@ import { Headset } from '../src/headset.ts';
 import { expectStanding, OperatorPage, poseOf } from '../src/operator-page.ts';
 import { robotLike } from '../src/robots.ts';
 import { expect, test } from '../src/smoke-test.ts';
+import { keep, SURFACES } from '../src/stored.ts';
 
 const simulatedRobot = robotLike('sim-1');
 
@@ -28,9 +29,8 @@ async function expectQuiet(page: Page): Promise<void> {
 test('operator-view', async ({ page, startStack }) => {
   await page.setViewportSize({ width: 1280, height: 720 });
   const stack = await startStack({ robots: [WHOLE_CLOUD] });
-  const operator = await OperatorPage.open(page, stack.webUrl, {
-    ...{ robot: WHOLE_CLOUD.id, every: '1', surface: '1' },
-  });
+  await keep(page, SURFACES);
+  const operator = await OperatorPage.open(page, stack.webUrl, { robot: WHOLE_CLOUD.id, every: '1' });
   await operator.expectPoints(100_000);
   await expectQuiet(page);
   await save(page, 'operator-view');

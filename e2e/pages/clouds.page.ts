@@ -7,6 +7,7 @@ import { expect, test } from '../src/stage/page-test.ts';
 import { changedShare } from '../src/stage/pictures.ts';
 import { screenPlace } from '../src/stage/places.ts';
 import type { Rgb, Stage } from '../src/stage/stage.ts';
+import { SURFACES, SURFACES_ALONE } from '../src/stored.ts';
 
 const BACKGROUND: Rgb = [11, 15, 20];
 /** Of the canvas, where the wall and the box are. */
@@ -80,7 +81,7 @@ test('a LiDAR over ground that its robot does not know of: the grid lies on it, 
 });
 
 test('a depth camera’s cloud is drawn as a surface, and a button changes to points', async ({ stage }) => {
-  const page = await stage.open({ state: 'still', query: { surface: '1', every: '1' } });
+  const page = await stage.open({ state: 'still', query: { every: '1' }, stored: SURFACES });
   await show(stage, 'depth-room');
   expect((await stage.probe()).surface).toBe(true);
   expect(await holes(stage)).toBe(0);
@@ -101,7 +102,7 @@ test('a depth camera’s cloud is drawn as a surface, and a button changes to po
 test('lit colours: the floor, seen at a slant, is darker than what faces the eye; from above it is not', async ({
   stage,
 }) => {
-  const page = await stage.open({ state: 'still', query: { surface: '1', every: '1', memory: '0' } });
+  const page = await stage.open({ state: 'still', query: { every: '1' }, stored: SURFACES_ALONE });
   await page.getByRole('button', { name: 'Colours', exact: true }).click();
   const mode = page.getByLabel('Colours of Cloud');
   const lightness = async (place: { right: number; down: number }) => {
@@ -131,7 +132,7 @@ test('lit colours: the floor, seen at a slant, is darker than what faces the eye
 });
 
 test('lost packets leave no holes: what was seen there before stays', async ({ stage }) => {
-  await stage.open({ state: 'still', query: { surface: '1', every: '1' } });
+  await stage.open({ state: 'still', query: { every: '1' }, stored: SURFACES });
   const packets = await show(stage, 'depth-room');
   expect(packets).toBeGreaterThan(5);
   const before = await stage.pixels();

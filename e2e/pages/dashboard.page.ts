@@ -81,7 +81,7 @@ test('values, curves, diagnostics and alarms of a robot, live', async ({ stage }
 });
 
 test('without synchronisation, the newest values', async ({ stage }) => {
-  const page = await stage.open({ state: 'alarm', query: { sync: '0' } });
+  const page = await stage.open({ state: 'alarm', stored: { 'farpoint.settings': { synchronised: false } } });
   await openDashboard(stage);
   await expect(dashboard(page).locator('.state')).toHaveText('Newest values');
   await expect(tile(page, 'Speed').locator('.number')).toHaveText('0.00 m/s');

@@ -4,6 +4,7 @@ import { enterVr, wristOf } from '../src/stage/in-headset.ts';
 import { expect, test } from '../src/stage/page-test.ts';
 import { screenPlace } from '../src/stage/places.ts';
 import type { Rect, Rgb, Stage } from '../src/stage/stage.ts';
+import { SURFACES } from '../src/stored.ts';
 
 /** Grey, mixed with the tints. */
 const HIT: Rgb = [205, 93, 85];
@@ -102,7 +103,7 @@ test('the heights are the robot’s own: a taller one hits the beam, and takes t
 
 test('surfaces are tinted as well, where they are not floor', async ({ stage }) => {
   const { page } = stage;
-  await stage.open({ state: 'still', query: { surface: '1', every: '1' } });
+  await stage.open({ state: 'still', query: { every: '1' }, stored: SURFACES });
   await stage.script((stage, heights) => {
     const { welcome } = stage.link.session;
     if (welcome?.body !== undefined) stage.tell({ ...welcome, body: { ...welcome.body, heights } });

@@ -15,7 +15,12 @@ const DRAWN_LEVEL = 60;
 const TURNING_MS = 4000;
 
 function open(stage: Stage, canvas = '160x90', every = '1'): Promise<Page> {
-  return stage.open({ state: 'still', canvas, query: { every, memory: '1' } });
+  return stage.open({
+    state: 'still',
+    canvas,
+    query: { every },
+    stored: { 'farpoint.clouds': { memory: true } },
+  });
 }
 
 /** Time passes without a picture. */

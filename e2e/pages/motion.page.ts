@@ -124,10 +124,10 @@ test('a tone when it slows, two when it is held, three when it is stopped, and n
   expect(await newTones(page)).toEqual([880, 587, 392]);
 });
 
-test('with ?cues=0 nothing is heard', async ({ stage }) => {
+test('without cues, as chosen in the settings, nothing is heard', async ({ stage }) => {
   const { page } = stage;
   await listen(page);
-  await stage.open({ query: { cues: '0' } });
+  await stage.open({ stored: { 'farpoint.settings': { cues: false } } });
   await page.keyboard.press('KeyX');
   await stage.run(500);
   expect((await stage.state()).estop).toBe(true);

@@ -4,6 +4,7 @@ import { enterVr } from '../src/stage/in-headset.ts';
 import { expect, test } from '../src/stage/page-test.ts';
 import { screenPlace } from '../src/stage/places.ts';
 import type { Rgb, Stage } from '../src/stage/stage.ts';
+import { SURFACES_ALONE } from '../src/stored.ts';
 
 const NAME = 'Depth camera';
 const WHITE: Rgb = [255, 255, 255];
@@ -66,7 +67,7 @@ async function colours(stage: Stage, places: readonly (readonly [right: number, 
 test('each picture paints the surface of its own instant, at its own place; without it, the packets’ colours are there', async ({
   stage,
 }) => {
-  const options = { canvas: CANVAS_SIZE, query: { surface: '1', every: '1', memory: '0' } };
+  const options = { canvas: CANVAS_SIZE, query: { every: '1' }, stored: SURFACES_ALONE };
   const page = await stage.open({ state: 'still', ...options });
   await offer(stage);
   // On the wall, on the box, and on the floor.
@@ -138,8 +139,8 @@ test.describe('in the headset', () => {
   test.use({ viewport: headsetViewport });
 
   test('both eyes see the surface in the video’s colours', async ({ stage }) => {
-    const query = { surface: '1', every: '1', memory: '0' };
-    await enterVr(stage, { state: 'still', canvas: CANVAS_SIZE, query });
+    const options = { canvas: CANVAS_SIZE, query: { every: '1' }, stored: SURFACES_ALONE };
+    await enterVr(stage, { state: 'still', ...options });
     await offer(stage);
     const shares = async (colour: Rgb) => {
       const ofEye = (x: number) => stage.share(colour, { x, y: 0.4, width: 0.2, height: 0.2 }, 1);

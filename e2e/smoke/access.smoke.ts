@@ -73,7 +73,7 @@ test('who signs in at the provider and agrees is let in, and still after the pag
       signalingArgs: ['--sign-in-url', signOn.signInUrl],
       robots: [robot],
     });
-    const operator = await OperatorPage.open(page, stack.webUrl, { robot: robot.id, mode: 'points64' });
+    const operator = await OperatorPage.open(page, stack.webUrl, { robot: robot.id, video: 'native' });
     await obstacle(page).getByRole('button', { name: 'Sign in' }).click();
     // The provider's own forms, and the issuer's question.
     await page.getByPlaceholder('Enter any login').fill('ada');
@@ -88,7 +88,7 @@ test('who signs in at the provider and agrees is let in, and still after the pag
 
     // What the address asked for is still in it, and nothing else.
     const asked = Object.fromEntries(new URL(page.url()).searchParams);
-    expect(asked).toEqual({ robot: robot.id, canvas: expect.any(String), mode: 'points64' });
+    expect(asked).toEqual({ robot: robot.id, canvas: expect.any(String), video: 'native' });
     expect(page.url()).not.toContain('#');
     await operator.expectPoints();
     await operator.drives(0.1);

@@ -9,12 +9,8 @@ export interface OpenOptions {
   ice?: 'relay';
   /** Fixed size of the canvas, `WIDTHxHEIGHT`; by default a small one, which leaves more processor time for the rest. */
   canvas?: string;
-  /** Refuse coded clouds. */
-  mode?: 'points64';
   /** Draw only every n-th point of coded clouds. */
   every?: string;
-  /** `1`: draw clouds of depth cameras as surfaces, which a software renderer does not by default. */
-  surface?: '1';
   /** Take the stream from this bridge. */
   bridge?: string;
   /** `1`: videos carry their capture time in the picture. */

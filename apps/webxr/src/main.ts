@@ -6,6 +6,7 @@ import './panels/ui/minimap.css';
 import './panels/ui/near.css';
 import { isSoftwareRenderer } from '@farpoint/cloud-view';
 import { transformSupport } from '@farpoint/operator';
+import { readBenchSettings } from './ground/bench-settings.ts';
 import { readSettings } from './ground/settings.ts';
 import { hideToken, loadStored, pageOrigin } from './ground/stored-settings.ts';
 import { App } from './page/app.ts';
@@ -15,7 +16,10 @@ import { Notices } from './state/notices.ts';
 import type { OpenedStage } from './testing/open-stage.ts';
 import { failureWords, forbiddenAddressWords } from './words/words.ts';
 
-const settings = readSettings(new URLSearchParams(window.location.search), loadStored(), pageOrigin());
+const query = new URLSearchParams(window.location.search);
+// The deployed page leaves this out. `pnpm dev` and `vite build --mode testing` include it.
+const bench = import.meta.env.MODE === 'production' ? undefined : readBenchSettings(query);
+const settings = readSettings(query, loadStored(), pageOrigin(), bench);
 hideToken(settings);
 const notices = new Notices();
 
@@ -35,7 +39,7 @@ function start(stage: OpenedStage | null): void {
     stage?.attach(app);
     app.start();
     elements.noGpu.hidden = !isSoftwareRenderer(app.stage.gl);
-    // The deployed page leaves this out. `pnpm dev` and `vite build --mode testing` include it.
+    // The deployed page leaves this out, too.
     if (import.meta.env.MODE !== 'production')
       void import('./testing/test-hooks.ts').then(({ installTestApi }) => {
         installTestApi(app);
@@ -53,6 +57,6 @@ document.addEventListener('securitypolicyviolation', ({ effectiveDirective, bloc
 });
 showNotices(notices);
 // The deployed page leaves this out, too. A page of tests can have a scripted link instead of a robot.
-if (import.meta.env.MODE !== 'production' && new URLSearchParams(window.location.search).has('stage'))
+if (import.meta.env.MODE !== 'production' && query.has('stage'))
   void import('./testing/open-stage.ts').then(({ openStage }) => openStage()).then(start);
 else start(null);

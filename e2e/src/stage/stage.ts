@@ -3,6 +3,7 @@ import type { CloudOptions, PictureFile, PictureOptions, StageControl } from '@f
 import type { StageStateName } from '@farpoint/webxr/stage-states';
 import type { DrawnProbe, PageState, PageStats } from '@farpoint/webxr/test-api';
 import { type CDPSession, expect, type Page } from '@playwright/test';
+import { keep, type Stored } from '../stored.ts';
 
 /** One display frame, ms. */
 export const FRAME_MS = 16;
@@ -18,6 +19,8 @@ export interface StageOptions {
   canvas?: string;
   /** Further parameters of the page's address. */
   query?: Readonly<Record<string, string>>;
+  /** What the browser keeps of an earlier visit, by its key. */
+  stored?: Stored;
   /** The address's fragment, with `#`. */
   hash?: string;
   /** How long to wait, ms. */
@@ -47,8 +50,16 @@ export class Stage {
   /** Opens the page in a state. Call it once, or again to load the page anew: what the browser stores is kept. */
   async open(options: StageOptions = {}): Promise<Page> {
     const { page } = this;
-    const { state = 'live', canvas = '320x180', query = {}, hash = '', forMs = BEGIN_MS } = options;
+    const {
+      state = 'live',
+      canvas = '320x180',
+      query = {},
+      stored = {},
+      hash = '',
+      forMs = BEGIN_MS,
+    } = options;
     await this.#prepare();
+    await keep(page, stored);
     const url = new URL(this.#origin);
     url.searchParams.set('stage', state);
     if (canvas !== 'full') url.searchParams.set('canvas', canvas);

@@ -1,5 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { NO_BENCH } from './bench-settings.ts';
 import { ownSignalingUrl, parseStored, readSettings } from './settings.ts';
 
 const served = { protocol: 'https:', hostname: 'x.org', host: 'x.org:8443', isDevServer: false };
@@ -61,42 +62,23 @@ describe('readSettings', () => {
     expect(read('predict=perhaps').predict).toBe(true);
   });
 
-  test('paints surfaces with videos as was chosen before, unless the page address says otherwise', () => {
-    expect([read('').paint, read('paint=1').paint, read('paint=0').paint]).toEqual([null, true, false]);
-    expect(read('paint=red').paint).toBeNull();
-  });
-
-  test('presents videos in step unless the page address or the stored settings say otherwise', () => {
+  test('presents videos in step unless the stored settings say otherwise', () => {
     expect(read('').synchronised).toBe(true);
-    expect(read('sync=0').synchronised).toBe(false);
     expect(read('', { synchronised: false }).synchronised).toBe(false);
-    expect(read('sync=1', { synchronised: false }).synchronised).toBe(true);
-    expect(read('sync=maybe').synchronised).toBe(true);
     expect(parseStored('{"synchronised":false}', 'wss://x.org').synchronised).toBe(false);
     expect(parseStored('{"synchronised":"no"}', 'wss://x.org').synchronised).toBeUndefined();
   });
 
   test('gives cues unless it is told not to', () => {
-    expect([read('').cues, read('cues=0').cues]).toEqual([true, false]);
-    expect([read('', { cues: false }).cues, read('cues=1', { cues: false }).cues]).toEqual([false, true]);
+    expect([read('').cues, read('', { cues: false }).cues]).toEqual([true, false]);
   });
 
-  test('waits for the GPU only where a time is measured', () => {
-    expect([read('').measure, read('canvas=320x180').measure, read('measure=1').measure]).toEqual([
-      false,
-      false,
-      true,
-    ]);
+  test('an address makes the page neither small nor slow', () => {
+    expect(read('canvas=320x180&measure=1&every=8&barcode=1')).toMatchObject(NO_BENCH);
   });
 
-  test('ignores invalid robot ids and canvas sizes', () => {
-    expect(read('robot=sim-1&canvas=640x360')).toMatchObject({
-      robot: 'sim-1',
-      canvas: { width: 640, height: 360 },
-    });
-    for (const canvas of ['640', '0x0', '99999x5', '64x64x64', '-1x50']) {
-      expect(read(`canvas=${canvas}`).canvas).toBe(null);
-    }
+  test('ignores invalid robot ids', () => {
+    expect(read('robot=sim-1').robot).toBe('sim-1');
     expect(read('robot=NOT%20ONE').robot).toBe(null);
   });
 });

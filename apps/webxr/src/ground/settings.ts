@@ -2,6 +2,7 @@
 
 import { type BridgeAddress, isPrivateAddress, parseBridge, parseSignalingUrl } from '@farpoint/operator';
 import { displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
+import { type BenchSettings, NO_BENCH } from './bench-settings.ts';
 import { type HeadsetSettings, parseHeadset } from './headset-settings.ts';
 import { parseTokens, type SignalingTokens, tokenOrigin, withToken } from './signaling-tokens.ts';
 import { type MapTiles, mapTilesOf } from './telemetry/map-tiles.ts';
@@ -37,7 +38,7 @@ export interface PageOrigin {
   isDevServer: boolean;
 }
 
-export interface Settings {
+export interface Settings extends BenchSettings {
   /** WebSocket address of the operators' endpoint. */
   signalingUrl: string;
   /** Why the given address cannot be used; `null` if it can, or if none was given. */
@@ -50,20 +51,6 @@ export interface Settings {
   robot: string | null;
   /** `relay`: connect through TURN servers only. */
   icePolicy: 'all' | 'relay';
-  /** Fixed size of the canvas in pixels, for benchmarks and tests. */
-  canvas: { width: number; height: number } | null;
-  /** Whether each picture is waited for until the GPU has finished it, so that its time is known. It costs frames. */
-  measure: boolean;
-  /** `points64`: refuse the coded formats. */
-  mode: 'auto' | 'points64';
-  /** Draw only every n-th point, for benchmarks with an emulated GPU; `null`: draw as many as possible. */
-  drawEvery: number | null;
-  /** Whether clouds of depth cameras are drawn as surfaces; `null`: as was chosen before, or as suits the renderer. */
-  surface: boolean | null;
-  /** Whether what was seen is remembered; `null`: as was chosen before, or as suits the renderer. */
-  memory: boolean | null;
-  /** Whether surfaces are painted with the video of their camera; `null`: as was chosen before, or yes. */
-  paint: boolean | null;
   pointScale: number;
   /** Whether videos are presented in step: frames wait for what was captured at the same time. */
   synchronised: boolean;
@@ -77,13 +64,10 @@ export interface Settings {
   mapTiles: MapTiles | null;
   /** How videos are received; `null`: as suits this browser best. */
   videoReceiver: VideoReceiverName | null;
-  /** Whether the robot draws the capture time into videos, to measure latency. */
-  barcode: boolean;
 }
 
 /** Port of the signaling service if something else serves the page. */
 const DEFAULT_SIGNALING_PORT = 3000;
-const MAX_CANVAS = 8192;
 
 /** The page's own signaling service: the one that serves the page, or the one beside a development server. */
 export function ownSignalingUrl(page: PageOrigin): string {
@@ -91,8 +75,16 @@ export function ownSignalingUrl(page: PageOrigin): string {
   return `${page.protocol === 'https:' ? 'wss' : 'ws'}://${host}/operator`;
 }
 
-/** @param query the page's query string */
-export function readSettings(query: URLSearchParams, stored: StoredSettings, page: PageOrigin): Settings {
+/**
+ * @param query the page's query string
+ * @param bench what tests and benchmarks ask for
+ */
+export function readSettings(
+  query: URLSearchParams,
+  stored: StoredSettings,
+  page: PageOrigin,
+  bench: BenchSettings = NO_BENCH,
+): Settings {
   const secure = page.protocol === 'https:';
   const own = ownSignalingUrl(page);
   const inQuery = nonEmpty(query.get('signaling'));
@@ -124,31 +116,15 @@ export function readSettings(query: URLSearchParams, stored: StoredSettings, pag
     bridge: parseBridge(query.get('bridge') ?? '', query.get('bridge-signaling')),
     robot: robot !== undefined && robotIdSchema.safeParse(robot).success ? robot : null,
     icePolicy: query.get('ice') === 'relay' ? 'relay' : 'all',
-    canvas: parseCanvas(query.get('canvas')),
-    measure: parseSwitch(query.get('measure')) ?? false,
-    mode: query.get('mode') === 'points64' ? 'points64' : 'auto',
-    drawEvery: parseEvery(query.get('every')),
-    surface: parseSwitch(query.get('surface')) ?? null,
-    memory: parseSwitch(query.get('memory')) ?? null,
-    paint: parseSwitch(query.get('paint')) ?? null,
     pointScale: clampScale(stored.pointScale),
-    synchronised: parseSwitch(query.get('sync')) ?? stored.synchronised ?? true,
-    cues: parseSwitch(query.get('cues')) ?? stored.cues ?? true,
+    synchronised: stored.synchronised ?? true,
+    cues: stored.cues ?? true,
     headset: parseHeadset(stored.headset),
-    predict: parseSwitch(query.get('predict')) ?? true,
+    predict: query.get('predict') !== '0',
     mapTiles: mapTilesOf(stored.mapTiles, stored.mapAttribution, page),
     videoReceiver: VIDEO_RECEIVERS.find((name) => name === query.get('video')) ?? null,
-    barcode: parseSwitch(query.get('barcode')) ?? false,
+    ...bench,
   };
-}
-
-function parseSwitch(text: string | null): boolean | undefined {
-  return text === '1' ? true : text === '0' ? false : undefined;
-}
-
-function parseEvery(text: string | null): number | null {
-  const every = Number(text);
-  return text !== null && Number.isInteger(every) && every >= 1 && every <= 1024 ? every : null;
 }
 
 /**
@@ -184,14 +160,6 @@ export function parseStored(text: string | null, ownUrl: string): StoredSettings
 
 export function clampScale(scale: number | undefined): number {
   return scale !== undefined && Number.isFinite(scale) ? Math.min(Math.max(scale, 0.25), 4) : 1;
-}
-
-function parseCanvas(text: string | null): Settings['canvas'] {
-  const match = /^(\d{1,5})x(\d{1,5})$/.exec(text ?? '');
-  if (match === null) return null;
-  const [width, height] = [Number(match[1]), Number(match[2])];
-  if (width < 16 || height < 16 || width > MAX_CANVAS || height > MAX_CANVAS) return null;
-  return { width, height };
 }
 
 function nonEmpty(text: string | null | undefined): string | undefined {

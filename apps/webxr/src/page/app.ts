@@ -60,7 +60,7 @@ export class App {
     this.settings = settings;
     const stage = new Stage(elements.stage, settings.canvas, settings.headset);
     this.stage = stage;
-    const appearance = openAppearance(settings, stage.renderer.getContext());
+    const appearance = openAppearance(stage.renderer.getContext());
     this.appearance = appearance;
     this.#inputs = this.#openInputs(notices);
     const { client, receiver, ...opened } = openClient({

@@ -17,7 +17,7 @@ export interface ClientParts {
 }
 
 export function openClient({ settings, transform, inputs, openLink }: ClientParts) {
-  const { signalingUrl, name, token, icePolicy, bridge, mode } = settings;
+  const { signalingUrl, name, token, icePolicy, bridge } = settings;
   const receiver = videoReceiver(settings.videoReceiver);
   const origin = tokenOrigin(signalingUrl);
   const access = new OperatorAccess(browserAccess(origin), () => Date.now() / 1000);
@@ -32,7 +32,6 @@ export function openClient({ settings, transform, inputs, openLink }: ClientPart
     knownRobots,
     openLink,
     credentials: () => access.credentials(),
-    cloudFormats: mode === 'points64' ? ['points64'] : undefined,
     inputs: inputs.all,
     ...(receiver?.adopt === undefined ? {} : { onVideoReceiver: receiver.adopt }),
   });

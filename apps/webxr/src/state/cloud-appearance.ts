@@ -7,19 +7,12 @@ import {
   type ValueRange,
 } from '@farpoint/cloud-view';
 import { computed, effect, type ReadonlySignal, type Signal, signal } from '@preact/signals-core';
-import type { Settings } from '../ground/settings.ts';
 
 const KEY = 'farpoint.clouds';
 
-/** @param asked what the page's address says; it comes before what is stored */
-export function openAppearance(
-  asked: Pick<Settings, 'surface' | 'memory' | 'paint'>,
-  gl: WebGLRenderingContext | WebGL2RenderingContext,
-): CloudAppearance {
-  const stored = load();
-  const [surface, memory] = [asked.surface ?? stored.surface, asked.memory ?? stored.memory];
-  const wanted = { ...stored, surface, memory, paint: asked.paint ?? stored.paint };
-  return new CloudAppearance(wanted, store, !isSoftwareRenderer(gl));
+/** As it was chosen in this browser. */
+export function openAppearance(gl: WebGLRenderingContext | WebGL2RenderingContext): CloudAppearance {
+  return new CloudAppearance(load(), store, !isSoftwareRenderer(gl));
 }
 
 /** The defaults if the page may not use local storage. */

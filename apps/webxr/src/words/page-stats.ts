@@ -17,7 +17,7 @@ export interface PageStats extends StreamStats {
   drawnOneOf: number;
   /** What of the remembered world is in view; `null`: nothing. */
   remembered: RememberedFigures | null;
-  /** Milliseconds of the frame loop's own work. With `?canvas=` it includes the time until the GPU has finished. */
+  /** Milliseconds of the frame loop's own work. In the test build with `?measure=1` it includes the time until the GPU has finished. */
   renderMs: Distribution | null;
   displayFramesPerSecond: number;
   /**

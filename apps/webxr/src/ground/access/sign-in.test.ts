@@ -16,10 +16,10 @@ const begin = (page = 'https://teleop.example/') => new SignIn(storage, HERE).be
 
 describe('signing in', () => {
   it('goes to the issuer with the page’s address, without a token or a fragment', () => {
-    const url = new URL(begin('https://teleop.example/?robot=r1&token=secret&mode=points64#grant=x'));
+    const url = new URL(begin('https://teleop.example/?robot=r1&token=secret&ice=relay#grant=x'));
     expect(url.origin + url.pathname).toBe(ISSUER);
     expect(Object.fromEntries(url.searchParams)).toEqual({
-      ...{ key: KEY, state: 's1', return: 'https://teleop.example/?robot=r1&mode=points64' },
+      ...{ key: KEY, state: 's1', return: 'https://teleop.example/?robot=r1&ice=relay' },
     });
   });
 

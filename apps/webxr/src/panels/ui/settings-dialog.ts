@@ -85,7 +85,7 @@ class SettingsForm {
     forgetVisitTokens();
     // These parameters in the page's address would override what was just saved.
     const address = new URL(location.href);
-    for (const name of ['signaling', 'token', 'name', 'sync', 'cues']) address.searchParams.delete(name);
+    for (const name of ['signaling', 'token', 'name']) address.searchParams.delete(name);
     location.replace(address);
   }
 
