@@ -22,9 +22,7 @@ const controlSchema = z.discriminatedUnion('type', [
   }),
   z.strictObject({ type: z.literal('pause'), direction, paused: z.boolean() }),
   z.strictObject({ type: z.literal('blackhole'), direction, active: z.boolean() }),
-  /** Sets second 0 of traces, steps and outages to now. */
-  z.strictObject({ type: z.literal('restart') }),
-  /** Restores the options, and sets second 0 to now. */
+  /** Restores the options, and sets second 0 of traces, steps and outages to now. */
   z.strictObject({ type: z.literal('reset') }),
 ]);
 export type ControlMessage = z.infer<typeof controlSchema>;
@@ -49,7 +47,7 @@ export function control(
       ? [link.models.up, link.models.down]
       : [link.models[message.direction]];
   for (const model of models) {
-    if (message.type === 'restart' || message.type === 'reset') model.restart(nowMs);
+    if (message.type === 'reset') model.restart(nowMs);
     else if (message.type === 'pause') model.pause(message.paused, nowMs);
     else if (message.type === 'blackhole') model.blackhole(message.active, nowMs);
     else model.setProfile(patched(model.profile, message), message.atMs ?? nowMs);
