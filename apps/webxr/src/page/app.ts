@@ -8,7 +8,7 @@ import { elements } from '../panels/ui/elements.ts';
 import { OperatorInputs } from '../panels/ui/operator-inputs.ts';
 import { NearFieldDisplay } from '../panels/ui/show-near-field.ts';
 import { PredictedView } from '../scene/view/predicted-view.ts';
-import { showDrivePath, showNavigation, showRobotModel } from '../scene/view/show-robot.ts';
+import { showRobot } from '../scene/view/show-robot.ts';
 import { Stage } from '../scene/view/stage.ts';
 import { VrSession } from '../scene/view/vr-session.ts';
 import type { WristPanel } from '../scene/view/wrist-panel.ts';
@@ -26,10 +26,10 @@ import type { HeadsetControls } from './headset-controls.ts';
 import { openClient } from './open-client.ts';
 import { PagePanels } from './page-panels.ts';
 import { PageViews } from './page-views.ts';
-import { followRobot, showPage } from './show-page.ts';
+import { followRobot, type ShownParts, showPage } from './show-page.ts';
 import { SteadyWork } from './steady-work.ts';
 
-export class App {
+export class App implements ShownParts {
   readonly settings: Settings;
   readonly state: PageState;
   readonly stage: Stage;
@@ -43,12 +43,13 @@ export class App {
   readonly near: NearFieldDisplay;
   /** Plays the robot's microphone. */
   readonly player = new SoundPlayer();
-  readonly #inputs: OperatorInputs;
-  readonly #panels: PagePanels;
+  readonly inputs: OperatorInputs;
+  readonly panels: PagePanels;
   /** The panel on the wrist in VR. */
   wrist: WristPanel | null = null;
   #headset: HeadsetControls | null = null;
   readonly #release = new ReleaseHold();
+  readonly releaseProgress = this.#release.progress;
 
   /** @param openLink of tests @throws {Error} without WebGL 2 */
   constructor(
@@ -62,11 +63,11 @@ export class App {
     this.stage = stage;
     const appearance = openAppearance(stage.renderer.getContext());
     this.appearance = appearance;
-    this.#inputs = this.#openInputs(notices);
+    this.inputs = this.#openInputs(notices);
     const { client, receiver, ...opened } = openClient({
       settings,
       transform,
-      inputs: this.#inputs,
+      inputs: this.inputs,
       openLink,
     });
     this.client = client;
@@ -87,7 +88,7 @@ export class App {
     const vr = new VrSession(stage.renderer, settings.headset);
     this.vr = vr;
     this.near = new NearFieldDisplay(client, stage, vr.active);
-    this.#panels = new PagePanels({
+    this.panels = new PagePanels({
       ...opened,
       client,
       settings,
@@ -110,9 +111,9 @@ export class App {
     return new OperatorInputs(
       {
         onChange: () => this.client.driver.sendDue(performance.now()),
-        onAction: (action, timeMs) => this.#panels.controls.act(action, timeMs),
-        onRelease: (control, held) => this.#panels.estop.hold(control, held),
-        onTalk: (control, held) => this.#panels.sound.hold(control, held),
+        onAction: (action, timeMs) => this.panels.controls.act(action, timeMs),
+        onRelease: (control, held) => this.panels.estop.hold(control, held),
+        onTalk: (control, held) => this.panels.sound.hold(control, held),
         mayDrive: () => this.state.link.live.value,
       },
       this.settings.headset.driveHand,
@@ -121,38 +122,18 @@ export class App {
   }
 
   start(): void {
-    const { client, settings, state, stage, appearance, views, stats, vr, frames, near } = this;
-    const [inputs, panels] = [this.#inputs, this.#panels];
-    const releaseProgress = this.#release.progress;
-    const shown = {
-      client,
-      settings,
-      state,
-      stage,
-      appearance,
-      views,
-      stats,
-      vr,
-      inputs,
-      panels,
-      releaseProgress,
-    };
-    followRobot(shown);
+    const { client, settings, panels } = this;
+    followRobot(this);
     panels.start();
     client.start();
     if (settings.robot !== null) client.choose(settings.robot);
-    const { panel, controls } = showPage(shown);
+    const { panel, controls } = showPage(this);
     this.wrist = panel;
     this.#headset = controls;
     const { estop, cloudPanel } = panels;
-    const showRobot = (nowMs: number) => {
-      showRobotModel(client, stage, appearance);
-      showDrivePath(client, stage);
-      showNavigation(client, stage, appearance, nowMs);
-    };
-    const parts = { client, inputs, estop, cloudPanel, near, vr, state, stats, views, frames, showRobot };
-    new SteadyWork(parts, document).start();
-    frames.start();
+    const drawRobot = (nowMs: number) => showRobot(this, nowMs);
+    new SteadyWork({ ...this, estop, cloudPanel, showRobot: drawRobot }, document).start();
+    this.frames.start();
   }
 
   /** Connects to this robot. A robot that was chosen before is stopped first. */

@@ -5,8 +5,25 @@ import type { CloudAppearance } from '../../state/cloud-appearance.ts';
 import type { DrivenPath, PathTone } from './drive-path.ts';
 import type { Stage } from './stage.ts';
 
-/** Shows on the floor where the operator's hand leads the robot. Call this at the rate of the commands. */
-export function showDrivePath(client: RobotClient, stage: Stage): void {
+export interface ShownRobot {
+  readonly client: RobotClient;
+  readonly stage: Stage;
+  readonly appearance: CloudAppearance;
+}
+
+/**
+ * Shows where everything about the robot is now. Call it at the rate of the commands.
+ *
+ * @param nowMs page's clock
+ */
+export function showRobot({ client, stage, appearance }: ShownRobot, nowMs: number): void {
+  showRobotModel(client, stage, appearance);
+  showDrivePath(client, stage);
+  showNavigation(client, stage, appearance, nowMs);
+}
+
+/** Shows on the floor where the operator's hand leads the robot. */
+function showDrivePath(client: RobotClient, stage: Stage): void {
   const { session, phase } = client.link;
   const live = phase === 'live';
   stage.robotBody = (live ? session.welcome?.body : null) ?? null;
@@ -22,12 +39,8 @@ function drivenPath({ driver, link }: RobotClient): DrivenPath | null {
   return { linear: asked.linear.x, angular: asked.angular.z, loopMs: viewAgeMs, tone };
 }
 
-/**
- * Shows on the floor what the robot's navigator has planned, and its map. Call this at the rate of the commands.
- *
- * @param nowMs page's clock
- */
-export function showNavigation(
+/** Shows on the floor what the robot's navigator has planned, and its map. */
+function showNavigation(
   { link }: Pick<RobotClient, 'link'>,
   { plan, floorMap }: Pick<Stage, 'plan' | 'floorMap'>,
   { navigation }: Pick<CloudAppearance, 'navigation'>,
@@ -42,8 +55,8 @@ export function showNavigation(
   floorMap.show(map === null || map.stale ? null : map, ground);
 }
 
-/** Shows what the robot looks like. Call this at the rate of the commands. */
-export function showRobotModel(
+/** Shows what the robot looks like. */
+function showRobotModel(
   { link }: Pick<RobotClient, 'link'>,
   { figures }: Pick<Stage, 'figures'>,
   { model }: Pick<CloudAppearance, 'model'>,
