@@ -5,6 +5,7 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { asksForHelp } from './src/bench-options.ts';
 import type { Bench } from './src/report.ts';
 
 const FOLDER = join(import.meta.dirname, 'src');
@@ -48,7 +49,9 @@ async function main(): Promise<number> {
     return 2;
   }
   try {
-    await (await load(name)).run(argv);
+    const bench = await load(name);
+    if (asksForHelp(argv)) console.log(bench.usage);
+    else await bench.run(argv);
     return 0;
   } catch (error) {
     console.error(`bench ${name}: ${error instanceof Error ? error.message : String(error)}`);

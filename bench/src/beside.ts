@@ -2,9 +2,9 @@
 import { spawnSync } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import { join, resolve } from 'node:path';
-import { parseArgs } from 'node:util';
 import { repositoryRoot } from '@farpoint/local-stack';
-import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { benchOptions, option } from './bench-options.ts';
+import { type Bench, printJson, printTable } from './report.ts';
 import { quantile } from './stats.ts';
 
 const USAGE = `pnpm bench beside FOLDER [--runs 5] [--keys mtpMs.p50,mtpMs.p95,framesPerSecond] [--json] -- NAME [options]
@@ -18,27 +18,20 @@ the other's.
 export const bench: Bench = {
   name: 'beside',
   summary: 'another checkout and this one in turns: medians side by side',
+  usage: USAGE,
   async run(argv) {
     const split = argv.indexOf('--');
-    const { values, positionals } = parseArgs({
-      args: split < 0 ? argv : argv.slice(0, split),
-      allowPositionals: true,
-      options: {
-        runs: { type: 'string', default: '5' },
-        keys: { type: 'string', default: 'mtpMs.p50,mtpMs.p95,framesPerSecond' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const { folders, runs, keys, json } = benchOptions(split < 0 ? argv : argv.slice(0, split), {
+      folders: option.bare,
+      runs: option.number(5, { least: 1 }),
+      keys: option.list(['mtpMs.p50', 'mtpMs.p95', 'framesPerSecond'], option.text()),
     });
-    if (values.help) return console.log(USAGE);
     const command = split < 0 ? [] : argv.slice(split + 1);
-    const [given] = positionals;
-    if (given === undefined || positionals.length > 1 || command.length === 0) throw new Error(USAGE);
+    const [given] = folders;
+    if (given === undefined || folders.length > 1 || command.length === 0) throw new Error(USAGE);
     const other = resolve(given);
     if (!existsSync(join(other, 'bench', 'main.ts')))
       throw new Error(`${other} is no checkout of this repository: it has no bench/main.ts`);
-    const runs = numberOption('runs', values.runs, 1);
-    const keys = values.keys.split(',');
 
     const series = { other: keys.map((): number[] => []), here: keys.map((): number[] => []) };
     for (let run = 1; run <= runs; run++) {
@@ -59,7 +52,7 @@ export const bench: Bench = {
       ['', 'other', 'here', 'ratio'],
       rows.map((row) => [row.name, row.other, row.here, row.ratio]),
     );
-    if (values.json) printJson({ bench: 'beside', command, runs, rows, series });
+    if (json) printJson({ bench: 'beside', command, runs, rows, series });
   },
 };
 

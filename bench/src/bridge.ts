@@ -3,16 +3,16 @@
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 import { BridgeProcess, LocalStack, type RobotSpec } from '@farpoint/local-stack';
 import { bytesOfPoints, MAX_POINT_DATA_BYTES, POINTS_PER_PACKET, packetCountOf } from '@farpoint/protocol';
 import { BitRate } from '@farpoint/timing';
+import { benchOptions, option } from './bench-options.ts';
 import { type Arrival, type BridgeFrame, PageReader, readBridgeFrames } from './bridge-page.ts';
 import { profile } from './bridge-profile.ts';
 import { cpuSecondsOfTree } from './cpu-time.ts';
 import { type MeasuredSpan, measuredSpan, wait } from './measured-span.ts';
 import { readPacketLog, type SentTimes } from './packet-log.ts';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { type Distribution, distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench bridge [--points 100000] [--fps 10] [--seconds 60] [--mbps 100] [--json]
@@ -55,24 +55,28 @@ interface RunResult {
   bridgeRssMbEnd: number;
 }
 
-interface Options {
-  points: number;
-  fps: number;
-  seconds: number;
+/** The usual stream, and that of `--profile`. */
+const STREAMED = { points: 100_000, fps: 10, seconds: 60 };
+const PROFILED = { points: 7500, fps: 18, seconds: 30 };
+
+const OPTIONS = {
+  points: option.number(undefined, { least: POINTS_PER_PACKET }),
+  fps: option.number(undefined, { least: 1 }),
+  seconds: option.number(undefined, { least: 1 }),
   /** Rate of the second run; 0 without one. */
-  mbps: number;
-  profile: boolean;
-  json: boolean;
-}
+  mbps: option.number(100),
+  profile: option.flag,
+};
 
 export const bench: Bench = {
   name: 'bridge',
   summary: 'the reference profile through the bridge to a page’s streaming socket',
+  usage: USAGE,
   async run(argv) {
-    const options = readOptions(argv);
-    if (options === null) return;
-    if (options.profile) return profile(options);
-    const { points, fps, seconds, mbps, json } = options;
+    const { mbps, profile: isProfile, json, ...given } = benchOptions(argv, OPTIONS);
+    const usual = isProfile ? PROFILED : STREAMED;
+    const { points = usual.points, fps = usual.fps, seconds = usual.seconds } = given;
+    if (isProfile) return profile({ points, fps, seconds, json });
     const first = await run({ packets: packetCountOf(points), fps, seconds });
     const packets = Math.floor(
       BitRate.toBytesPerSecond(BitRate.fromMbps(mbps)) / WIRE_BYTES_PER_PACKET / fps,
@@ -86,37 +90,6 @@ export const bench: Bench = {
     }
   },
 };
-
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
-function readOptions(argv: string[]): Options | null {
-  const { values } = parseArgs({
-    args: argv,
-    options: {
-      points: { type: 'string' },
-      fps: { type: 'string' },
-      seconds: { type: 'string' },
-      mbps: { type: 'string', default: '100' },
-      profile: { type: 'boolean', default: false },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
-  });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  const usual = values.profile
-    ? { points: '7500', fps: '18', seconds: '30' }
-    : { points: '100000', fps: '10', seconds: '60' };
-  return {
-    points: numberOption('points', values.points ?? usual.points, POINTS_PER_PACKET),
-    fps: numberOption('fps', values.fps ?? usual.fps, 1),
-    seconds: numberOption('seconds', values.seconds ?? usual.seconds, 1),
-    mbps: values.profile ? 0 : numberOption('mbps', values.mbps, 0),
-    profile: values.profile,
-    json: values.json ?? false,
-  };
-}
 
 function print(runs: readonly RunResult[]): void {
   printTable(

@@ -1,14 +1,14 @@
 /** `pnpm bench cameras`: glass to glass of the robot's cameras, and how well they are in step. */
 import { writeFileSync } from 'node:fs';
 import { basename } from 'node:path';
-import { parseArgs } from 'node:util';
 import { availableEncoders, chooseEncoder } from '@farpoint/video';
+import { benchOptions, option } from './bench-options.ts';
 import { CAMERA_EXPERIMENTS, experimentTitle } from './camera-experiments.ts';
 import { type BenchCamera, parseCameras } from './camera-list.ts';
 import { plotCameras } from './camera-plot.ts';
 import { type CameraRun, type CameraSetup, LINK_RTT_MS, runCameras } from './camera-run.ts';
 import { parseShares } from './camera-shares.ts';
-import { type Bench, type Cell, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, type Cell, distributionCells, printJson, printTable } from './report.ts';
 import { rounded } from './stats.ts';
 
 const USAGE = `pnpm bench cameras [options]
@@ -38,63 +38,61 @@ cloudApartMs: between the newest capture of the cameras and of the cloud that ar
 encoders skipped, and pictures that arrived and were not shown. commandDelayMs: from the page to the robot, beyond the link's
 own delay. robotCpu, browserCpu: cores, encoders included. keyFrames: encoded during the measurement, all cameras together.`;
 
+/** Of each cloud, without `all`. */
+const POINTS = option.number(600, { least: 150 });
+
 export const bench: Bench = {
   name: 'cameras',
   summary: 'glass to glass of several cameras, and how well they are in step',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        cameras: { type: 'string', default: '1024x768@30:512,1024x768@30:512,1024x768@30:512' },
-        sync: { type: 'string', default: 'on' },
-        receiver: { type: 'string' },
-        over: { type: 'string', default: 'loopback' },
-        seconds: { type: 'string', default: '30' },
-        encoder: { type: 'string', default: 'auto' },
-        content: { type: 'string', default: 'plain' },
-        points: { type: 'string', default: '600' },
-        'cloud-fps': { type: 'string', default: '10' },
-        shares: { type: 'string' },
-        sound: { type: 'boolean', default: false },
-        canvas: { type: 'string', default: '160x90' },
-        thesis: { type: 'boolean' },
-        plot: { type: 'string' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const options = benchOptions(argv, {
+      cameras: option.text('1024x768@30:512,1024x768@30:512,1024x768@30:512'),
+      sync: option.choice('on', ['on', 'off']),
+      receiver: option.text(),
+      over: option.text('loopback'),
+      seconds: option.number(30, { least: 1 }),
+      encoder: option.text('auto'),
+      content: option.choice('plain', ['plain', 'noise']),
+      points: option.of<number | null, number>(600, `all or ${POINTS.allowed}`, (text) =>
+        text === 'all' ? null : POINTS.read(text),
+      ),
+      cloudFps: option.number(10, { least: 1 }),
+      shares: option.text(),
+      sound: option.flag,
+      canvas: option.text('160x90'),
+      thesis: option.flag,
+      plot: option.text(),
     });
-    if (values.help) return console.log(USAGE);
-    const cameras = parseCameras(values.cameras);
-    if (values.sync !== 'on' && values.sync !== 'off') throw new Error('--sync is on or off');
-    if (values.content !== 'plain' && values.content !== 'noise')
-      throw new Error('--content is plain or noise');
+    const { seconds, canvas, content, sound, thesis, points, plot } = options;
+    const cameras = parseCameras(options.cameras);
     const setup: CameraSetup = {
       cameras,
-      synchronised: values.sync === 'on',
-      canvas: values.canvas,
-      encoder: await encoderOf(values.encoder),
-      content: values.content,
-      sound: values.sound,
-      receiver: values.receiver ?? null,
-      trace: values.over === 'loopback' ? null : values.over,
-      seconds: numberOption('seconds', values.seconds, 1),
-      points: values.points === 'all' ? null : numberOption('points', values.points, 150),
-      cloudsPerS: numberOption('cloud-fps', values['cloud-fps'], 1),
-      shares: values.shares === undefined ? null : parseShares(values.shares, cameras.length),
+      synchronised: options.sync === 'on',
+      canvas,
+      encoder: await encoderOf(options.encoder),
+      content,
+      sound,
+      receiver: options.receiver ?? null,
+      trace: options.over === 'loopback' ? null : options.over,
+      seconds,
+      points,
+      cloudsPerS: options.cloudFps,
+      shares: options.shares === undefined ? null : parseShares(options.shares, cameras.length),
     };
     const over = setup.trace === null ? 'loopback' : basename(setup.trace);
     const common = { bench: 'cameras', over, encoder: setup.encoder, seconds: setup.seconds };
-    const runs = values.thesis
+    const runs = thesis
       ? await runThesis({ ...setup, shares: null })
-      : [{ title: values.cameras, found: null, cameras, run: await runCameras(setup, console.error) }];
-    if (!values.thesis) runs.forEach(print);
-    if (values.plot !== undefined) {
+      : [{ title: options.cameras, found: null, cameras, run: await runCameras(setup, console.error) }];
+    if (!thesis) runs.forEach(print);
+    if (plot !== undefined) {
       const title = 'Latency of cameras, from capture to display';
-      writeFileSync(values.plot, plotCameras(title, `${setup.encoder}, over ${over}`, runs));
+      writeFileSync(plot, plotCameras(title, `${setup.encoder}, over ${over}`, runs));
     }
-    if (!values.json) return;
+    if (!options.json) return;
     const results = runs.map(({ title, cameras, run }) => ({ title, cameras, ...figuresOf(run) }));
-    printJson(values.thesis ? { ...common, runs: results } : { ...common, sync: values.sync, ...results[0] });
+    printJson(thesis ? { ...common, runs: results } : { ...common, sync: options.sync, ...results[0] });
   },
 };
 

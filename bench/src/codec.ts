@@ -3,8 +3,8 @@
  * loss.
  */
 import { writeFile } from 'node:fs/promises';
-import { parseArgs } from 'node:util';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { benchOptions, type OptionValues, option } from './bench-options.ts';
 import type { BenchCloud, CodecRun } from './codec/adapter.ts';
 import { pcdCloud, rgbdClouds, simulatedClouds } from './codec/clouds.ts';
 import { draco, loadDraco } from './codec/draco.ts';
@@ -14,7 +14,7 @@ import { ORGANISED_SETTINGS, organised } from './codec/organised.ts';
 import { plotCodecs } from './codec/plot.ts';
 import { points64, zstd } from './codec/points64.ts';
 import { unorganised, unorganisedSteps } from './codec/unorganised.ts';
-import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, printJson, printTable } from './report.ts';
 
 const USAGE = `pnpm bench codec [--cloud FILE.pcd]… [--rgbd DIR] [--codec NAME]… [--rounds 15] [--native] [--plot FILE.svg] [--json]
 
@@ -27,30 +27,31 @@ pointsWrong are shares, 0-1; a codec whose output is one blob loses the frame wi
 If a codec reorders points, each is compared with the nearest one, and colours are not compared. The output of \`organised\` is
 compared as depth, before points are rounded to millimetres.`;
 
-interface Options {
-  /** PCD files. */
-  files: string[];
+const OPTIONS = {
+  /** PCD files: `--cloud a.pcd b.pcd` is accepted as well as `--cloud a.pcd --cloud b.pcd`. */
+  cloud: option.repeated,
+  others: option.bare,
   /** Folder of pictures with depth. */
-  rgbd: string | undefined;
+  rgbd: option.text(),
   /** Names of codecs; empty: all. */
-  codecs: string[];
-  rounds: number;
-  native: boolean;
-  plot: string | undefined;
-  json: boolean | undefined;
-}
+  codec: option.repeated,
+  rounds: option.number(15, { least: 1 }),
+  native: option.flag,
+  plot: option.text(),
+};
+type Options = OptionValues<typeof OPTIONS>;
 
 export const bench: Bench = {
   name: 'codec',
   summary:
     'kernel: bits, errors, time and packet loss of the point codecs, beside Draco, meshoptimizer and Zstandard',
+  usage: USAGE,
   async run(argv) {
-    const options = readOptions(argv);
-    if (options === null) return;
+    const options = benchOptions(argv, OPTIONS);
     const clouds = await readClouds(options);
     const makers = await codecMakers();
     const wanted = Object.entries(makers).filter(
-      ([name]) => options.codecs.length === 0 || options.codecs.includes(name),
+      ([name]) => options.codec.length === 0 || options.codec.includes(name),
     );
     if (wanted.length === 0) throw new Error(`--codec: there are ${Object.keys(makers).join(', ')}`);
     const { rows, notes } = measureAll(clouds, wanted, options);
@@ -64,42 +65,9 @@ export const bench: Bench = {
   },
 };
 
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
-function readOptions(argv: string[]): Options | null {
-  const { values, positionals } = parseArgs({
-    args: argv,
-    options: {
-      cloud: { type: 'string', multiple: true, default: [] },
-      rgbd: { type: 'string' },
-      codec: { type: 'string', multiple: true, default: [] },
-      rounds: { type: 'string', default: '15' },
-      native: { type: 'boolean', default: false },
-      plot: { type: 'string' },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
-    allowPositionals: true,
-  });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  const { rgbd, codec, native, plot, json } = values;
-  return {
-    // Accepts `--cloud a.pcd b.pcd` as well as `--cloud a.pcd --cloud b.pcd`.
-    files: [...values.cloud, ...positionals],
-    rgbd,
-    codecs: codec,
-    rounds: numberOption('rounds', values.rounds, 1),
-    native,
-    plot,
-    json,
-  };
-}
-
 /** Takes clouds of the simulated camera if no others are given. */
-async function readClouds({ files, rgbd }: Options): Promise<BenchCloud[]> {
-  const clouds = [...files.map(pcdCloud), ...(rgbd === undefined ? [] : rgbdClouds(rgbd))];
+async function readClouds({ cloud, others, rgbd }: Options): Promise<BenchCloud[]> {
+  const clouds = [...[...cloud, ...others].map(pcdCloud), ...(rgbd === undefined ? [] : rgbdClouds(rgbd))];
   return clouds.length === 0 ? await simulatedClouds() : clouds;
 }
 

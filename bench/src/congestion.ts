@@ -1,7 +1,6 @@
 /** `pnpm bench congestion`: rate controllers on simulated links. */
 
 import { readFileSync, writeFileSync } from 'node:fs';
-import { parseArgs } from 'node:util';
 import { AdaptiveRateController, FixedRateController, type RateController } from '@farpoint/congestion';
 import {
   type FlowRecord,
@@ -19,9 +18,10 @@ import {
 } from '@farpoint/congestion/testing';
 import { BUSY_COMPUTER, type CapacityStep, parseTrace } from '@farpoint/network-sim';
 import { BitRate } from '@farpoint/timing';
+import { benchOptions, option } from './bench-options.ts';
 import { GccController } from './gcc/gcc-controller.ts';
 import { type Panel, renderChart, type Series } from './plot/chart.ts';
-import { type Bench, type Cell, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, type Cell, printJson, printTable } from './report.ts';
 
 const USAGE = `pnpm bench congestion [--controller NAME,…] [--scenario TEXT] [--trace FILE] [--seed 1] [--plot FILE.svg] [--json]
 
@@ -119,38 +119,30 @@ const CASES: readonly Case[] = [
 export const bench: Bench = {
   name: 'congestion',
   summary: 'rate controllers on simulated links: use, queue, loss, recovery, share beside TCP',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        controller: { type: 'string', default: 'adaptive,gcc,fixed' },
-        scenario: { type: 'string', default: '' },
-        trace: { type: 'string' },
-        seed: { type: 'string', default: '1' },
-        plot: { type: 'string' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const { controller, scenario, trace, seed, plot, json } = benchOptions(argv, {
+      controller: option.list(
+        ['adaptive', 'gcc', 'fixed'],
+        option.choice(undefined, Object.keys(CONTROLLERS)),
+      ),
+      scenario: option.text(''),
+      trace: option.text(),
+      seed: option.number(1),
+      plot: option.text(),
     });
-    if (values.help) return console.log(USAGE);
-    const seed = numberOption('seed', values.seed);
-    const names = values.controller.split(',');
-    const unknown = names.find((name) => CONTROLLERS[name] === undefined);
-    if (unknown !== undefined) {
-      throw new Error(`--controller: no \`${unknown}\`; there are ${Object.keys(CONTROLLERS).join(', ')}`);
-    }
-    const trace = values.trace === undefined ? [] : [traceCase(values.trace)];
-    const cases = [...CASES, ...trace].filter(({ name }) => name.includes(values.scenario));
+    const traced = trace === undefined ? [] : [traceCase(trace)];
+    const cases = [...CASES, ...traced].filter(({ name }) => name.includes(scenario));
     const results: Record<string, unknown>[] = [];
     const plots: Panel[] = [];
     for (const one of cases) {
       const runs: Runs = new Map();
-      for (const name of names) {
+      for (const name of controller) {
         const outcome = runScenario({ ...one, seed }, CONTROLLERS[name] as () => RateController);
         runs.set(name, outcome);
         results.push({ scenario: one.name, controller: name, ...measure(one, outcome) });
       }
-      if (one.fallMs !== undefined || trace.includes(one)) plots.push(...panels(one, runs));
+      if (one.fallMs !== undefined || traced.includes(one)) plots.push(...panels(one, runs));
     }
     printTable(
       [
@@ -166,11 +158,11 @@ export const bench: Bench = {
       ],
       results.map((row) => Object.values(row) as Cell[]),
     );
-    if (values.plot !== undefined) {
+    if (plot !== undefined) {
       const title = 'Rate controllers on simulated links';
-      writeFileSync(values.plot, renderChart({ title, panels: plots, columns: 2, panelWidth: 560 }));
+      writeFileSync(plot, renderChart({ title, panels: plots, columns: 2, panelWidth: 560 }));
     }
-    if (values.json) printJson({ bench: 'congestion', seed, results });
+    if (json) printJson({ bench: 'congestion', seed, results });
   },
 };
 

@@ -2,15 +2,15 @@
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 import { ReferenceOperator } from '@farpoint/conformance';
 import { grantTo, makeIssuer, type TestIssuer } from '@farpoint/grants/testing';
 import { LocalStack } from '@farpoint/local-stack';
 import { type Credentials, SignaledOperator } from '@farpoint/robot-node/testing';
 import { metricOf } from '@farpoint/robot-node/testing/metric-of';
 import { shownGrant } from '@farpoint/robot-node/testing/shown-grant';
+import { benchOptions, option } from './bench-options.ts';
 import { BusyLoops } from './busy-loops.ts';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench connect [--count 20] [--starts 5] [--busy 0] [--json]
@@ -33,21 +33,13 @@ const ENV = { FARPOINT_LOG_LEVEL: 'warn' };
 export const bench: Bench = {
   name: 'connect',
   summary: 'time from signaling to a session, in both profiles',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        count: { type: 'string', default: '20' },
-        starts: { type: 'string', default: '5' },
-        busy: { type: 'string', default: '0' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const { count, starts, busy, json } = benchOptions(argv, {
+      count: option.number(20, { least: 1 }),
+      starts: option.number(5),
+      busy: option.number(0),
     });
-    if (values.help) return console.log(USAGE);
-    const count = numberOption('count', values.count, 1);
-    const starts = numberOption('starts', values.starts, 0);
-    const busy = numberOption('busy', values.busy, 0);
     const folder = mkdtempSync(join(tmpdir(), 'farpoint-bench-connect-'));
     const keys = join(folder, 'grant-keys.json');
     const issuer = await makeIssuer();
@@ -63,7 +55,7 @@ export const bench: Bench = {
     try {
       const results = { ...(await connectEach(stack, issuer, count)), ...(await connectFirsts(starts)) };
       print(results);
-      if (values.json) printJson({ bench: 'connect', count, starts, busy, ...results });
+      if (json) printJson({ bench: 'connect', count, starts, busy, ...results });
     } finally {
       await stack.stop();
       loops.stop();

@@ -1,8 +1,8 @@
 /** `pnpm bench cpu`: what a frame costs, by process and thread of the robot, the page and its browser. */
 import { availableParallelism } from 'node:os';
-import { parseArgs } from 'node:util';
 import { simArguments } from '@farpoint/local-stack';
 import type { Page } from '@playwright/test';
+import { benchOptions, option } from './bench-options.ts';
 import {
   type BudgetRow,
   CPU_BUDGETS,
@@ -12,7 +12,7 @@ import {
 } from './cpu-budgets.ts';
 import { type LiveStackOptions, startLiveStack } from './live-stack.ts';
 import { driveInCircles } from './page.ts';
-import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, printJson, printTable } from './report.ts';
 import { type ProcessTree, perFrame, threadSeconds } from './thread-times.ts';
 
 const USAGE = `pnpm bench cpu [--load drive] [--seconds 20] [--json]
@@ -65,22 +65,13 @@ const LOADS: Readonly<Record<CpuLoad, Omit<LiveStackOptions, 'log' | 'robot'> & 
 export const bench: Bench = {
   name: 'cpu',
   summary: 'processor time of a frame, by process and thread, beside its budget',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        load: { type: 'string', default: 'drive' },
-        seconds: { type: 'string', default: '20' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const { load, seconds, json } = benchOptions(argv, {
+      load: option.choice('drive', Object.keys(LOADS) as CpuLoad[]),
+      seconds: option.number(20, { least: 1 }),
     });
-    if (values.help) return console.log(USAGE);
-    const seconds = numberOption('seconds', values.seconds, 1);
-    const name = values.load as CpuLoad;
-    if (!(name in LOADS))
-      throw new Error(`--load is \`${values.load}\`, not one of ${Object.keys(LOADS).join(', ')}`);
-    const { args, ...options } = LOADS[name];
+    const { args, ...options } = LOADS[load];
 
     const speedMs = calibrationMs();
     const live = await startLiveStack({
@@ -107,13 +98,13 @@ export const bench: Bench = {
       const frames = drawnAfter - drawnBefore;
       const msPerFrame = perFrame(before, after, frames, LEAST_MS);
       const elapsedS = (endedMs - beganMs) / 1000;
-      const rows = compareWithBudget(msPerFrame, CPU_BUDGETS[name], speedMs);
+      const rows = compareWithBudget(msPerFrame, CPU_BUDGETS[load], speedMs);
       const framesPerSecond = frames / elapsedS;
       print(rows, framesPerSecond);
-      if (values.json)
+      if (json)
         printJson({
           bench: 'cpu',
-          load: name,
+          load,
           seconds,
           calibrationMs: speedMs,
           cores: availableParallelism(),

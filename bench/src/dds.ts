@@ -5,16 +5,16 @@
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 import { DdsGraph } from '@farpoint/dds';
 import { buildAddon } from '@farpoint/dds/build';
-import { findPeer, PEER_REMEDY, Peer, type PeerKind, testDomain } from '@farpoint/dds/testing';
+import { findPeer, PEER_REMEDY, Peer, testDomain } from '@farpoint/dds/testing';
 import { LocalStack } from '@farpoint/local-stack';
 import { SignaledOperator } from '@farpoint/robot-node/testing';
 import { VELOCITY_QOS, velocityWriter } from '@farpoint/ros';
+import { benchOptions, type OptionValues, option } from './bench-options.ts';
 import { cpuSecondsOfTree } from './cpu-time.ts';
 import { type MeasuredSpan, measuredSpan, monotonicMs, wait } from './measured-span.ts';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { FrameColours, readFrameLog, residentPeakMb } from './robot-frames.ts';
 import { type Distribution, distribution, rounded } from './stats.ts';
 
@@ -26,67 +26,40 @@ Latency: from when the node starts to serialise a cloud until the robot has its 
 torn counts frames that arrived with two colours. Drive: from the operator's command until the node receives that Twist.
 Round trip: of a Twist from a graph in this process to the node and back. Loopback.`;
 
-const PEERS: Record<string, PeerKind> = { fastdds: 'Fast DDS', python: 'Python' };
+const PEERS = { fastdds: 'Fast DDS', python: 'Python' } as const;
 const ROBOT = 'dds-1';
 const WARM_UP_MS = 2000;
 const COMMAND_MS = 20;
 const TWIST = 'geometry_msgs/msg/Twist';
 
+const OPTIONS = {
+  peer: option.choice('fastdds', ['fastdds', 'python']),
+  side: option.number(480, { least: 1 }),
+  hz: option.number(10, { least: 0.1 }),
+  seconds: option.number(20, { least: 1 }),
+  mbps: option.number(20, { least: 1 }),
+  reliability: option.choice('best-effort', ['reliable', 'best-effort']),
+};
+
 export const bench: Bench = {
   name: 'dds',
   summary: 'a ROS 2 node on another DDS implementation: latency of clouds to packets, velocities, round trip',
+  usage: USAGE,
   async run(argv) {
-    const options = readOptions(argv);
-    if (options === null) return;
+    const { json, peer, ...settings } = benchOptions(argv, OPTIONS);
     const { ok, output } = buildAddon();
     if (!ok) throw new Error(`the addon does not build:\n${output}`);
-    const command = findPeer(options.kind);
-    if (command === null) throw new Error(`no ${options.kind} here: ${PEER_REMEDY[options.kind]}`);
-    const { json, ...settings } = options;
+    const kind = PEERS[peer];
+    const command = findPeer(kind);
+    if (command === null) throw new Error(`no ${kind} here: ${PEER_REMEDY[kind]}`);
     const result = await measure({ command, ...settings });
     print(result);
     if (json) {
       const points = settings.side * settings.side;
-      printJson({ bench: 'dds', ...settings, points, ...result });
+      printJson({ bench: 'dds', kind, ...settings, points, ...result });
     }
   },
 };
-
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
-function readOptions(argv: string[]): (Settings & { json: boolean | undefined }) | null {
-  const { values } = parseArgs({
-    args: argv,
-    options: {
-      peer: { type: 'string', default: 'fastdds' },
-      side: { type: 'string', default: '480' },
-      hz: { type: 'string', default: '10' },
-      seconds: { type: 'string', default: '20' },
-      mbps: { type: 'string', default: '20' },
-      reliability: { type: 'string', default: 'best-effort' },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
-  });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  const kind = PEERS[values.peer];
-  if (kind === undefined)
-    throw new Error(`--peer is \`${values.peer}\`, not ${Object.keys(PEERS).join(' or ')}`);
-  const { reliability } = values;
-  if (reliability !== 'reliable' && reliability !== 'best-effort')
-    throw new Error(`--reliability is \`${reliability}\`, not reliable or best-effort`);
-  return {
-    kind,
-    reliability,
-    side: numberOption('side', values.side, 1),
-    hz: numberOption('hz', values.hz, 0.1),
-    seconds: numberOption('seconds', values.seconds, 1),
-    mbps: numberOption('mbps', values.mbps, 1),
-    json: values.json,
-  };
-}
 
 function print(result: DdsResult): void {
   printTable(
@@ -113,16 +86,7 @@ function print(result: DdsResult): void {
   );
 }
 
-interface Settings {
-  kind: PeerKind;
-  side: number;
-  hz: number;
-  seconds: number;
-  mbps: number;
-  reliability: 'reliable' | 'best-effort';
-}
-
-interface Run extends Settings {
+interface Run extends Omit<OptionValues<typeof OPTIONS>, 'peer' | 'json'> {
   /** Command that starts the node. */
   command: string[];
 }

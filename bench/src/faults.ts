@@ -3,8 +3,8 @@ import { spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 import { type FaultTime, TIMES_FILE } from '@farpoint/robot-node/testing/fault-times';
+import { benchOptions } from './bench-options.ts';
 import { type Bench, printJson, printTable } from './report.ts';
 
 const USAGE = `pnpm bench faults [--json]
@@ -54,15 +54,12 @@ export function printFaults(faults: readonly FaultTime[]): void {
 export const bench: Bench = {
   name: 'faults',
   summary: 'faults at the real programs while driving: from the cause to braking',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: { json: { type: 'boolean' }, help: { type: 'boolean' } },
-    });
-    if (values.help) return console.log(USAGE);
+    const { json } = benchOptions(argv, {});
     const faults = await faultTimes();
     printFaults(faults);
-    if (values.json) printJson({ faults });
+    if (json) printJson({ faults });
     const late = faults.filter(({ ok }) => !ok);
     if (late.length > 0) throw new Error(`${late.length} of ${faults.length} braked too late`);
   },

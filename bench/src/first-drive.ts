@@ -3,13 +3,13 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { availableParallelism, tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 import { freePorts, ManagedProcess, repositoryRoot } from '@farpoint/local-stack';
+import { benchOptions, type OptionValues, option } from './bench-options.ts';
 import { BusyLoops } from './busy-loops.ts';
-import { FIRST_DRIVE_BROWSERS, type FirstDriveBrowser, openFirstDrive } from './first-drive-browser.ts';
+import { FIRST_DRIVE_BROWSERS, openFirstDrive } from './first-drive-browser.ts';
 import { type DriveFigures, driveFigures } from './first-drive-figures.ts';
 import { driveAbout, pause } from './first-drive-hand.ts';
-import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, printJson, printTable } from './report.ts';
 
 const USAGE = `pnpm bench first-drive [--seconds 60] [--sizes 1280x720,1920x1080] [--busy 0] [--here] [--throttle 1]
   [--browser chromium] [--headset] [--json]
@@ -38,33 +38,46 @@ interface Row extends DriveFigures {
   displayFramesPerSecond: number;
 }
 
-interface Options {
-  seconds: number;
-  busy: number;
-  throttle: number;
-  kind: FirstDriveBrowser;
-  headset: boolean;
-  here: boolean;
-  sizes: { width: number; height: number }[];
-  json: boolean | undefined;
+const OPTIONS = {
+  seconds: option.number(60, { least: 1 }),
+  sizes: option.list(
+    [
+      { width: 1280, height: 720 },
+      { width: 1920, height: 1080 },
+    ],
+    option.of(undefined, 'WIDTHxHEIGHT', parseSize),
+  ),
+  busy: option.number(0),
+  throttle: option.number(1, { least: 1 }),
+  here: option.flag,
+  browser: option.choice('chromium', FIRST_DRIVE_BROWSERS),
+  headset: option.flag,
+};
+type Options = OptionValues<typeof OPTIONS>;
+
+function parseSize(text: string): { width: number; height: number } | undefined {
+  const [width, height] = text.split('x').map(Number);
+  return width && height ? { width, height } : undefined;
 }
 
 export const bench: Bench = {
   name: 'first-drive',
   summary: 'a newcomer’s first drive on this computer',
+  usage: USAGE,
   async run(argv) {
-    const options = readOptions(argv);
-    if (options === null) return;
+    const options = benchOptions(argv, OPTIONS);
+    const { seconds, busy, throttle, browser, headset } = options;
+    if (browser !== 'chromium' && (headset || throttle > 1))
+      throw new Error('--headset and --throttle need Chromium');
     const rows = await driveAll(options);
     print(rows);
-    const { seconds, busy, throttle, kind, headset } = options;
     if (options.json)
       printJson({
         bench: 'first-drive',
         seconds,
         busy,
         throttle,
-        browser: kind,
+        browser,
         headset,
         cores: availableParallelism(),
         rows,
@@ -72,45 +85,16 @@ export const bench: Bench = {
   },
 };
 
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
-function readOptions(argv: string[]): Options | null {
-  const { values } = parseArgs({
-    args: argv,
-    options: {
-      seconds: { type: 'string', default: '60' },
-      sizes: { type: 'string', default: '1280x720,1920x1080' },
-      busy: { type: 'string', default: '0' },
-      throttle: { type: 'string', default: '1' },
-      here: { type: 'boolean', default: false },
-      browser: { type: 'string', default: 'chromium' },
-      headset: { type: 'boolean', default: false },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
-  });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  const seconds = numberOption('seconds', values.seconds, 1);
-  const busy = numberOption('busy', values.busy, 0);
-  const throttle = numberOption('throttle', values.throttle, 1);
-  const kind = values.browser as FirstDriveBrowser;
-  if (!FIRST_DRIVE_BROWSERS.includes(kind))
-    throw new Error(`--browser is \`${kind}\`, not one of ${FIRST_DRIVE_BROWSERS.join(', ')}`);
-  if (kind !== 'chromium' && (values.headset || throttle > 1))
-    throw new Error('--headset and --throttle need Chromium');
-  const sizes = values.sizes.split(',').map((size) => {
-    const [width, height] = size.split('x').map(Number);
-    if (!(width && height)) throw new Error(`--sizes: \`${size}\` is not WIDTHxHEIGHT`);
-    return { width, height };
-  });
-  const { headset, here, json } = values;
-  return { seconds, busy, throttle, kind, headset, here, sizes, json };
-}
-
 /** Starts `pnpm dev`, and drives once at each size of the page. */
-async function driveAll({ seconds, busy, throttle, kind, headset, here, sizes }: Options): Promise<Row[]> {
+async function driveAll({
+  seconds,
+  busy,
+  throttle,
+  browser: kind,
+  headset,
+  here,
+  sizes,
+}: Options): Promise<Row[]> {
   const folder = here ? repositoryRoot : clone();
   let loops: BusyLoops | null = null;
   let stack: ManagedProcess | null = null;

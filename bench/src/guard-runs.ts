@@ -1,6 +1,5 @@
 /** `pnpm bench guard-runs`: seeded drives at full speed under the obstacle guard. */
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 import {
   type GuardedRun,
   type GuardTimes,
@@ -13,8 +12,9 @@ import { roomRun } from '@farpoint/robot-node/testing/recorded-room';
 import { readRooms } from '@farpoint/robot-node/testing/room-files';
 import type { Codec } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { benchOptions, type OptionValues, option } from './bench-options.ts';
 import { Progress } from './progress.ts';
-import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench guard-runs [--runs 1000] [--seed 1] [--seconds 12] [--world NAME] [--sensors camera|camera-and-floor|drawn] [--json]
@@ -31,16 +31,27 @@ robot touched it, or fell into it, is counted apart, as unseen.
 With --rooms, the robot drives in recorded clouds that show a floor: its camera sees their points from where it is, and it
 starts where they were recorded, or up to half a metre from there. Contacts and false stops are those with their points.`;
 
+const OPTIONS = {
+  runs: option.number(1000, { least: 1 }),
+  seed: option.number(1),
+  seconds: option.number(12, { least: 1 }),
+  world: option.text(),
+  sensors: option.choice('camera', RUN_SENSORS),
+  rooms: option.flag,
+  clouds: option.text(join(import.meta.dirname, '../../../shared/data/clouds')),
+};
+type Options = OptionValues<typeof OPTIONS>;
+
 export const bench: Bench = {
   name: 'guard-runs',
   summary: 'simulated drives at full speed under the obstacle guard: contacts and false stops',
+  usage: USAGE,
   async run(argv) {
-    const options = readOptions(argv);
-    if (options === null) return;
+    const options = benchOptions(argv, OPTIONS);
     const codec = await loadCodecFromDisk();
     const drives = options.rooms
       ? roomDrives(codec, options.clouds)
-      : worldDrives(codec, options.world, sensorsOf(options.sensors));
+      : worldDrives(codec, options.world, options.sensors);
     if (drives.length === 0) return;
     const boundMs: number[] = [];
     const runs = await driveAll(drives, options, { now: () => performance.now(), boundMs });
@@ -61,37 +72,10 @@ export const bench: Bench = {
   },
 };
 
-type Options = NonNullable<ReturnType<typeof readOptions>>;
-
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
-function readOptions(argv: string[]) {
-  const { values } = parseArgs({
-    args: argv,
-    options: {
-      runs: { type: 'string', default: '1000' },
-      seed: { type: 'string', default: '1' },
-      seconds: { type: 'string', default: '12' },
-      world: { type: 'string' },
-      sensors: { type: 'string', default: 'camera' },
-      rooms: { type: 'boolean' },
-      clouds: { type: 'string', default: join(import.meta.dirname, '../../../shared/data/clouds') },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
-  });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  const count = numberOption('runs', values.runs, 1);
-  const seed = numberOption('seed', values.seed);
-  return { ...values, count, seed, seconds: numberOption('seconds', values.seconds, 1) };
-}
-
 /** Drives in each of the places in turn, and prints each contact and fall at once. */
 async function driveAll(
   drives: readonly Drive[],
-  { count, seed, seconds }: Options,
+  { runs: count, seed, seconds }: Options,
   times: GuardTimes,
 ): Promise<GuardedRun[]> {
   const runs: GuardedRun[] = [];
@@ -144,12 +128,6 @@ function print(rows: readonly ReturnType<typeof summaryOf>[]): void {
 
 /** One run in one of the places. */
 export type Drive = (seed: number, seconds: number, times: GuardTimes) => GuardedRun | Promise<GuardedRun>;
-
-function sensorsOf(given: string): RunSensors {
-  const known = RUN_SENSORS.find((sensors) => sensors === given);
-  if (known === undefined) throw new Error(`--sensors is ${given}, not one of ${RUN_SENSORS.join(', ')}`);
-  return known;
-}
 
 export function worldDrives(codec: Codec, name?: string, sensors: RunSensors = 'camera'): Drive[] {
   const worlds = RUN_WORLDS.filter((world) => name === undefined || world().name === name);

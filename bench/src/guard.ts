@@ -1,7 +1,6 @@
 /** `pnpm bench guard`: a kernel benchmark of the obstacle guard. */
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 import { decodeDepthPng, decodePcd, parseIntrinsics } from '@farpoint/cloud-formats';
 import { BlankFloor } from '@farpoint/robot-node/obstacles/blank-floor';
 import { opticalMount } from '@farpoint/robot-node/obstacles/sensor-mount';
@@ -10,7 +9,8 @@ import type { MotionGuard, ObstacleGuard } from '@farpoint/safety';
 import { DEFAULT_CAMERA, dockWorld, officeWorld, SimulatedBase, SimulatedCamera } from '@farpoint/sim';
 import { type Codec, ObstacleGrid, type SeenCells } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { benchOptions, option } from './bench-options.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { type Distribution, distribution, rounded, timeCalls } from './stats.ts';
 
 const USAGE = `pnpm bench guard [--rounds 300] [--clouds ../shared/data/clouds] [--json]
@@ -50,20 +50,14 @@ function poseOf(up: number, pitch: number): number[] {
 export const bench: Bench = {
   name: 'guard',
   summary: 'kernel: time of the obstacle guard, per cloud and per command',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        rounds: { type: 'string', default: '300' },
-        clouds: { type: 'string', default: join(import.meta.dirname, '../../../shared/data/clouds') },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const { rounds, clouds, json } = benchOptions(argv, {
+      rounds: option.number(300, { least: 1 }),
+      clouds: option.text(join(import.meta.dirname, '../../../shared/data/clouds')),
     });
-    if (values.help) return console.log(USAGE);
-    const rounds = numberOption('rounds', values.rounds, 1);
     const codec = await loadCodecFromDisk();
-    const rows = [...(await simulated(codec, rounds)), ...recorded(codec, values.clouds, rounds)];
+    const rows = [...(await simulated(codec, rounds)), ...recorded(codec, clouds, rounds)];
     const boundMs: number[] = [];
     for (const [i, world] of RUN_WORLDS.entries()) {
       await guardedRun(codec, world, i + 1, { times: { now: () => performance.now(), boundMs } });
@@ -89,7 +83,7 @@ export const bench: Bench = {
     );
     console.log(`a command: p50 ${bound.p50} ms, p95 ${bound.p95} ms, max ${bound.max} ms`);
     console.log(`the near field: p50 ${near.p50} ms, p95 ${near.p95} ms, max ${near.max} ms`);
-    if (values.json) printJson({ bench: 'guard', guardMs: rows[0]?.ms, boundMs: bound, nearMs: near, rows });
+    if (json) printJson({ bench: 'guard', guardMs: rows[0]?.ms, boundMs: bound, nearMs: near, rows });
   },
 };
 

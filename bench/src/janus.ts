@@ -2,7 +2,6 @@
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 import {
   chromiumLaunchOptions,
   findJanus,
@@ -15,10 +14,11 @@ import { JanusViewer } from '@farpoint/robot-node/testing/janus';
 import { availableEncoders } from '@farpoint/video';
 import type { WatchStats } from '@farpoint/webxr/watch-api';
 import { type Browser, chromium, type Page } from '@playwright/test';
+import { benchOptions, option } from './bench-options.ts';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { buildPage } from './live-stack.ts';
 import { wait } from './measured-span.ts';
-import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, printJson, printTable } from './report.ts';
 
 const USAGE = `pnpm bench janus [options]
 
@@ -49,30 +49,22 @@ interface RunOptions {
 export const bench: Bench = {
   name: 'janus',
   summary: 'what viewers at Janus cost the robot: uplink, processor, frame rates',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        viewers: { type: 'string', default: '1,10' },
-        seconds: { type: 'string', default: '20' },
-        mbps: { type: 'string', default: '3' },
-        encoder: { type: 'string', default: 'x264enc' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const { viewers, json, ...options } = benchOptions(argv, {
+      viewers: option.list([1, 10], option.number(undefined, { least: 1 })),
+      seconds: option.number(20, { least: 1 }),
+      mbps: option.number(3, { least: 0.1 }),
+      encoder: option.text('x264enc'),
     });
-    if (values.help) return console.log(USAGE);
     if (findJanus() === null) throw new Error(`Janus is not installed: ${JANUS_REMEDY}`);
     await availableEncoders();
-    const counts = values.viewers.split(',').map((text) => numberOption('viewers', text, 1));
-    const seconds = numberOption('seconds', values.seconds, 1);
-    const mbps = numberOption('mbps', values.mbps, 0.1);
     console.error('building the page');
     buildPage();
     const runs: Awaited<ReturnType<typeof measure>>[] = [];
-    for (const viewers of counts) {
-      console.error(`${viewers} viewers`);
-      runs.push(await measure({ viewers, seconds, mbps, encoder: values.encoder }));
+    for (const count of viewers) {
+      console.error(`${count} viewers`);
+      runs.push(await measure({ viewers: count, ...options }));
     }
     printTable(
       [
@@ -98,8 +90,7 @@ export const bench: Bench = {
         cloudAheadMs?.p95,
       ]),
     );
-    if (values.json)
-      printJson({ bench: 'janus', seconds, mbps, encoder: values.encoder, camera: CAMERA, runs });
+    if (json) printJson({ bench: 'janus', ...options, camera: CAMERA, runs });
   },
 };
 

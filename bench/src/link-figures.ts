@@ -38,7 +38,7 @@ export interface LinkRecord extends TimedRun {
 export type LinkFigures = ReturnType<typeof linkFigures>;
 
 export function linkFigures(options: LinkOptions, record: LinkRecord, samples: LinkSamples) {
-  const { values, robots } = options;
+  const { robots, cross, canvas } = options;
   const { zeroMs, endMs, statistics } = record;
   const { ownBytes, allBytes } = samples;
   const seconds = (endMs - zeroMs) / 1000;
@@ -56,7 +56,7 @@ export function linkFigures(options: LinkOptions, record: LinkRecord, samples: L
     recoverySeconds: rises.length === 0 ? null : worst(rises.map(({ recoverySeconds }) => recoverySeconds)),
     rises,
     outages: describeOutages(samples.outages, samples.allRobot, record.series, zeroMs),
-    shareAgainstCrossFlow: values.cross === undefined ? null : Number(shareOf(samples.bins).toFixed(3)),
+    shareAgainstCrossFlow: cross === undefined ? null : Number(shareOf(samples.bins).toFixed(3)),
     shareAmongRobots: robots === 1 ? null : Number((ownBytes / allBytes).toFixed(3)),
     robotCpu: robotCpuOf(record),
     robotMbps: Number(BitRate.toMbps(BitRate.of(ownBytes, samples.elapsedMs)).toFixed(2)),
@@ -64,20 +64,20 @@ export function linkFigures(options: LinkOptions, record: LinkRecord, samples: L
     linkCpu: record.linkCores,
     renderMs: statistics.renderMs,
     framesDropped: grown(samples.robot.map(({ framesDropped }) => framesDropped)),
-    canvas: values.canvas,
+    canvas,
     sensors: sensorRows(record.named, statistics.sensors, record.sensorsBefore, seconds),
   };
 }
 
-function settingsOf({ values, rateMbps, drawEvery }: LinkOptions) {
+function settingsOf({ trace, rateMbps, rttMs, queueMs, loss, mode, drawEvery, plan }: LinkOptions) {
   return {
-    link: values.trace === undefined ? `${rateMbps} Mbit/s` : basename(values.trace),
-    rttMs: Number(values['rtt-ms']),
-    queueLimitMs: Number(values['queue-ms']),
-    loss: Number(values.loss),
-    mode: values.mode,
+    link: trace === undefined ? `${rateMbps} Mbit/s` : basename(trace),
+    rttMs,
+    queueLimitMs: queueMs,
+    loss,
+    mode,
     drawnShare: Number((1 / drawEvery).toFixed(4)),
-    plan: values.plan,
+    plan,
   };
 }
 

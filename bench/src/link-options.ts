@@ -1,8 +1,7 @@
 /** The options of `pnpm bench link`. */
-import { parseArgs } from 'node:util';
-import { numberOption } from './report.ts';
+import { benchOptions, option } from './bench-options.ts';
 
-const USAGE = `pnpm bench link [options]
+export const LINK_USAGE = `pnpm bench link [options]
 
 Real robot (simulated office), signaling and headless Chromium; all packets between robot and browser pass an emulated link.
 The operator drives in circles and repeatedly tests the latency: from an input event to the end of the display frame that
@@ -28,54 +27,35 @@ shows the whole green cloud (mtpMs) or its first points (mtpFirstMs). Figures co
   --json`;
 
 /** About a thousand points per display frame, for a sample and for a whole cloud. */
-const DRAW_EVERY = { points64: '8', auto: '192' } as const;
+const DRAW_EVERY = { points64: 8, auto: 192 } as const;
 
-export type LinkOptions = NonNullable<ReturnType<typeof readLinkOptions>>;
+export type LinkOptions = ReturnType<typeof readLinkOptions>;
 
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
+/** @throws {Error} naming the option */
 export function readLinkOptions(argv: string[]) {
-  const { values } = parseArgs({
-    args: argv,
-    options: {
-      'rate-mbps': { type: 'string' },
-      trace: { type: 'string' },
-      'rtt-ms': { type: 'string', default: '42.4' },
-      'jitter-ms': { type: 'string', default: '0' },
-      loss: { type: 'string', default: '0' },
-      'burst-loss': { type: 'string', default: '0' },
-      'queue-ms': { type: 'string', default: '100' },
-      cross: { type: 'string' },
-      robots: { type: 'string', default: '1' },
-      sensors: { type: 'string', default: '1' },
-      seconds: { type: 'string', default: '30' },
-      mode: { type: 'string', default: 'points64' },
-      'draw-every': { type: 'string' },
-      fps: { type: 'string', default: '60' },
-      plan: { type: 'string', default: 'latency' },
-      'rate-control': { type: 'string', default: 'adaptive' },
-      canvas: { type: 'string', default: '160x90' },
-      plot: { type: 'string' },
-      keep: { type: 'string' },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
+  const { rateMbps, ...options } = benchOptions(argv, {
+    rateMbps: option.number(undefined, { least: 0.1 }),
+    trace: option.text(),
+    rttMs: option.number(42.4),
+    jitterMs: option.number(0),
+    loss: option.number(0),
+    burstLoss: option.number(0),
+    queueMs: option.number(100),
+    cross: option.text(),
+    robots: option.number(1, { least: 1 }),
+    sensors: option.number(1, { least: 1, most: 8, whole: true }),
+    seconds: option.number(30, { least: 6 }),
+    mode: option.choice('points64', ['points64', 'auto']),
+    drawEvery: option.number(undefined, { least: 1 }),
+    fps: option.number(60, { least: 1 }),
+    plan: option.text('latency'),
+    rateControl: option.text('adaptive'),
+    canvas: option.text('160x90'),
+    plot: option.text(),
+    keep: option.text(),
   });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  if (values.trace !== undefined && values['rate-mbps'] !== undefined)
+  if (options.trace !== undefined && rateMbps !== undefined)
     throw new Error('--rate-mbps and --trace exclude each other');
-  if (values.mode !== 'points64' && values.mode !== 'auto')
-    throw new Error(`--mode is \`${values.mode}\`, not points64 or auto`);
-  const rateMbps = numberOption('rate-mbps', values['rate-mbps'] ?? '41.44', 0.1);
-  const seconds = numberOption('seconds', values.seconds, 6);
-  const drawEvery = numberOption('draw-every', values['draw-every'] ?? DRAW_EVERY[values.mode], 1);
-  const robots = numberOption('robots', values.robots, 1);
-  const fps = numberOption('fps', values.fps, 1);
-  const sensors = numberOption('sensors', values.sensors, 1);
-  if (!Number.isInteger(sensors) || sensors < 1 || sensors > 8)
-    throw new Error(`--sensors is \`${values.sensors}\`, not a number from 1 to 8`);
-  const { mode } = values;
-  return { values: { ...values, mode }, rateMbps, seconds, drawEvery, robots, fps, sensors };
+  const { drawEvery = DRAW_EVERY[options.mode] } = options;
+  return { ...options, rateMbps: rateMbps ?? 41.44, drawEvery };
 }

@@ -4,11 +4,9 @@ import type { LinkOptions } from './link-options.ts';
 import { distributionCells, printTable } from './report.ts';
 
 export function printLink(options: LinkOptions, result: LinkFigures): void {
-  const { values, drawEvery } = options;
+  const { canvas, drawEvery } = options;
   printLatencies(result);
-  console.log(
-    `drawn: ${drawEvery === 1 ? 'all points' : `1 of ${drawEvery} points`}, ${values.canvas} pixels`,
-  );
+  console.log(`drawn: ${drawEvery === 1 ? 'all points' : `1 of ${drawEvery} points`}, ${canvas} pixels`);
   console.log('');
   printStream(result);
   if (options.sensors > 1) printSensors(result);
@@ -18,7 +16,7 @@ export function printLink(options: LinkOptions, result: LinkFigures): void {
     );
   }
   if (result.shareAgainstCrossFlow !== null)
-    console.log(`share against ${values.cross}: ${(result.shareAgainstCrossFlow * 100).toFixed(0)} %`);
+    console.log(`share against ${options.cross}: ${(result.shareAgainstCrossFlow * 100).toFixed(0)} %`);
   if (result.shareAmongRobots !== null)
     console.log(
       `share of the first of ${options.robots} robots: ${(result.shareAmongRobots * 100).toFixed(0)} %`,
@@ -80,9 +78,9 @@ function printSensors({ sensors }: LinkFigures): void {
   );
 }
 
-export function plotTitles({ values }: LinkOptions, { link, mtpMs, utilisation }: LinkFigures) {
+export function plotTitles(options: LinkOptions, { link, mtpMs, utilisation }: LinkFigures) {
   return {
-    title: `Farpoint over ${link}, RTT ${values['rtt-ms']} ms`,
-    subtitle: `${values.mode === 'auto' ? 'the whole cloud' : 'points64'}, ${values.plan} plan, ${values['rate-control']} rate; motion to photon p50 ${mtpMs.p50} ms, p95 ${mtpMs.p95} ms; utilisation ${(utilisation * 100).toFixed(0)} %`,
+    title: `Farpoint over ${link}, RTT ${options.rttMs} ms`,
+    subtitle: `${options.mode === 'auto' ? 'the whole cloud' : 'points64'}, ${options.plan} plan, ${options.rateControl} rate; motion to photon p50 ${mtpMs.p50} ms, p95 ${mtpMs.p95} ms; utilisation ${(utilisation * 100).toFixed(0)} %`,
   };
 }

@@ -5,7 +5,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { type LinkRecord, linkFigures } from './link-figures.ts';
-import { type LinkOptions, readLinkOptions } from './link-options.ts';
+import { LINK_USAGE, type LinkOptions, readLinkOptions } from './link-options.ts';
 import { downlinkOutages, traceOutages } from './link-outages.ts';
 import { plotLink } from './link-plot.ts';
 import { plotTitles, printLink } from './link-report.ts';
@@ -22,12 +22,12 @@ const CONNECT_MBPS = 10;
 export const bench: Bench = {
   name: 'link',
   summary: 'the whole stack over an emulated link: utilisation, latency, recovery',
+  usage: LINK_USAGE,
   async run(argv) {
     const options = readLinkOptions(argv);
-    if (options === null) return;
-    const { values, robots } = options;
+    const { robots, keep, plot } = options;
 
-    const folder = values.keep ?? mkdtempSync(join(tmpdir(), 'farpoint-link-'));
+    const folder = keep ?? mkdtempSync(join(tmpdir(), 'farpoint-link-'));
     const files: LinkFiles = {
       link: join(folder, 'link.jsonl'),
       robots: Array.from({ length: robots }, (_, i) => join(folder, `robot-${i + 1}.jsonl`)),
@@ -39,23 +39,23 @@ export const bench: Bench = {
       const samples = linkSamples(record, files);
       const result = linkFigures(options, record, samples);
       printLink(options, result);
-      if (values.plot !== undefined) {
+      if (plot !== undefined) {
         const { allBins: bins, allRobot: robot, allLatencies: latencies, outages } = samples;
         const titles = plotTitles(options, result);
         const svg = plotLink({ ...titles, zeroMs: record.zeroMs, bins, robot, latencies, outages });
-        writeFileSync(values.plot, svg);
-        console.error(`${values.plot} written`);
+        writeFileSync(plot, svg);
+        console.error(`${plot} written`);
       }
-      if (values.json) printJson(result);
+      if (options.json) printJson(result);
     } finally {
       await live.close();
-      if (values.keep === undefined) rmSync(folder, { recursive: true, force: true });
+      if (keep === undefined) rmSync(folder, { recursive: true, force: true });
     }
   },
 };
 
 function stackOptions(options: LinkOptions, files: LinkFiles): LiveStackOptions {
-  const { values, drawEvery } = options;
+  const { canvas, drawEvery, trace } = options;
   const [first, ...others] = files.robots.map((statsFile, i) => ({
     id: `sim-${i + 1}`,
     name: `Simulated robot ${i + 1}`,
@@ -64,9 +64,9 @@ function stackOptions(options: LinkOptions, files: LinkFiles): LiveStackOptions 
   return {
     robot: first as NonNullable<typeof first>,
     otherRobots: others,
-    canvas: values.canvas,
+    canvas,
     query: `every=${drawEvery}`,
-    ...(values.trace === undefined ? {} : { connectAtMbps: CONNECT_MBPS }),
+    ...(trace === undefined ? {} : { connectAtMbps: CONNECT_MBPS }),
     link: {
       args: linkArgs(options),
       statsFile: files.link,
@@ -76,16 +76,16 @@ function stackOptions(options: LinkOptions, files: LinkFiles): LiveStackOptions 
   };
 }
 
-function robotArgs({ values, fps, sensors }: LinkOptions, statsFile: string): string[] {
+function robotArgs({ fps, plan, rateControl, mode, sensors }: LinkOptions, statsFile: string): string[] {
   return [
     '--fps',
     String(fps),
     '--plan',
-    values.plan,
+    plan,
     '--rate-control',
-    values['rate-control'],
+    rateControl,
     '--mode',
-    values.mode,
+    mode,
     ...(sensors > 1 ? ['--sim-lidars', String(sensors - 1)] : []),
     '--bitrate-mbps',
     '200',
@@ -94,30 +94,30 @@ function robotArgs({ values, fps, sensors }: LinkOptions, statsFile: string): st
   ];
 }
 
-function linkArgs({ values, rateMbps }: LinkOptions): string[] {
+function linkArgs({ rateMbps, trace, cross, ...link }: LinkOptions): string[] {
   const capacity =
-    values.trace === undefined
+    trace === undefined
       ? ['--rate-mbps', String(rateMbps)]
       : [
           '--up-trace',
-          values.trace,
+          trace,
           '--down-rate-mbps',
           String(DOWNLINK_MBPS),
-          ...downlinkOutages(traceOutages(values.trace)),
+          ...downlinkOutages(traceOutages(trace)),
         ];
   return [
     ...capacity,
     '--rtt-ms',
-    values['rtt-ms'],
+    String(link.rttMs),
     '--jitter-ms',
-    values['jitter-ms'],
+    String(link.jitterMs),
     '--queue-ms',
-    values['queue-ms'],
+    String(link.queueMs),
     '--loss',
-    values.loss,
+    String(link.loss),
     '--burst-loss',
-    values['burst-loss'],
-    ...(values.cross === undefined ? [] : ['--up-cross', values.cross]),
+    String(link.burstLoss),
+    ...(cross === undefined ? [] : ['--up-cross', cross]),
   ];
 }
 

@@ -1,7 +1,8 @@
 /** `pnpm bench memory`: a kernel benchmark of the remembered world, against what is truly there. */
-import { parseArgs } from 'node:util';
+
+import { benchOptions, option } from './bench-options.ts';
 import { rememberedDrive } from './memory/remembered-drive.ts';
-import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench memory [--seconds 60] [--seed 1] [--json]
@@ -14,18 +15,12 @@ that is farther than 0.25 m, workMs the time of a key frame in the worker.`;
 export const bench: Bench = {
   name: 'memory',
   summary: 'kernel: how much of the true world is remembered, how truly, and at what cost',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        seconds: { type: 'string', default: '60' },
-        seed: { type: 'string', default: '1' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const { seconds, seed, json } = benchOptions(argv, {
+      seconds: option.number(60, { least: 5 }),
+      seed: option.number(1),
     });
-    if (values.help) return console.log(USAGE);
-    const [seconds, seed] = [numberOption('seconds', values.seconds, 5), numberOption('seed', values.seed)];
     const { distancesM, workMs, remembered, ghosts, surfels, bytes } = await rememberedDrive(seconds, seed);
     const result = {
       remembered: share(remembered),
@@ -50,7 +45,7 @@ export const bench: Bench = {
         ],
       ],
     );
-    if (values.json) printJson({ bench: 'memory', seconds, seed, ...result });
+    if (json) printJson({ bench: 'memory', seconds, seed, ...result });
   },
 };
 

@@ -1,8 +1,8 @@
 /** `pnpm bench mtp`: motion-to-photon latency of the whole stack on this machine, without a network in between. */
-import { parseArgs } from 'node:util';
 import { POINTS_PER_PACKET } from '@farpoint/protocol';
+import { benchOptions, type OptionValues, option } from './bench-options.ts';
 import { startLiveStack } from './live-stack.ts';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench mtp [--points 30000] [--fps 30] [--samples 100] [--mbps 300] [--canvas 160x90] [--json]
@@ -11,21 +11,21 @@ Real signaling, robot (simulated office) and headless Chromium. Each sample is o
 end of the display frame that shows the whole green cloud (mtpMs) or its first points (mtpFirstMs). Input events are not
 synchronised with the camera. --mbps limits what the robot sends; the camera has 480 × 480 points.`;
 
-interface Options {
-  points: number;
-  fps: number;
-  samples: number;
-  mbps: number;
-  canvas: string;
-  json: boolean | undefined;
-}
+const OPTIONS = {
+  points: option.number(30_000, { least: POINTS_PER_PACKET }),
+  fps: option.number(30, { least: 1 }),
+  samples: option.number(100, { least: 1 }),
+  mbps: option.number(300, { least: 1 }),
+  canvas: option.text('160x90'),
+};
+type Options = OptionValues<typeof OPTIONS>;
 
 export const bench: Bench = {
   name: 'mtp',
   summary: 'motion-to-photon of the whole stack on this machine',
+  usage: USAGE,
   async run(argv) {
-    const options = readOptions(argv);
-    if (options === null) return;
+    const options = benchOptions(argv, OPTIONS);
     const live = await startLiveStack({
       robot: { id: 'sim-1', name: 'Simulated robot', args: robotArgs(options) },
       canvas: options.canvas,
@@ -44,34 +44,6 @@ export const bench: Bench = {
     }
   },
 };
-
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
-function readOptions(argv: string[]): Options | null {
-  const { values } = parseArgs({
-    args: argv,
-    options: {
-      points: { type: 'string', default: '30000' },
-      fps: { type: 'string', default: '30' },
-      samples: { type: 'string', default: '100' },
-      mbps: { type: 'string', default: '300' },
-      canvas: { type: 'string', default: '160x90' },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
-  });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  return {
-    points: numberOption('points', values.points, POINTS_PER_PACKET),
-    fps: numberOption('fps', values.fps, 1),
-    samples: numberOption('samples', values.samples, 1),
-    mbps: numberOption('mbps', values.mbps, 1),
-    canvas: values.canvas,
-    json: values.json,
-  };
-}
 
 function robotArgs({ points, fps, mbps }: Options): string[] {
   return [

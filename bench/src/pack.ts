@@ -1,5 +1,4 @@
 /** `pnpm bench pack`: a kernel benchmark of the points64 layout. */
-import { parseArgs } from 'node:util';
 import {
   CloudDecoder,
   type Codec,
@@ -8,8 +7,9 @@ import {
   packetsFor,
 } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { benchOptions, option } from './bench-options.ts';
 import { packPlainly, unpackPlainly } from './pack-plain.ts';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { hallCloud } from './sampling-scene.ts';
 import { type Distribution, distribution, rounded, timeCalls } from './stats.ts';
 
@@ -21,24 +21,17 @@ again, in WASM and in plain JavaScript.`;
 export const bench: Bench = {
   name: 'pack',
   summary: 'kernel: time to pack and unpack points64 packets, compared with plain JavaScript',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        points: { type: 'string', default: '30000' },
-        raw: { type: 'string', default: '230400' },
-        rounds: { type: 'string', default: '500' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const { points, rounds, json, ...options } = benchOptions(argv, {
+      points: option.number(30_000, { least: 1 }),
+      raw: option.number(230_400, { least: 1 }),
+      rounds: option.number(500, { least: 1 }),
     });
-    if (values.help) return console.log(USAGE);
-    const count = numberOption('points', values.points, 1);
-    const raw = Math.max(numberOption('raw', values.raw, 1), Math.ceil(count * 1.2));
-    const rounds = numberOption('rounds', values.rounds, 1);
-    const times = measure(await loadCodecFromDisk(), { count, raw, rounds });
+    const raw = Math.max(options.raw, Math.ceil(points * 1.2));
+    const times = measure(await loadCodecFromDisk(), { count: points, raw, rounds });
     print(times);
-    if (values.json) printJson(figuresOf(times));
+    if (json) printJson(figuresOf(times));
   },
 };
 

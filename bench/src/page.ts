@@ -1,12 +1,12 @@
 /** `pnpm bench page`: what the operator's page costs its own main thread and memory, for as long as one likes. */
-import { parseArgs } from 'node:util';
 import type {} from '@farpoint/webxr/test-api';
 import type { Page } from '@playwright/test';
+import { benchOptions, type OptionValues, option } from './bench-options.ts';
 import { type CpuBudget, calibrationMs, compareWithBudget } from './cpu-budgets.ts';
 import { type LiveStack, startLiveStack } from './live-stack.ts';
 import { type CpuProfile, mainThreadTime } from './page-profile.ts';
 import { memoryMbOf } from './process-memory.ts';
-import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, printJson, printTable } from './report.ts';
 
 const USAGE = `pnpm bench page [--seconds 60] [--fps 58] [--mbps 41.44] [--draw-every 8] [--surface] [--memory]
   [--canvas 160x90] [--json]
@@ -25,13 +25,14 @@ const PROFILE_MS = 10_000;
 const SAMPLE_EVERY_US = 500;
 
 /** The load that the budgets are for. */
-const USUAL = {
-  fps: '58',
-  mbps: '41.44',
-  'draw-every': '8',
-  canvas: '160x90',
-  surface: false,
-  memory: false,
+const LOAD = {
+  fps: option.number(58, { least: 1 }),
+  mbps: option.number(41.44, { least: 0.1 }),
+  /** Draws 1 of so many points. */
+  drawEvery: option.number(8, { least: 1 }),
+  canvas: option.text('160x90'),
+  surface: option.flag,
+  memory: option.flag,
 };
 /** Milliseconds a frame on the main thread, on the budgets' computer. */
 const BUDGET: CpuBudget = { script: 3.1, browser: 2.6, total: 5.7 };
@@ -43,13 +44,19 @@ interface Memory {
   heapMb: number;
 }
 
+const OPTIONS = {
+  seconds: option.number(60, { least: (WARM_UP_MS + PROFILE_MS) / 1000 }),
+  ...LOAD,
+};
+type Options = OptionValues<typeof OPTIONS>;
+
 export const bench: Bench = {
   name: 'page',
   summary: 'main thread, memory and first picture of the operator’s page',
+  usage: USAGE,
   async run(argv) {
-    const options = readOptions(argv);
-    if (options === null) return;
-    const { fps, mbps, every, values } = options;
+    const options = benchOptions(argv, OPTIONS);
+    const { fps, mbps, drawEvery, canvas, surface, memory } = options;
     const speedMs = calibrationMs();
     const live = await startLiveStack({
       robot: {
@@ -57,54 +64,20 @@ export const bench: Bench = {
         name: 'Simulated robot',
         args: ['--fps', String(fps), '--rate-control', 'fixed', '--bitrate-mbps', String(mbps)],
       },
-      canvas: values.canvas,
-      query: `every=${every}`,
-      stored: { 'farpoint.clouds': { surface: values.surface, memory: values.memory } },
+      canvas,
+      query: `every=${drawEvery}`,
+      stored: { 'farpoint.clouds': { surface, memory } },
       log: (line) => console.error(line),
     });
     try {
       const result = figuresOf(options, speedMs, await measure(live, options.seconds));
       print(result);
-      if (values.json) printJson(result);
+      if (options.json) printJson(result);
     } finally {
       await live.close();
     }
   },
 };
-
-type Options = NonNullable<ReturnType<typeof readOptions>>;
-
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
-function readOptions(argv: string[]) {
-  const { values } = parseArgs({
-    args: argv,
-    options: {
-      seconds: { type: 'string', default: '60' },
-      fps: { type: 'string', default: USUAL.fps },
-      mbps: { type: 'string', default: USUAL.mbps },
-      'draw-every': { type: 'string', default: USUAL['draw-every'] },
-      surface: { type: 'boolean', default: USUAL.surface },
-      memory: { type: 'boolean', default: USUAL.memory },
-      canvas: { type: 'string', default: USUAL.canvas },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
-  });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  const load = Object.keys(USUAL) as (keyof typeof USUAL)[];
-  return {
-    values,
-    seconds: numberOption('seconds', values.seconds, (WARM_UP_MS + PROFILE_MS) / 1000),
-    fps: numberOption('fps', values.fps, 1),
-    mbps: numberOption('mbps', values.mbps, 0.1),
-    /** Draws 1 of so many points. */
-    every: numberOption('draw-every', values['draw-every'], 1),
-    isUsual: load.every((option) => values[option] === USUAL[option]),
-  };
-}
 
 interface Measured {
   firstPictureMs: number;
@@ -145,11 +118,8 @@ async function memoryOf(page: Page, browserPid: number, beganMs: number): Promis
 type Figures = ReturnType<typeof figuresOf>;
 
 /** @param speedMs this computer's calibration @returns the object that `--json` prints */
-function figuresOf(
-  { values, ...options }: Options,
-  speedMs: number,
-  { firstPictureMs, profile, memory }: Measured,
-) {
+function figuresOf(options: Options, speedMs: number, { firstPictureMs, profile, memory }: Measured) {
+  const isUsual = Object.entries(LOAD).every(([name, row]) => options[name as keyof Options] === row.default);
   const perFrame = (ms: number) => Number((ms / Math.max(profile.frames, 1)).toFixed(3));
   // Waiting costs nothing: it takes what the renderer leaves.
   const { scriptMs, browserMs, waitingMs, idleMs } = profile.time;
@@ -161,11 +131,11 @@ function figuresOf(
   return {
     bench: 'page',
     seconds: options.seconds,
-    surface: values.surface,
-    memory: values.memory,
-    drawnShare: Number((1 / options.every).toFixed(4)),
+    surface: options.surface,
+    memory: options.memory,
+    drawnShare: Number((1 / options.drawEvery).toFixed(4)),
     calibrationMs: speedMs,
-    budget: compareWithBudget(parts, options.isUsual ? BUDGET : {}, speedMs),
+    budget: compareWithBudget(parts, isUsual ? BUDGET : {}, speedMs),
     framesPerSecond: Number(((profile.frames * 1000) / PROFILE_MS).toFixed(1)),
     pointsPerFrame: Math.round(profile.points / Math.max(profile.frames, 1)),
     mainThreadMs: perFrame(scriptMs),

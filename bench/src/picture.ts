@@ -1,11 +1,11 @@
 /** `pnpm bench picture`: the same view over the same link in each mode, side by side. */
 
 import { writeFileSync } from 'node:fs';
-import { parseArgs } from 'node:util';
 import { BitRate } from '@farpoint/timing';
 import { decode, encode } from 'fast-png';
+import { benchOptions, option } from './bench-options.ts';
 import { startLiveStack } from './live-stack.ts';
-import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, printJson, printTable } from './report.ts';
 
 const USAGE = `pnpm bench picture --out FILE.png [--rate-mbps 8] [--rtt-ms 42.4] [--fps 10] [--seconds 10] [--size 640x480] [--json]
 
@@ -23,8 +23,8 @@ interface Picture {
 
 interface View {
   rateMbps: number;
-  rttMs: string;
-  fps: string;
+  rttMs: number;
+  fps: number;
   seconds: number;
   width: number;
   height: number;
@@ -33,31 +33,23 @@ interface View {
 export const bench: Bench = {
   name: 'picture',
   summary: 'what an operator sees over a link: points64 compared with the whole cloud',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        out: { type: 'string' },
-        'rate-mbps': { type: 'string', default: '8' },
-        'rtt-ms': { type: 'string', default: '42.4' },
-        fps: { type: 'string', default: '10' },
-        seconds: { type: 'string', default: '10' },
-        size: { type: 'string', default: '640x480' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const { out, size, json, ...link } = benchOptions(argv, {
+      out: option.text(),
+      rateMbps: option.number(8, { least: 0.1 }),
+      rttMs: option.number(42.4),
+      fps: option.number(10),
+      seconds: option.number(10, { least: 1 }),
+      size: option.text('640x480'),
     });
-    if (values.help) return console.log(USAGE);
-    if (values.out === undefined) throw new Error('--out FILE.png is missing');
-    const rateMbps = numberOption('rate-mbps', values['rate-mbps'], 0.1);
-    const seconds = numberOption('seconds', values.seconds, 1);
-    const [width, height] = values.size.split('x').map(Number) as [number, number];
-    if (!Number.isInteger(width) || !Number.isInteger(height))
-      throw new Error(`--size is \`${values.size}\``);
-    const view = { rateMbps, rttMs: values['rtt-ms'], fps: values.fps, seconds, width, height };
+    if (out === undefined) throw new Error('--out FILE.png is missing');
+    const [width, height] = size.split('x').map(Number) as [number, number];
+    if (!Number.isInteger(width) || !Number.isInteger(height)) throw new Error(`--size is \`${size}\``);
+    const view = { ...link, width, height };
     const pictures: Picture[] = [];
     for (const mode of ['points64', 'auto']) pictures.push(await pictureIn(mode, view));
-    writeFileSync(values.out, sideBySide(pictures, width, height));
+    writeFileSync(out, sideBySide(pictures, width, height));
     const rows = pictures.map(({ mode, pointsPerFrame, framesPerSecond, mbps }) => ({
       mode,
       pointsPerFrame: Math.round(pointsPerFrame),
@@ -68,7 +60,7 @@ export const bench: Bench = {
       ['mode', 'points a frame', 'frames/s', 'Mbit/s'],
       rows.map((row) => [row.mode, row.pointsPerFrame, row.framesPerSecond, row.mbps]),
     );
-    if (values.json) printJson({ bench: 'picture', rateMbps, out: values.out, rows });
+    if (json) printJson({ bench: 'picture', rateMbps: link.rateMbps, out, rows });
   },
 };
 
@@ -77,11 +69,11 @@ async function pictureIn(
   { rateMbps, rttMs, fps, seconds, width, height }: View,
 ): Promise<Picture> {
   const live = await startLiveStack({
-    robot: { id: 'sim-1', name: 'Simulated robot', args: ['--mode', mode, '--fps', fps] },
+    robot: { id: 'sim-1', name: 'Simulated robot', args: ['--mode', mode, '--fps', String(fps)] },
     canvas: `${width}x${height}`,
     query: 'every=1',
     link: {
-      args: ['--rate-mbps', String(rateMbps), '--rtt-ms', rttMs, '--queue-ms', '100'],
+      args: ['--rate-mbps', String(rateMbps), '--rtt-ms', String(rttMs), '--queue-ms', '100'],
       env: { FARPOINT_LOG_LEVEL: 'warn' },
     },
     log: (line) => console.error(`${mode}: ${line}`),

@@ -1,9 +1,9 @@
 /** `pnpm bench pictures`: a kernel benchmark of how the robot processes a camera's picture. */
-import { parseArgs } from 'node:util';
 import { PictureCodec, ShrinkingFilter } from '@farpoint/pictures';
 import { pictureRows } from '@farpoint/ros';
 import { Simulation } from '@farpoint/sim';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { benchOptions, option } from './bench-options.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { distribution, rounded, timeCalls } from './stats.ts';
 
 const USAGE = `pnpm bench pictures [--width 640] [--height 480] [--quality 70] [--rounds 200] [--json]
@@ -14,23 +14,14 @@ of that size into JPEGs at full and at half size.`;
 export const bench: Bench = {
   name: 'pictures',
   summary: 'kernel: shrinking a camera’s picture and encoding it as JPEG',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        width: { type: 'string', default: '640' },
-        height: { type: 'string', default: '480' },
-        quality: { type: 'string', default: '70' },
-        rounds: { type: 'string', default: '200' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const { width, height, quality, rounds, json } = benchOptions(argv, {
+      width: option.number(640, { least: 16 }),
+      height: option.number(480, { least: 16 }),
+      quality: option.number(70, { least: 1 }),
+      rounds: option.number(200, { least: 1 }),
     });
-    if (values.help) return console.log(USAGE);
-    const width = numberOption('width', values.width, 16);
-    const height = numberOption('height', values.height, 16);
-    const quality = numberOption('quality', values.quality, 1);
-    const rounds = numberOption('rounds', values.rounds, 1);
 
     const simulation = await Simulation.create({ seed: 1, camera: { width, height } });
     const { colour } = simulation.renderFrame({ points: false });
@@ -64,7 +55,7 @@ export const bench: Bench = {
         ['bgr8, halved, to JPEG', ...distributionCells(halved), made(2).length],
       ],
     );
-    if (values.json) {
+    if (json) {
       const bytes = { bytes: jpeg.length, halvedBytes: made(2).length };
       const times = { encodeMs: encode, decodeMs: decode, wholeMs: whole, halvedMs: halved };
       printJson({ bench: 'pictures', width, height, quality, ...bytes, ...times });

@@ -1,9 +1,10 @@
 /** `pnpm bench prediction`: how far the view is from the robot, with and without prediction, in simulated time. */
-import { parseArgs } from 'node:util';
+
+import { benchOptions, option } from './bench-options.ts';
 import type { BaseKind } from './prediction-bases.ts';
 import { ROUND_S } from './prediction-drive.ts';
 import { type DriveResult, type DriveSpec, driveOnce } from './prediction-run.ts';
-import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, printJson, printTable } from './report.ts';
 
 const USAGE = `pnpm bench prediction [--rounds 4] [--seed 1] [--json]
 
@@ -63,26 +64,18 @@ export function meetsTargets({
 export const bench: Bench = {
   name: 'prediction',
   summary: 'kernel: error of the predicted view against the robot’s true pose, in simulated time',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        rounds: { type: 'string', default: '4' },
-        seed: { type: 'string', default: '1' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
-    });
-    if (values.help) return console.log(USAGE);
-    const rounds = Math.round(numberOption('rounds', values.rounds, 2));
-    const seed = Math.round(numberOption('seed', values.seed));
+    const options = benchOptions(argv, { rounds: option.number(4, { least: 2 }), seed: option.number(1) });
+    const rounds = Math.round(options.rounds);
+    const seed = Math.round(options.seed);
     const results = Object.entries(specs(rounds, seed)).map(([link, spec]) => ({ link, ...driveOnce(spec) }));
     print(results);
     const target = results.find(({ spec }) => spec.loopMs === TARGET_LOOP_MS) as LinkResult;
     console.log(
       `rounds of ${Math.round(ROUND_S)} s; 150 ms ${meetsTargets(target) ? 'meets' : 'MISSES'} its targets`,
     );
-    if (values.json) printJson({ ...figuresOf(target), rows: results });
+    if (options.json) printJson({ ...figuresOf(target), rows: results });
   },
 };
 

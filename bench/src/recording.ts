@@ -5,9 +5,9 @@
 import { mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 import { MAX_VIDEOS } from '@farpoint/protocol';
 import { openRecording } from '@farpoint/recording';
+import { benchOptions, type OptionValues, option } from './bench-options.ts';
 import {
   CAMERA,
   encodedVideos,
@@ -16,7 +16,7 @@ import {
   recordedVideo,
   videoArgs,
 } from './recorded-videos.ts';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { buildSharedMemory, type LayoutResult, measure, type ShmRun } from './shm-run.ts';
 
 const USAGE = `pnpm bench recording [--size 480] [--fps 30] [--captured-fps 30] [--seconds 60] [--mbps 20] [--pictures 0] [--videos 0] [--encoder x264enc] [--compression none] [--folder FOLDER] [--json]
@@ -29,27 +29,28 @@ Lost frames of a video: gaps in the capture times in the file. Main: the robot's
 Latency: from when the camera starts to write a frame until the robot has its packets ready. Memory: of the robot process, in
 the first and the last fifth of the run. Afterwards the file is read back and every message is counted.`;
 
-interface Options {
-  size: number;
-  fps: number;
-  seconds: number;
-  mbps: number;
-  picturesPerSecond: number;
-  videos: number;
-  capturedFps: string;
-  encoder: string;
-  compression: string;
-  /** Folder in which the session's own folder is made. */
-  folder: string;
-  json: boolean | undefined;
-}
+const OPTIONS = {
+  size: option.number(480, { least: 16 }),
+  fps: option.number(30, { least: 1 }),
+  capturedFps: option.number(30),
+  seconds: option.number(60, { least: 5 }),
+  mbps: option.number(20, { least: 1 }),
+  /** Pictures a second; 0 without. */
+  pictures: option.number(0),
+  videos: option.number(0, { most: MAX_VIDEOS, whole: true }),
+  encoder: option.text('x264enc'),
+  compression: option.text('none'),
+  /** The session's own folder is made in it. */
+  folder: option.text(tmpdir()),
+};
+type Options = OptionValues<typeof OPTIONS>;
 
 export const bench: Bench = {
   name: 'recording',
   summary: 'recording a session: added latency, memory over time, a count of every message',
+  usage: USAGE,
   async run(argv) {
-    const options = readOptions(argv);
-    if (options === null) return;
+    const options = benchOptions(argv, OPTIONS);
     buildSharedMemory();
     const folder = mkdtempSync(join(options.folder, 'farpoint-bench-recording-'));
     const path = join(folder, 'session.mcap');
@@ -66,43 +67,6 @@ export const bench: Bench = {
   },
 };
 
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
-function readOptions(argv: string[]): Options | null {
-  const { values } = parseArgs({
-    args: argv,
-    options: {
-      size: { type: 'string', default: '480' },
-      fps: { type: 'string', default: '30' },
-      'captured-fps': { type: 'string', default: '30' },
-      seconds: { type: 'string', default: '60' },
-      mbps: { type: 'string', default: '20' },
-      pictures: { type: 'string', default: '0' },
-      videos: { type: 'string', default: '0' },
-      encoder: { type: 'string', default: 'x264enc' },
-      compression: { type: 'string', default: 'none' },
-      folder: { type: 'string', default: tmpdir() },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
-  });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  const options = {
-    size: numberOption('size', values.size, 16),
-    fps: numberOption('fps', values.fps, 1),
-    seconds: numberOption('seconds', values.seconds, 5),
-    mbps: numberOption('mbps', values.mbps, 1),
-    picturesPerSecond: numberOption('pictures', values.pictures),
-    videos: numberOption('videos', values.videos),
-  };
-  if (!Number.isInteger(options.videos) || options.videos > MAX_VIDEOS)
-    throw new Error(`--videos is \`${values.videos}\`, not 0 to ${MAX_VIDEOS}`);
-  const { 'captured-fps': capturedFps, encoder, compression, folder, json } = values;
-  return { ...options, capturedFps, encoder, compression, folder, json };
-}
-
 interface Runs {
   plain: LayoutResult;
   recorded: LayoutResult;
@@ -114,7 +78,7 @@ interface Runs {
 
 /** Measures without a recording, then with one. @param path of the recording */
 async function measureBoth(options: Options, folder: string, path: string): Promise<Runs> {
-  const { size, fps, mbps, seconds, picturesPerSecond, videos } = options;
+  const { size, fps, mbps, seconds, pictures: picturesPerSecond, videos } = options;
   const pictures = picturesPerSecond > 0;
   const robotArgs = [
     ...(pictures ? ['--pictures-of-cloud', '--pictures-per-second', String(picturesPerSecond)] : []),
@@ -146,7 +110,7 @@ function recordArgs({ capturedFps, compression }: Options, path: string): string
     '--record-max',
     'none',
     '--record-captured-fps',
-    capturedFps,
+    String(capturedFps),
     '--record-sent-fps',
     '120',
     '--record-compression',
@@ -159,7 +123,7 @@ type Figures = ReturnType<typeof figuresOf>;
 /** @returns the object that `--json` prints */
 function figuresOf(options: Options, runs: Runs, file: ReadBack, fileBytes: number) {
   const { plain, recorded, memoryMb } = runs;
-  const { size, fps, seconds, mbps, compression, picturesPerSecond } = options;
+  const { size, fps, seconds, mbps, compression, pictures: picturesPerSecond } = options;
   const fifth = Math.max(1, Math.floor(memoryMb.length / 5));
   return {
     bench: 'recording',
@@ -170,7 +134,7 @@ function figuresOf(options: Options, runs: Runs, file: ReadBack, fileBytes: numb
     compression,
     picturesPerSecond,
     videoCameras: options.videos,
-    capturedFps: Number(options.capturedFps),
+    capturedFps: options.capturedFps,
     latencyMs: recorded.latencyMs,
     latencyMsWithout: plain.latencyMs,
     addedMs: {

@@ -1,6 +1,5 @@
 /** `pnpm bench repair`: on a lossy link, what each browser requests again, what it gets, and what it finally lacks. */
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 import {
   chromiumLaunchOptions,
   EmulatedLink,
@@ -10,8 +9,9 @@ import {
 } from '@farpoint/local-stack';
 import type { PageStats } from '@farpoint/webxr/test-api';
 import { chromium } from '@playwright/test';
+import { benchOptions, option } from './bench-options.ts';
 import { buildPage } from './live-stack.ts';
-import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, printJson, printTable } from './report.ts';
 
 const USAGE = `pnpm bench repair [--loss 0.01,0.05] [--rtt-ms 40] [--mbps 20] [--seconds 15] [--robot="--mode points64 …"] [--json]
 
@@ -29,29 +29,22 @@ interface Visit {
 export const bench: Bench = {
   name: 'repair',
   summary: 'lost packets, requested and resent, in Chromium and in Firefox',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        loss: { type: 'string', default: '0.01,0.05' },
-        'rtt-ms': { type: 'string', default: '40' },
-        mbps: { type: 'string', default: '20' },
-        seconds: { type: 'string', default: '15' },
-        robot: { type: 'string', default: '' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const {
+      loss: losses,
+      seconds,
+      json,
+      ...options
+    } = benchOptions(argv, {
+      loss: option.list([0.01, 0.05], option.number(undefined)),
+      rttMs: option.number(40),
+      mbps: option.number(20, { least: 1 }),
+      seconds: option.number(15, { least: 1 }),
+      robot: option.text(''),
     });
-    if (values.help) return console.log(USAGE);
-    const losses = values.loss.split(',').map((text) => numberOption('loss', text));
-    const link = [
-      '--rtt-ms',
-      String(numberOption('rtt-ms', values['rtt-ms'])),
-      '--rate-mbps',
-      String(numberOption('mbps', values.mbps, 1)),
-    ];
-    const seconds = numberOption('seconds', values.seconds, 1);
-    const robot = values.robot.split(' ').filter((word) => word !== '');
+    const link = ['--rtt-ms', String(options.rttMs), '--rate-mbps', String(options.mbps)];
+    const robot = options.robot.split(' ').filter((word) => word !== '');
     buildPage();
     const results = [];
     for (const loss of losses) {
@@ -82,7 +75,7 @@ export const bench: Bench = {
         r.tooLate,
       ]),
     );
-    if (values.json) printJson({ bench: 'repair', seconds, link, robot, results });
+    if (json) printJson({ bench: 'repair', seconds, link, robot, results });
   },
 };
 

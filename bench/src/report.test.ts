@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { formatTable, numberOption } from './report.ts';
+import { formatTable } from './report.ts';
 
 test('a table aligns its columns, with numbers to the right', () => {
   expect(
@@ -18,11 +18,4 @@ test('a table aligns its columns, with numbers to the right', () => {
       'a longer name   12.50        –',
     ].join('\n'),
   );
-});
-
-test('a number option says which one is wrong', () => {
-  expect(numberOption('points', '30000')).toBe(30_000);
-  expect(() => numberOption('points', 'many')).toThrow('--points is `many`, not a number of at least 0');
-  expect(() => numberOption('rate', '-1')).toThrow('--rate');
-  expect(() => numberOption('rate', '')).toThrow('--rate');
 });

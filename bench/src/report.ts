@@ -6,6 +6,8 @@ export interface Bench {
   name: string;
   /** One line for the list of benchmarks. */
   summary: string;
+  /** What `--help` prints. */
+  usage: string;
   /** Runs the benchmark with the arguments after its name. Throws an Error with a clear message if it cannot. */
   run(argv: string[]): Promise<void>;
 }
@@ -41,15 +43,6 @@ export function distributionCells(values: Distribution): number[] {
 /** Prints one JSON object on its own line. Call this last, if `--json` is given. */
 export function printJson(result: Record<string, unknown>): void {
   console.log(JSON.stringify(result));
-}
-
-/** A whole or fractional number from the command line. */
-export function numberOption(name: string, text: string, least = 0): number {
-  const value = Number(text);
-  if (text.trim() === '' || !Number.isFinite(value) || value < least) {
-    throw new Error(`--${name} is \`${text}\`, not a number of at least ${least}`);
-  }
-  return value;
 }
 
 function formatCell(cell: Cell): string {

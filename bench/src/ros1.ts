@@ -2,13 +2,13 @@
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 import { LocalStack } from '@farpoint/local-stack';
 import { SignaledOperator } from '@farpoint/robot-node/testing';
 import { Ros1Peers } from '@farpoint/ros/testing/ros1';
+import { benchOptions, option } from './bench-options.ts';
 import { cpuSecondsOfTree } from './cpu-time.ts';
 import { measuredSpan, wait } from './measured-span.ts';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { readFrameLog, residentPeakMb } from './robot-frames.ts';
 import { distribution, rounded } from './stats.ts';
 
@@ -27,29 +27,16 @@ const WARM_UP_MS = 2000;
 export const bench: Bench = {
   name: 'ros1',
   summary: 'a ROS 1 graph: latency of rospy’s clouds to packets, processor, memory',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        hz: { type: 'string', default: '10' },
-        seconds: { type: 'string', default: '20' },
-        mbps: { type: 'string', default: '20' },
-        as: { type: 'string', default: 'points' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const { json, ...options } = benchOptions(argv, {
+      hz: option.number(10, { least: 0.1 }),
+      seconds: option.number(20, { least: 1 }),
+      mbps: option.number(20, { least: 1 }),
+      as: option.choice('points', FORMS),
     });
-    if (values.help) return console.log(USAGE);
-    const as = FORMS.find((form) => form === values.as);
-    if (as === undefined) throw new Error(`--as is \`${values.as}\`, not ${FORMS.join(', ')}`);
     const { python, missing } = Ros1Peers.find();
     if (python === null) throw new Error(missing);
-    const options: Options = {
-      as,
-      hz: numberOption('hz', values.hz, 0.1),
-      seconds: numberOption('seconds', values.seconds, 1),
-      mbps: numberOption('mbps', values.mbps, 1),
-    };
     const result = await measure(python, options);
     const { latencyMs, framesPerSecond, rssMbMax, robotCpu, nodeCpu } = result;
     printTable(['ms', 'p50', 'p95', 'p99', 'max'], [['stamp to packets', ...distributionCells(latencyMs)]]);
@@ -57,7 +44,7 @@ export const bench: Bench = {
       ['frames/s', 'robot, MB', 'robot, cores', 'node, cores'],
       [[framesPerSecond, rssMbMax, robotCpu, nodeCpu]],
     );
-    if (values.json) printJson({ bench: 'ros1', ...options, ...result });
+    if (json) printJson({ bench: 'ros1', ...options, ...result });
   },
 };
 

@@ -1,11 +1,11 @@
 /** `pnpm bench safety`: what keeps the robot and others safe, in one run. */
-import { parseArgs } from 'node:util';
 import type { GuardedRun } from '@farpoint/robot-node/testing/guarded-run';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { benchOptions, option } from './bench-options.ts';
 import { faultTimes, printFaults } from './faults.ts';
 import { simulatedGuardMs } from './guard.ts';
 import { type Drive, summaryOf, worldDrives } from './guard-runs.ts';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 import { supervised } from './supervisor-cost.ts';
 
@@ -20,22 +20,20 @@ const CLOUDS = 300;
 export const bench: Bench = {
   name: 'safety',
   summary: 'contacts, false stops, cost of the guards, and from each fault to braking',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        runs: { type: 'string', default: '1000' },
-        seed: { type: 'string', default: '1' },
-        seconds: { type: 'string', default: '12' },
-        'no-faults': { type: 'boolean' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const {
+      runs: count,
+      seed,
+      seconds,
+      noFaults,
+      json,
+    } = benchOptions(argv, {
+      runs: option.number(1000, { least: 1 }),
+      seed: option.number(1),
+      seconds: option.number(12, { least: 1 }),
+      noFaults: option.flag,
     });
-    if (values.help) return console.log(USAGE);
-    const count = numberOption('runs', values.runs, 1);
-    const seed = numberOption('seed', values.seed);
-    const seconds = numberOption('seconds', values.seconds, 1);
     const codec = await loadCodecFromDisk();
     const drives = worldDrives(codec);
     const commandMs: number[] = [];
@@ -57,9 +55,9 @@ export const bench: Bench = {
         ['a command, with all guards', ...distributionCells(supervisorMs)],
       ],
     );
-    const faults = values['no-faults'] ? [] : await faultTimes();
+    const faults = noFaults ? [] : await faultTimes();
     if (faults.length > 0) printFaults(faults);
-    if (values.json)
+    if (json)
       printJson({
         bench: 'safety',
         runs: count,

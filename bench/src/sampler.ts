@@ -1,10 +1,10 @@
 /** `pnpm bench sampler`: a kernel benchmark of the depth-weighted sampling. */
 import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 import { type Codec, Points64Encoder } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { benchOptions, type OptionValues, option } from './bench-options.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { depthWeights, SamplingFit } from './sampling-fit.ts';
 import { hallCloud, type SceneCloud, validDepths } from './sampling-scene.ts';
 import { type Distribution, distribution, rounded, timeCalls } from './stats.ts';
@@ -14,17 +14,6 @@ const USAGE = `pnpm bench sampler [--points 230400] [--n 30000] [--lambda 3] [--
 Kernel benchmark, in one process. Chooses --n of --points points by the paper's depth weights, in WASM and, if Cargo is
 installed, natively; compares --draws draws with the exact distribution (p-value of a chi-square test).`;
 
-interface Options {
-  /** Points of the cloud. */
-  points: number;
-  /** Points that are chosen. */
-  count: number;
-  lambda: number;
-  rounds: number;
-  draws: number;
-  json: boolean | undefined;
-}
-
 interface Figures {
   wasm: Distribution;
   native: Distribution | null;
@@ -32,46 +21,28 @@ interface Figures {
   pValue: number | null;
 }
 
+const OPTIONS = {
+  points: option.number(230_400, { least: 1 }),
+  /** Points that are chosen. */
+  n: option.number(30_000, { least: 1 }),
+  lambda: option.number(3),
+  rounds: option.number(300, { least: 1 }),
+  draws: option.number(40, { least: 1 }),
+};
+type Options = OptionValues<typeof OPTIONS>;
+
 export const bench: Bench = {
   name: 'sampler',
   summary: 'kernel: time of the depth-weighted sampling, and a test of its distribution',
+  usage: USAGE,
   async run(argv) {
-    const options = readOptions(argv);
-    if (options === null) return;
+    const options = benchOptions(argv, OPTIONS);
     report(options, measure(await loadCodecFromDisk(), options));
   },
 };
 
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
-function readOptions(argv: string[]): Options | null {
-  const { values } = parseArgs({
-    args: argv,
-    options: {
-      points: { type: 'string', default: '230400' },
-      n: { type: 'string', default: '30000' },
-      lambda: { type: 'string', default: '3' },
-      rounds: { type: 'string', default: '300' },
-      draws: { type: 'string', default: '40' },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
-  });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  return {
-    points: numberOption('points', values.points, 1),
-    count: numberOption('n', values.n, 1),
-    lambda: numberOption('lambda', values.lambda),
-    rounds: numberOption('rounds', values.rounds, 1),
-    draws: numberOption('draws', values.draws, 1),
-    json: values.json,
-  };
-}
-
 function measure(codec: Codec, options: Options): Figures {
-  const { points, count, lambda, rounds } = options;
+  const { points, n: count, lambda, rounds } = options;
   using encoder = new Points64Encoder(codec, points);
   const cloud = hallCloud(points);
   encoder.frameBits.set(new Uint32Array(cloud.frame.buffer));
@@ -89,7 +60,7 @@ function measure(codec: Codec, options: Options): Figures {
 /** @param draw chooses indices of points @returns the p-value; `null` if all points are kept */
 function testDistribution(
   cloud: SceneCloud,
-  { points, count, lambda, draws }: Options,
+  { points, n: count, lambda, draws }: Options,
   draw: (seed: number) => Uint32Array,
 ): number | null {
   const { depths, indices } = validDepths(cloud);
@@ -104,7 +75,7 @@ function testDistribution(
   return fit.pValue();
 }
 
-function report({ points, count, lambda, draws, json }: Options, { wasm, native, pValue }: Figures): void {
+function report({ points, n: count, lambda, draws, json }: Options, { wasm, native, pValue }: Figures): void {
   console.log(`${count} of ${points} points, lambda ${lambda} (kernel: one process, no link)`);
   const rows: (string | number)[][] = [['WASM', ...distributionCells(wasm)]];
   if (native !== null) rows.push(['native', ...distributionCells(native)]);

@@ -2,12 +2,12 @@
 
 import { writeFile } from 'node:fs/promises';
 import { basename } from 'node:path';
-import { parseArgs } from 'node:util';
 import { BitRate } from '@farpoint/timing';
 import { type Codec, maxPoints, Points64Encoder } from '@farpoint/wasm-codec';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
+import { benchOptions, option } from './bench-options.ts';
 import { type Panel, renderChart, type Series } from './plot/chart.ts';
-import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, printJson, printTable } from './report.ts';
 import { pcdCloud, simulatedCloud } from './sampling-clouds.ts';
 import type { SceneCloud } from './sampling-scene.ts';
 
@@ -49,30 +49,30 @@ interface Sampled {
 export const bench: Bench = {
   name: 'sampling',
   summary: 'kept points over distance for several bandwidths and lambdas, as a plot',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: {
-        cloud: { type: 'string' },
-        fps: { type: 'string', default: '10' },
-        near: { type: 'string', default: '3.85' },
-        plot: { type: 'string' },
-        json: { type: 'boolean' },
-        help: { type: 'boolean' },
-      },
+    const {
+      cloud: file,
+      fps: framesPerSecond,
+      near,
+      plot: plotFile,
+      json,
+    } = benchOptions(argv, {
+      cloud: option.text(),
+      fps: option.number(10, { least: 0.1 }),
+      near: option.number(3.85),
+      plot: option.text(),
     });
-    if (values.help) return console.log(USAGE);
-    const framesPerSecond = numberOption('fps', values.fps, 0.1);
-    const nearDistances = [...new Set([numberOption('near', values.near), 0])];
-    const cloud = values.cloud === undefined ? await simulatedCloud() : await pcdCloud(values.cloud);
+    const nearDistances = [...new Set([near, 0])];
+    const cloud = file === undefined ? await simulatedCloud() : await pcdCloud(file);
     const sampled = sampleAll(await loadCodecFromDisk(), cloud, nearDistances, framesPerSecond);
-    const name = values.cloud === undefined ? 'simulated office' : basename(values.cloud);
+    const name = file === undefined ? 'simulated office' : basename(file);
     print(name, sampled);
-    if (values.plot !== undefined) {
-      await writeFile(values.plot, plot(name, framesPerSecond, sampled));
-      console.log(`plot: ${values.plot}`);
+    if (plotFile !== undefined) {
+      await writeFile(plotFile, plot(name, framesPerSecond, sampled));
+      console.log(`plot: ${plotFile}`);
     }
-    if (values.json) {
+    if (json) {
       const { points, valid, binM, whole, curves } = sampled;
       printJson({ bench: 'sampling', cloud: name, points, valid, binM, raw: whole.counts, curves });
     }

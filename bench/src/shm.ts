@@ -1,8 +1,8 @@
 /** `pnpm bench shm`: clouds through shared memory, from a producer's process to the robot's first packet. */
 import { mkdtempSync, rmSync } from 'node:fs';
-import { parseArgs } from 'node:util';
 import { type KillTestResult, runKillTest } from '@farpoint/shared-memory/kill-test';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { benchOptions, type OptionValues, option } from './bench-options.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { buildSharedMemory, LAYOUTS, type Layout, type LayoutResult, measure } from './shm-run.ts';
 
 const USAGE = `pnpm bench shm [--layout both|reference|farpoint] [--size 480] [--fps 30] [--seconds 20] [--mbps 20] [--kill N [--seed 1]] [--json]
@@ -12,73 +12,37 @@ bit/s) and sends them to an operator in this process. Latency: from when the pro
 has the frame's packets ready. Every frame has its own colour: torn counts frames that arrived with two colours.
 --kill N instead kills the producer and reader processes at random until N frames have been read and checked in full.`;
 
-interface Cloud {
-  layouts: readonly Layout[];
-  /** Points of a side. */
-  size: number;
-  json: boolean | undefined;
-}
-
-interface StreamOptions extends Cloud {
-  fps: number;
-  seconds: number;
-  mbps: number;
-}
-
-interface KillOptions extends Cloud {
+const OPTIONS = {
+  layout: option.choice('both', ['both', ...LAYOUTS]),
+  size: option.number(480, { least: 16 }),
+  fps: option.number(30, { least: 1 }),
+  seconds: option.number(20, { least: 1 }),
+  mbps: option.number(20, { least: 1 }),
   /** Number of frames to read and check. */
-  kill: number;
-  seed: number;
-}
+  kill: option.number(undefined, { least: 1 }),
+  seed: option.number(1),
+};
+type Options = OptionValues<typeof OPTIONS>;
 
 export const bench: Bench = {
   name: 'shm',
   summary: 'clouds through shared memory: latency to the first packet, torn frames, kills',
+  usage: USAGE,
   async run(argv) {
-    const options = readOptions(argv);
-    if (options === null) return;
+    const options = benchOptions(argv, OPTIONS);
+    const layouts = LAYOUTS.filter((layout) => options.layout === 'both' || options.layout === layout);
+    if (options.size > 480 && layouts.includes('reference'))
+      throw new Error('--size: the reference layout ends at 480');
     buildSharedMemory();
-    if ('kill' in options) await killSides(options);
-    else await measureLayouts(options);
+    if (options.kill === undefined) await measureLayouts(layouts, options);
+    else await killSides(layouts, options.kill, options);
   },
 };
 
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
-function readOptions(argv: string[]): StreamOptions | KillOptions | null {
-  const { values } = parseArgs({
-    args: argv,
-    options: {
-      layout: { type: 'string', default: 'both' },
-      size: { type: 'string', default: '480' },
-      fps: { type: 'string', default: '30' },
-      seconds: { type: 'string', default: '20' },
-      mbps: { type: 'string', default: '20' },
-      kill: { type: 'string' },
-      seed: { type: 'string', default: '1' },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
-  });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  const layouts = LAYOUTS.filter((layout) => values.layout === 'both' || values.layout === layout);
-  if (layouts.length === 0)
-    throw new Error(`--layout is \`${values.layout}\`, not both, reference or farpoint`);
-  const size = numberOption('size', values.size, 16);
-  if (size > 480 && layouts.includes('reference'))
-    throw new Error('--size: the reference layout ends at 480');
-  const cloud: Cloud = { layouts, size, json: values.json };
-  if (values.kill !== undefined) {
-    const kill = numberOption('kill', values.kill, 1);
-    return { ...cloud, kill, seed: numberOption('seed', values.seed) };
-  }
-  const [fps, seconds] = [numberOption('fps', values.fps, 1), numberOption('seconds', values.seconds, 1)];
-  return { ...cloud, fps, seconds, mbps: numberOption('mbps', values.mbps, 1) };
-}
-
-async function measureLayouts({ layouts, size, fps, seconds, mbps, json }: StreamOptions): Promise<void> {
+async function measureLayouts(
+  layouts: readonly Layout[],
+  { size, fps, seconds, mbps, json }: Options,
+): Promise<void> {
   const results: Partial<Record<Layout, LayoutResult>> = {};
   for (const layout of layouts) {
     console.error(`${layout}: ${size * size} points at ${fps} frames/s for ${seconds} s`);
@@ -123,7 +87,11 @@ function printLayouts(results: Partial<Record<Layout, LayoutResult>>): void {
   );
 }
 
-async function killSides({ layouts, size, kill, seed, json }: KillOptions): Promise<void> {
+async function killSides(
+  layouts: readonly Layout[],
+  kill: number,
+  { size, seed, json }: Options,
+): Promise<void> {
   const results = await killAll(layouts, kill, size * size, seed);
   if (json) printJson({ bench: 'shm', points: size * size, ...summedKills(results), kill: results });
 }

@@ -1,9 +1,9 @@
 /** `pnpm bench signaling`: many robots and operators on the real signaling service. */
 import { type ChildProcess, fork } from 'node:child_process';
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 import { freePorts, ManagedProcess, repositoryRoot } from '@farpoint/local-stack';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { benchOptions, option } from './bench-options.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import type { ClientPlan, ClientResult, PhaseMessage } from './signaling-clients.ts';
 import { distribution, rounded } from './stats.ts';
 
@@ -16,14 +16,22 @@ every operator opens a session with a robot, at --rate sessions a second, and th
 relayMs: from when a message is handed to the sender's socket until the receiver's socket delivers it, both timed in the
 clients' process. bytesPerConnection: growth of the service's resident memory per connection, with all of them idle.`;
 
+const OPTIONS = {
+  robots: option.number(2000, { least: 1 }),
+  operators: option.number(2000, { least: 1 }),
+  rate: option.number(100, { least: 0.1 }),
+  candidates: option.number(5),
+  churn: option.number(1),
+};
+
 export const bench: Bench = {
   name: 'signaling',
   summary: 'relay latency and memory of the signaling service under many robots and operators',
+  usage: USAGE,
   async run(argv) {
-    const options = readOptions(argv);
-    if (options === null) return;
+    const { json, ...load } = benchOptions(argv, OPTIONS);
     const [port] = (await freePorts(1)) as [number];
-    const plan: ClientPlan = { url: `ws://127.0.0.1:${port}`, ...options.load };
+    const plan: ClientPlan = { url: `ws://127.0.0.1:${port}`, ...load };
     const service = await startService(port, plan);
     let clients: Clients | null = null;
     try {
@@ -32,46 +40,13 @@ export const bench: Bench = {
       clients = new Clients(plan);
       const figures = figuresOf(plan, await measure(clients, idle, metrics));
       print(plan, figures);
-      if (options.json) printJson(jsonOf(plan, figures));
+      if (json) printJson(jsonOf(plan, figures));
     } finally {
       clients?.kill();
       await service.stop();
     }
   },
 };
-
-interface Options {
-  load: Omit<ClientPlan, 'url'>;
-  json: boolean | undefined;
-}
-
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
-function readOptions(argv: string[]): Options | null {
-  const { values } = parseArgs({
-    args: argv,
-    options: {
-      robots: { type: 'string', default: '2000' },
-      operators: { type: 'string', default: '2000' },
-      rate: { type: 'string', default: '100' },
-      candidates: { type: 'string', default: '5' },
-      churn: { type: 'string', default: '1' },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
-  });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  const load = {
-    robots: numberOption('robots', values.robots, 1),
-    operators: numberOption('operators', values.operators, 1),
-    rate: numberOption('rate', values.rate, 0.1),
-    candidates: numberOption('candidates', values.candidates, 0),
-    churn: numberOption('churn', values.churn, 0),
-  };
-  return { load, json: values.json };
-}
 
 function startService(port: number, { robots, operators }: ClientPlan): Promise<ManagedProcess> {
   const connections = String(robots + operators + 64);

@@ -1,8 +1,8 @@
 /** `pnpm bench sim`: a kernel benchmark of the simulated robot and its camera. */
-import { parseArgs } from 'node:util';
 import { zeroTwist } from '@farpoint/protocol';
 import { Simulation } from '@farpoint/sim';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { benchOptions, type OptionValues, option } from './bench-options.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench sim [--frames 300] [--fps 30] [--width 480] [--height 480] [--seed 1] [--json]
@@ -12,21 +12,21 @@ Kernel benchmark, in one process. Drives the simulated robot through the hall of
 
 const WARM_UP = 60;
 
-interface Options {
-  frames: number;
-  fps: number;
-  width: number;
-  height: number;
-  seed: number;
-  json: boolean | undefined;
-}
+const OPTIONS = {
+  frames: option.number(300, { least: 1 }),
+  fps: option.number(30, { least: 1 }),
+  width: option.number(480, { least: 16 }),
+  height: option.number(480, { least: 16 }),
+  seed: option.number(1),
+};
+type Options = OptionValues<typeof OPTIONS>;
 
 export const bench: Bench = {
   name: 'sim',
   summary: 'kernel: time of a frame of the simulated depth camera, and the cores it takes',
+  usage: USAGE,
   async run(argv) {
-    const options = readOptions(argv);
-    if (options === null) return;
+    const options = benchOptions(argv, OPTIONS);
     const { seed, width, height } = options;
     const simulation = await Simulation.create({ seed, camera: { width, height } });
     const times = measure(simulation, options);
@@ -34,34 +34,6 @@ export const bench: Bench = {
     report(options, times);
   },
 };
-
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
-function readOptions(argv: string[]): Options | null {
-  const { values } = parseArgs({
-    args: argv,
-    options: {
-      frames: { type: 'string', default: '300' },
-      fps: { type: 'string', default: '30' },
-      width: { type: 'string', default: '480' },
-      height: { type: 'string', default: '480' },
-      seed: { type: 'string', default: '1' },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
-  });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  return {
-    frames: numberOption('frames', values.frames, 1),
-    fps: numberOption('fps', values.fps, 1),
-    width: numberOption('width', values.width, 16),
-    height: numberOption('height', values.height, 16),
-    seed: numberOption('seed', values.seed),
-    json: values.json,
-  };
-}
 
 interface Times {
   /** Times of each frame, ms. */

@@ -1,6 +1,6 @@
 /** `pnpm bench stopping`: the way to standing still, over latency and speed. */
 import { writeFile } from 'node:fs/promises';
-import { parseArgs } from 'node:util';
+import { benchOptions, option } from './bench-options.ts';
 import { type Panel, renderChart, type Series } from './plot/chart.ts';
 import { type Bench, printJson, printTable } from './report.ts';
 import { feltMs, type StopCause, stopCauses, worstStop } from './stopping-run.ts';
@@ -72,12 +72,9 @@ function panelOf(cause: StopCause, rows: readonly Row[]): Panel {
 export const bench: Bench = {
   name: 'stopping',
   summary: 'the way to standing still over latency and speed, in simulated time, as a plot',
+  usage: USAGE,
   async run(argv) {
-    const { values } = parseArgs({
-      args: argv,
-      options: { plot: { type: 'string' }, json: { type: 'boolean' }, help: { type: 'boolean' } },
-    });
-    if (values.help) return console.log(USAGE);
+    const { plot, json } = benchOptions(argv, { plot: option.text() });
     const rows = stopCauses.flatMap((cause) =>
       LATENCIES_MS.flatMap((latencyMs) => [
         ...SPEEDS_MPS.map((mps) => measure(cause, mps, latencyMs, true)),
@@ -101,7 +98,7 @@ export const bench: Bench = {
     for (const { mps, ramped, plain } of felt) {
       console.log(`to half of ${mps} m/s: ${ramped} ms with the supervisor's ramps, ${plain} ms without`);
     }
-    if (values.plot !== undefined) {
+    if (plot !== undefined) {
       const svg = renderChart({
         title: 'How far a robot goes',
         subtitle:
@@ -111,8 +108,8 @@ export const bench: Bench = {
         panelHeight: 300,
         panels: stopCauses.map((cause) => panelOf(cause, rows)),
       });
-      await writeFile(values.plot, svg);
+      await writeFile(plot, svg);
     }
-    if (values.json) printJson({ rows, felt });
+    if (json) printJson({ rows, felt });
   },
 };

@@ -3,13 +3,13 @@
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 import { MAX_POINT_DATA_BYTES } from '@farpoint/protocol';
 import { BitRate } from '@farpoint/timing';
+import { benchOptions, type OptionValues, option } from './bench-options.ts';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { type LiveStack, startLiveStack } from './live-stack.ts';
 import { deliveryTimes, readPacketLog } from './packet-log.ts';
-import { type Bench, distributionCells, numberOption, printJson, printTable } from './report.ts';
+import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { distribution, rounded } from './stats.ts';
 
 const USAGE = `pnpm bench transport [--mbps 40] [--seconds 20] [--fps 30] [--canvas 64x36] [--json]
@@ -23,20 +23,20 @@ const WARM_UP_MS = 2000;
 /** Bytes per packet in addition to the payload: RTP header 12, extensions 12, SRTP tag 16, UDP 8, IPv4 20. */
 const WIRE_OVERHEAD_BYTES = 68;
 
-interface Options {
-  mbps: number;
-  seconds: number;
-  fps: number;
-  canvas: string;
-  json: boolean | undefined;
-}
+const OPTIONS = {
+  mbps: option.number(40, { least: 1 }),
+  seconds: option.number(20, { least: 1 }),
+  fps: option.number(30, { least: 1 }),
+  canvas: option.text('64x36'),
+};
+type Options = OptionValues<typeof OPTIONS>;
 
 export const bench: Bench = {
   name: 'transport',
   summary: 'point stream from the robot process to the browser’s worker at one rate',
+  usage: USAGE,
   async run(argv) {
-    const options = readOptions(argv);
-    if (options === null) return;
+    const options = benchOptions(argv, OPTIONS);
     const folder = mkdtempSync(join(tmpdir(), 'farpoint-transport-'));
     const logFile = join(folder, 'sent.csv');
     const live = await startLiveStack({
@@ -56,32 +56,6 @@ export const bench: Bench = {
     }
   },
 };
-
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
-function readOptions(argv: string[]): Options | null {
-  const { values } = parseArgs({
-    args: argv,
-    options: {
-      mbps: { type: 'string', default: '40' },
-      seconds: { type: 'string', default: '20' },
-      fps: { type: 'string', default: '30' },
-      canvas: { type: 'string', default: '64x36' },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
-  });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  return {
-    mbps: numberOption('mbps', values.mbps, 1),
-    seconds: numberOption('seconds', values.seconds, 1),
-    fps: numberOption('fps', values.fps, 1),
-    canvas: values.canvas,
-    json: values.json,
-  };
-}
 
 function robotArgs({ fps, mbps }: Options, packetLog: string): string[] {
   return [

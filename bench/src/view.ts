@@ -2,10 +2,10 @@
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { setTimeout } from 'node:timers/promises';
-import { parseArgs } from 'node:util';
 import { loadCodecFromDisk } from '@farpoint/wasm-codec/node';
 import { encode } from 'fast-png';
-import { type Bench, numberOption, printJson, printTable } from './report.ts';
+import { benchOptions, option } from './bench-options.ts';
+import { type Bench, printJson, printTable } from './report.ts';
 import { type Distribution, distribution, rounded } from './stats.ts';
 import { compareColours, meanOf } from './view/colour-comparison.ts';
 import { differenceOf, type Picture, type PictureDifference } from './view/picture-difference.ts';
@@ -49,14 +49,29 @@ interface ModeResult {
   mainThreadMs: Distribution;
 }
 
+const OPTIONS = {
+  rateMbps: option.number(8, { least: 0.1 }),
+  loss: option.number(0.01),
+  fps: option.number(10, { least: 1 }),
+  seconds: option.number(20, { least: FROM_S + 1 }),
+  size: option.number(320, { least: 32 }),
+  seed: option.number(1),
+  pictures: option.text(),
+  video: option.flag,
+  videoMbps: option.number(1.5, { least: 0.1 }),
+  colourQuality: option.number(31),
+};
+
 export const bench: Bench = {
   name: 'view',
   summary: 'kernel: holes, similarity and depth error of what the operator sees, by renderer',
+  usage: USAGE,
   async run(argv) {
-    const options = readOptions(argv);
-    if (options === null) return;
-    const { drive, seconds, video, json } = options;
-    if (video !== null) return compareColours({ ...drive, ...video, seconds, json });
+    const options = benchOptions(argv, OPTIONS);
+    const { rateMbps, loss, fps: framesPerSecond, seed, size, seconds, json } = options;
+    const drive: DriveOptions = { rateMbps, loss, framesPerSecond, seed, size };
+    const { videoMbps, colourQuality: quality } = options;
+    if (options.video) return compareColours({ ...drive, videoMbps, quality, seconds, json });
     const { results, last } = await compareModes(drive, seconds);
     if (options.pictures !== undefined) writePictures(options.pictures, last, drive.size);
     printTable(
@@ -79,46 +94,6 @@ export const bench: Bench = {
     printJson({ bench: 'view', ...drive, seconds, ...memory, ...others });
   },
 };
-
-/** @returns `null` if only the usage was requested @throws {Error} naming the option */
-function readOptions(argv: string[]) {
-  const { values } = parseArgs({
-    args: argv,
-    options: {
-      'rate-mbps': { type: 'string', default: '8' },
-      loss: { type: 'string', default: '0.01' },
-      fps: { type: 'string', default: '10' },
-      seconds: { type: 'string', default: '20' },
-      size: { type: 'string', default: '320' },
-      seed: { type: 'string', default: '1' },
-      pictures: { type: 'string' },
-      video: { type: 'boolean' },
-      'video-mbps': { type: 'string', default: '1.5' },
-      'colour-quality': { type: 'string', default: '31' },
-      json: { type: 'boolean' },
-      help: { type: 'boolean' },
-    },
-  });
-  if (values.help) {
-    console.log(USAGE);
-    return null;
-  }
-  const drive: DriveOptions = {
-    rateMbps: numberOption('rate-mbps', values['rate-mbps'], 0.1),
-    loss: numberOption('loss', values.loss),
-    framesPerSecond: numberOption('fps', values.fps, 1),
-    seed: numberOption('seed', values.seed),
-    size: numberOption('size', values.size, 32),
-  };
-  const seconds = numberOption('seconds', values.seconds, FROM_S + 1);
-  const video = values.video
-    ? {
-        videoMbps: numberOption('video-mbps', values['video-mbps'], 0.1),
-        quality: numberOption('colour-quality', values['colour-quality']),
-      }
-    : null;
-  return { drive, seconds, video, pictures: values.pictures, json: values.json === true };
-}
 
 /** Drives once in each mode. @returns the results, and the last second's pictures by eye */
 async function compareModes(options: DriveOptions, seconds: number) {
