@@ -3,7 +3,7 @@ import { dirname } from 'node:path';
 import { describe, expect, test } from 'vitest';
 import { cycles } from './lib/cycles.ts';
 import { importedFiles, startedFiles } from './lib/file-imports.ts';
-import { importedPackages } from './lib/package-imports.ts';
+import { importedPackages, repeatedImports } from './lib/package-imports.ts';
 import { allowedFolders, parseRooms } from './lib/rooms.ts';
 import { workspaceFiles as files, readWorkspaceFile as read } from './lib/workspace-files.ts';
 
@@ -113,6 +113,13 @@ describe('sources', () => {
           .map((target) => `${file}: ${target}`),
       );
     expect(missing).toEqual([]);
+  });
+
+  test('a file imports from a module once: types stand among the other names', () => {
+    const twice = [...sources].flatMap(([file, text]) =>
+      repeatedImports(text).map((module) => `${file}: ${module}`),
+    );
+    expect(twice).toEqual([]);
   });
 
   test('what a program, a tool or a script exports has another user than its own file', () => {

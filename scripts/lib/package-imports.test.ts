@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { importedPackages, packageOf } from './package-imports.ts';
+import { importedPackages, packageOf, repeatedImports } from './package-imports.ts';
 
 test('a specifier belongs to its package, whatever its subpath', () => {
   expect(packageOf('three/addons/loaders/GLTFLoader.js')).toBe('three');
@@ -31,4 +31,16 @@ import { own } from './own.ts';
   expect([...importedPackages(source)].sort()).toEqual(
     ['@scope/three', 'eleven', 'five', 'four', 'nine', 'one', 'seven', 'six', 'ten', 'two'].sort(),
   );
+});
+
+test('finds what is imported twice, also once as a type, but not the whole of a module beside its names', () => {
+  const source = [
+    "import type { A } from './a.ts';",
+    'import {\n  b,\n} from "./a.ts";',
+    "import { c } from 'one';",
+    "import type { D } from 'two';",
+    "import * as two from 'two';",
+    "// import { e } from 'one';",
+  ].join('\n');
+  expect(repeatedImports(source)).toEqual(['./a.ts']);
 });

@@ -1,4 +1,4 @@
-/** Finds the packages that a source file imports, and those that its text names. Pure. */
+/** Finds the packages that a source file imports, and those that its text names, and modules imported twice. Pure. */
 import { isBuiltin } from 'node:module';
 
 /** `from '…'`, `import '…'`, `import('…')`, `require('…')`, `import.meta.resolve('…')`, `require.resolve('…')`. */
@@ -27,4 +27,12 @@ export function importedPackages(source: string): Set<string> {
     }
   }
   return packages;
+}
+
+/** @returns the modules that a source imports by two declarations with names in braces, which could be one */
+export function repeatedImports(source: string): string[] {
+  const text = source.replace(COMMENTS, '');
+  const declarations = text.matchAll(/^import (?:type )?\{[^}]*\} from ['"](?<specifier>[^'"\n]+)['"]/gm);
+  const modules = [...declarations].map(({ groups }) => groups!.specifier!);
+  return [...new Set(modules.filter((module, i) => modules.indexOf(module) < i))];
 }

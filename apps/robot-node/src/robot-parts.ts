@@ -13,8 +13,7 @@ import { openPlayedVideos } from './send/video/played-videos.ts';
 import { BaseThread } from './sense/base/base-thread.ts';
 import type { Capture } from './sense/capture/capture.ts';
 import type { VideoCamera } from './sense/video/video-encoder.ts';
-import type { VideoCameraOptions } from './serve/cameras/open-video-cameras.ts';
-import { openVideoCameras } from './serve/cameras/open-video-cameras.ts';
+import { openVideoCameras, type VideoCameraOptions } from './serve/cameras/open-video-cameras.ts';
 import { SessionRecording } from './tell/session-recording.ts';
 
 /** Gives simulated sensors the world of the simulated base, so that they see the robot move. */

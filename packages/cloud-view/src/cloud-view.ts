@@ -13,8 +13,7 @@ import type {
 } from '@farpoint/operator';
 import { BufferGeometry, Points, type RawShaderMaterial, Sphere, Vector3, type WebGLRenderer } from 'three';
 import { writePose } from './batch-pose.ts';
-import type { CloudColouring } from './cloud-colouring.ts';
-import { freshnessAt } from './cloud-colouring.ts';
+import { type CloudColouring, freshnessAt } from './cloud-colouring.ts';
 import type { CloudPaint } from './cloud-paint.ts';
 import { CloudSurface } from './cloud-surface.ts';
 import { type DrawnPoints, type FramePose, readDrawnPoints } from './drawn-points.ts';

@@ -8,12 +8,16 @@ import {
   type Twist,
   zeroTwist,
 } from '@farpoint/protocol';
-import type { CommandGateOptions } from './command-gate.ts';
-import { CommandGate, type CommandVerdict, type RejectedCommand, WITHOUT_WHEELS } from './command-gate.ts';
+import {
+  CommandGate,
+  type CommandGateOptions,
+  type CommandVerdict,
+  type RejectedCommand,
+  WITHOUT_WHEELS,
+} from './command-gate.ts';
 import { EstopLatch, type EstopSource } from './estop.ts';
 import { type EstopReleaseOutcome, type EstopReleasePolicy, releaseEstop } from './estop-release.ts';
-import type { LeaseOptions } from './lease.ts';
-import { type LeaseOutcome, LeaseTable } from './lease.ts';
+import { type LeaseOptions, type LeaseOutcome, LeaseTable } from './lease.ts';
 import { copyTwist } from './limits.ts';
 import { OperatorView } from './motion/operator-view.ts';
 import { SentViews } from './motion/sent-views.ts';

@@ -7,15 +7,17 @@ import type {
   LatencyMeasured,
   Twist,
 } from '@farpoint/protocol';
-import type { BlindTravelLimits, RampLimits, ViewAgeLimits } from '@farpoint/safety';
 import {
   BlindTravel,
+  type BlindTravelLimits,
   type CommandVerdict,
   DriveGuard,
   type EstopReleasePolicy,
   MotionSupervisor,
+  type RampLimits,
   type TakePolicy,
   ViewAge,
+  type ViewAgeLimits,
 } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import { monotonicMs } from '../ground/clock.ts';

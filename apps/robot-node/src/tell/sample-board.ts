@@ -1,9 +1,14 @@
 /** The samples of quantities that wait to be sent. */
 
-import type { Alarm, DiagnosticReport } from '@farpoint/protocol';
-import { MAX_SAMPLES, type Quantity, type Sample, type Samples } from '@farpoint/protocol';
-import type { TopicEntry } from '@farpoint/ros';
-import { quantitiesOf } from '@farpoint/ros';
+import {
+  type Alarm,
+  type DiagnosticReport,
+  MAX_SAMPLES,
+  type Quantity,
+  type Sample,
+  type Samples,
+} from '@farpoint/protocol';
+import { quantitiesOf, type TopicEntry } from '@farpoint/ros';
 
 /** Takes what the robot tells about itself besides its state, for a recording. Times are of the robot's clock, ms. */
 export interface TelemetryTaker {

@@ -1,7 +1,11 @@
 /** Everything that the robot tells about itself besides its state: readings, samples, components' reports, alarms, path, map, model. */
 
-import type { TimedBaseState } from '@farpoint/cloud-source';
-import { NO_PLAYED_TELEMETRY, type PlayedMessage, type PlayedTelemetry } from '@farpoint/cloud-source';
+import {
+  NO_PLAYED_TELEMETRY,
+  type PlayedMessage,
+  type PlayedTelemetry,
+  type TimedBaseState,
+} from '@farpoint/cloud-source';
 import type { Alarm, Quantity } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
 import { AlarmBoard, type AlarmRule } from './alarms/alarm-board.ts';
@@ -9,8 +13,7 @@ import { ComponentBoard } from './component-board.ts';
 import { ModelBoard } from './model-board.ts';
 import { NavigationBoard } from './navigation-board.ts';
 import { ReadingBoard } from './reading-board.ts';
-import type { TelemetryTaker } from './sample-board.ts';
-import { SampleBoard } from './sample-board.ts';
+import { SampleBoard, type TelemetryTaker } from './sample-board.ts';
 
 /** What alarms can watch of the robot's own state, by the name in the configuration. */
 export const STATE_QUANTITIES = {

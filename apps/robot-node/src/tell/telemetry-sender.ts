@@ -1,9 +1,11 @@
 import type { TimedBaseState } from '@farpoint/cloud-source';
-import type { RobotSessionMessage, StageTimings, StreamStatus } from '@farpoint/protocol';
 import {
   encodeJson,
   type NearField,
   nextSequence32,
+  type RobotSessionMessage,
+  type StageTimings,
+  type StreamStatus,
   type Telemetry,
   type TelemetryMessage,
   telemetryCodec,

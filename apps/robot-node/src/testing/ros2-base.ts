@@ -1,6 +1,5 @@
 import { DdsGraph } from '@farpoint/dds';
-import type { Publisher, Subscription } from '@farpoint/ros';
-import { LATCHED_QOS } from '@farpoint/ros';
+import { LATCHED_QOS, type Publisher, type Subscription } from '@farpoint/ros';
 import { messageBytes } from '@farpoint/ros/testing';
 import { monotonicMs } from '../ground/clock.ts';
 

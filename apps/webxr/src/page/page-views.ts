@@ -1,7 +1,6 @@
 /** What shows, in the scene, what the robot sends: clouds, videos, what was seen before, and where the robot is. */
 import { CloudView } from '@farpoint/cloud-view';
-import type { RobotClient } from '@farpoint/operator';
-import { CloudHold, driverHold, HeldClouds, noHold } from '@farpoint/operator';
+import { CloudHold, driverHold, HeldClouds, noHold, type RobotClient } from '@farpoint/operator';
 import type { Settings } from '../ground/settings.ts';
 import { PresentedInstant } from '../ground/telemetry/presented-instant.ts';
 import { RememberedWorld } from '../panels/ui/remembered-world.ts';

@@ -2,11 +2,12 @@
 
 import { finalLosses, type RobotClient } from '@farpoint/operator';
 import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
-import type { Tone, Words } from '../words/words.ts';
 import {
   failureWords,
   gripLossWords,
   rejectionWords,
+  type Tone,
+  type Words,
   wordsOfLoss,
   wordsOfRejection,
 } from '../words/words.ts';

@@ -1,5 +1,11 @@
-import type { Picture, RobotClient, RobotEvents, StopStatus } from '@farpoint/operator';
-import { ComponentReports, Readings } from '@farpoint/operator';
+import {
+  ComponentReports,
+  type Picture,
+  Readings,
+  type RobotClient,
+  type RobotEvents,
+  type StopStatus,
+} from '@farpoint/operator';
 import type { EstopState, LeaseState, RobotListing, Telemetry, Welcome } from '@farpoint/protocol';
 import { effect } from '@preact/signals-core';
 import { describe, expect, test } from 'vitest';

@@ -1,5 +1,4 @@
-import type { PictureFormat } from '@farpoint/protocol';
-import { MAX_CAMERAS, type WholePicture } from '@farpoint/protocol';
+import { MAX_CAMERAS, type PictureFormat, type WholePicture } from '@farpoint/protocol';
 
 export interface PictureToDecode {
   /** Identifies the request; repeated in the answer. */

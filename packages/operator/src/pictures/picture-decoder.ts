@@ -1,7 +1,6 @@
 /** Decodes cameras' pictures in a worker, the newest of each camera. */
 import type { WholePicture } from '@farpoint/protocol';
-import type { FromPictureWorker, PictureToDecode } from './decode-queue.ts';
-import { DecodeQueue } from './decode-queue.ts';
+import { DecodeQueue, type FromPictureWorker, type PictureToDecode } from './decode-queue.ts';
 
 export interface PictureDecoderEvents {
   /** Whoever takes the bitmap closes it. */

@@ -9,8 +9,13 @@ import type { TransformSupport } from '../peer/encoded-transform.ts';
 import { CaptureTimes } from './capture-times.ts';
 import type { FromStampWorker } from './stamp-messages.ts';
 import { WatchPeer } from './watch-peer.ts';
-import type { WatchEvents, WatchObstacle, WatchPhase, WatchState } from './watch-state.ts';
-import { obstacleOf } from './watch-state.ts';
+import {
+  obstacleOf,
+  type WatchEvents,
+  type WatchObstacle,
+  type WatchPhase,
+  type WatchState,
+} from './watch-state.ts';
 
 /** What a {@link RobotWatcher} is made with. */
 export interface RobotWatcherOptions {

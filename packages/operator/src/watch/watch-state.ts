@@ -1,6 +1,5 @@
 import { JanusFailure } from '@farpoint/janus';
-import type { Broadcast } from '@farpoint/protocol';
-import { ProtocolError } from '@farpoint/protocol';
+import { type Broadcast, ProtocolError } from '@farpoint/protocol';
 import type { RobotEvents } from '../client/robot-events.ts';
 
 /** Why nothing can be watched at present. */

@@ -3,8 +3,7 @@ import { jointStateSchema, MOST_JOINTS, stringSchema } from '../messages.ts';
 import { RateLimit } from '../rate-limit.ts';
 import { shortened, type TopicReading } from '../reading.ts';
 import type { TopicEntry } from '../topic-table.ts';
-import type { ModelNews } from './read-urdf.ts';
-import { readUrdf } from './read-urdf.ts';
+import { type ModelNews, readUrdf } from './read-urdf.ts';
 import { UrdfFault } from './urdf-fault.ts';
 
 const NO_WORDS = { level: 'ok', values: [] as TopicReading['values'] } as const;

@@ -1,6 +1,5 @@
 import type { Twist } from '@farpoint/protocol';
-import type { MotionBound, MotionGuard } from './motion-guard.ts';
-import { FREE } from './motion-guard.ts';
+import { FREE, type MotionBound, type MotionGuard } from './motion-guard.ts';
 import type { OperatorView } from './operator-view.ts';
 
 export interface BlindTravelLimits {

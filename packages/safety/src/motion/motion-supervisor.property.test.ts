@@ -5,8 +5,7 @@ import { describe, expect, test } from 'vitest';
 import { DriveGuard } from '../drive-guard.ts';
 import { defaultDriveLimits, RESUME_WITHIN_MS } from '../limits.ts';
 import { BlindTravel, blindSpeedMps } from './blind-travel.ts';
-import type { MotionBound, MotionGuard } from './motion-guard.ts';
-import { FREE } from './motion-guard.ts';
+import { FREE, type MotionBound, type MotionGuard } from './motion-guard.ts';
 import { MotionSupervisor } from './motion-supervisor.ts';
 import { ViewAge } from './view-age.ts';
 

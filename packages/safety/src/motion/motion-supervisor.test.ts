@@ -3,8 +3,7 @@ import { describe, expect, test } from 'vitest';
 import type { DriveGuard } from '../drive-guard.ts';
 import { RESUME_WITHIN_MS } from '../limits.ts';
 import { drivenGuard } from '../testing/driven-guard.ts';
-import type { MotionBound, MotionGuard } from './motion-guard.ts';
-import { FREE } from './motion-guard.ts';
+import { FREE, type MotionBound, type MotionGuard } from './motion-guard.ts';
 import { MotionSupervisor, type MotionSupervisorOptions } from './motion-supervisor.ts';
 
 const ramps = {

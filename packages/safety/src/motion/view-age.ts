@@ -1,5 +1,4 @@
-import type { MotionBound, MotionGuard } from './motion-guard.ts';
-import { FREE } from './motion-guard.ts';
+import { FREE, type MotionBound, type MotionGuard } from './motion-guard.ts';
 import type { OperatorView } from './operator-view.ts';
 
 export interface ViewAgeLimits {

@@ -1,6 +1,5 @@
 import { longProperty, shareInEachRun } from '@farpoint/network-sim/cases';
-import type { Twist } from '@farpoint/protocol';
-import { zeroTwist } from '@farpoint/protocol';
+import { type Twist, zeroTwist } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { Footprint } from './footprint.ts';

@@ -1,5 +1,4 @@
-import type { Twist } from '@farpoint/protocol';
-import { shortestTurn } from '@farpoint/protocol';
+import { shortestTurn, type Twist } from '@farpoint/protocol';
 import type { FloorPose } from '../obstacles/sensor-grid.ts';
 
 /** What the robot can do: m/s and rad/s. */

@@ -1,6 +1,5 @@
 /** A robot that drives back under the real obstacle guard: people and things in its way. */
-import type { Twist } from '@farpoint/protocol';
-import { isZeroTwist } from '@farpoint/protocol';
+import { isZeroTwist, type Twist } from '@farpoint/protocol';
 import { describe, expect, test } from 'vitest';
 import type { MotionBound, MotionGuard } from '../motion/motion-guard.ts';
 import { Footprint } from '../obstacles/footprint.ts';

@@ -1,7 +1,6 @@
 import { type Command, zeroTwist } from '@farpoint/protocol';
 import type { CommandVerdict } from '../command-gate.ts';
-import type { DriveGuardOptions } from '../drive-guard.ts';
-import { DriveGuard } from '../drive-guard.ts';
+import { DriveGuard, type DriveGuardOptions } from '../drive-guard.ts';
 import { defaultDriveLimits } from '../limits.ts';
 
 /** Bytes 1,1,1… for the first lease, 2,2,2… for the second. */

@@ -1,5 +1,4 @@
-import type { RTCDtlsTransport } from 'werift';
-import { CandidatePairState } from 'werift';
+import { CandidatePairState, type RTCDtlsTransport } from 'werift';
 import type { PeerBudget } from '../peer-budget.ts';
 import type { Refusal, Refusals } from '../refusal.ts';
 import { isAuthenticRequest, stunKind } from '../stun/binding-request.ts';

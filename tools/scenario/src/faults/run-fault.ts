@@ -1,5 +1,4 @@
-import type { LinkProfile } from '@farpoint/network-sim';
-import { Random } from '@farpoint/network-sim';
+import { type LinkProfile, Random } from '@farpoint/network-sim';
 import type { Driving, Fault } from '@farpoint/robot-node/testing/faults';
 import type { ScenarioOperator } from '../operator.ts';
 import { Scenario } from '../scenario.ts';

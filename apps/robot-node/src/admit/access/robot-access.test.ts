@@ -10,8 +10,7 @@ import type { Operators } from '@farpoint/protocol';
 import { silentLogger } from '@farpoint/service';
 import { describe, expect, it, vi } from 'vitest';
 import { ReasonCounts } from '../../ground/robot-counters.ts';
-import type { Access } from './access.ts';
-import { openAccess } from './access.ts';
+import { type Access, openAccess } from './access.ts';
 import { type GuardedOperator, RobotAccess } from './robot-access.ts';
 
 async function setUp() {

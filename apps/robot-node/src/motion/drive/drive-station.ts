@@ -1,5 +1,4 @@
-import type { Twist } from '@farpoint/protocol';
-import { zeroTwist } from '@farpoint/protocol';
+import { type Twist, zeroTwist } from '@farpoint/protocol';
 import type { DriveGuard, MotionSupervisor } from '@farpoint/safety';
 import { type SinkFault, sinkFaultWords } from '../../ground/velocity-sink.ts';
 

@@ -9,8 +9,13 @@ import { type Placing, ScanGuard } from '../../sense/obstacles/scan-guard.ts';
 import { SensorFrames } from '../../sense/obstacles/sensor-frames.ts';
 import { SinkBeat } from '../drive/sink-beat.ts';
 import { CollisionCells } from './collision-cells.ts';
-import type { GuardTopicsReport, GuardTopicsRequest, GuardTopicsSetup } from './guard-topics-messages.ts';
-import { COLLISION_TYPES, demandedMps } from './guard-topics-messages.ts';
+import {
+  COLLISION_TYPES,
+  demandedMps,
+  type GuardTopicsReport,
+  type GuardTopicsRequest,
+  type GuardTopicsSetup,
+} from './guard-topics-messages.ts';
 
 const LASER_SCAN = 'sensor_msgs/msg/LaserScan';
 /** How often the thread says that it lives, ms: 50 times before it is replaced (guard-topics.ts). */

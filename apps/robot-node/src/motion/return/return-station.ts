@@ -4,8 +4,7 @@ import { type Lookout, ODOMETRY_OVERSPEED, ReturnDrive, type ReturnPhase } from 
 import type { Logger } from '@farpoint/service';
 import { ReasonCounts } from '../../ground/robot-counters.ts';
 import type { BaseOdometry } from '../../sense/base/base-odometry.ts';
-import type { ReturnConfiguration } from './return-announcer.ts';
-import { ReturnAnnouncer } from './return-announcer.ts';
+import { ReturnAnnouncer, type ReturnConfiguration } from './return-announcer.ts';
 
 /** What the audit log records of it. */
 export interface ReturnAudit {

@@ -3,8 +3,7 @@
 import { withoutCredentials } from '@farpoint/service';
 import { checkConfiguration } from '../doctor/check-configuration.ts';
 import { configurationCheck, machineChecks, robotChecks } from '../doctor/checks.ts';
-import type { Verdict } from '../doctor/finding.ts';
-import { type Finding, runCheck } from '../doctor/finding.ts';
+import { type Finding, runCheck, type Verdict } from '../doctor/finding.ts';
 import { thisHost } from '../doctor/host.ts';
 import { graphsOf } from '../doctor/ros-probe.ts';
 import type { CommandRim } from './init.ts';

@@ -1,16 +1,17 @@
 import { setTimeout as delay } from 'node:timers/promises';
-import type {
-  BaseState,
-  CaptureRoom,
-  CaptureWishes,
-  FrameSource,
-  PictureTaker,
-  PlayedMessage,
-  PlayedPicture,
-  SourceDescription,
-  SourceFrame,
+import {
+  type BaseState,
+  type CameraDescription,
+  type CaptureRoom,
+  type CaptureWishes,
+  cameraOf,
+  type FrameSource,
+  type PictureTaker,
+  type PlayedMessage,
+  type PlayedPicture,
+  type SourceDescription,
+  type SourceFrame,
 } from '@farpoint/cloud-source';
-import { type CameraDescription, cameraOf } from '@farpoint/cloud-source';
 import {
   CloudPlayer,
   type PlayClock,

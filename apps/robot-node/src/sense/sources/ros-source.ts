@@ -1,12 +1,13 @@
 /** Clouds, poses and readings from a live ROS graph, as the topic table allows. */
 
-import type { BaseState, PictureTaker } from '@farpoint/cloud-source';
 import {
+  type BaseState,
   type CaptureRoom,
   type CaptureWishes,
   cameraOf,
   type FrameSource,
   type Mounted,
+  type PictureTaker,
   type SourceDescription,
   type SourceFrame,
 } from '@farpoint/cloud-source';
@@ -21,8 +22,13 @@ import {
   type TopicTable,
   topicAs,
 } from '@farpoint/ros';
-import type { CaptureTime } from '../../ground/ros/capture-time.ts';
-import { capturedAtMs, LATE_MS, lateFault, type RosClock } from '../../ground/ros/capture-time.ts';
+import {
+  type CaptureTime,
+  capturedAtMs,
+  LATE_MS,
+  lateFault,
+  type RosClock,
+} from '../../ground/ros/capture-time.ts';
 import { type Listener, listenBytes } from '../../ground/ros/ros-listener.ts';
 import { REFUSED_AGE_MS, StampClock, stampRefusals } from '../../ground/ros/stamp-clock.ts';
 import { readPicture } from '../pictures/picture-message.ts';

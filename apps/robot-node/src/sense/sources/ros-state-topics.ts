@@ -14,8 +14,7 @@ import {
   type TopicTable,
   WorldState,
 } from '@farpoint/ros';
-import type { RosClock } from '../../ground/ros/capture-time.ts';
-import { LATE_MS, lateFault } from '../../ground/ros/capture-time.ts';
+import { LATE_MS, lateFault, type RosClock } from '../../ground/ros/capture-time.ts';
 import { ReadingTopic } from '../../ground/ros/reading-topic.ts';
 import { type Listener, listen } from '../../ground/ros/ros-listener.ts';
 import { type StampClock, stampRefusals } from '../../ground/ros/stamp-clock.ts';

@@ -1,7 +1,6 @@
 /** The WebRTC connection with a reference operator: the robot offers, the operator answers, ICE trickles. */
 
-import type { IceServer } from '@farpoint/protocol';
-import { REFERENCE_MEDIA } from '@farpoint/protocol';
+import { type IceServer, REFERENCE_MEDIA } from '@farpoint/protocol';
 import { createReferencePeerConnection, referenceChannels } from '@farpoint/reference-profile';
 import {
   dropDefaultStun,

@@ -9,8 +9,8 @@
  * second.
  */
 import type { RateController } from '@farpoint/congestion';
-import type { IceServer } from '@farpoint/protocol';
 import {
+  type IceServer,
   type ReferenceRobotToService,
   type ReferenceServiceToRobot,
   referenceRobotToServiceCodec,

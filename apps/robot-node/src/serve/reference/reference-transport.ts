@@ -7,8 +7,7 @@ import {
   POINT_PACKET_OFFSETS,
   REFERENCE_MEDIA,
 } from '@farpoint/protocol';
-import type { ReportBlock, ResendRefusal } from '@farpoint/rtp';
-import { nextRtpTimestamp, rtpTimestamp } from '@farpoint/rtp';
+import { nextRtpTimestamp, type ReportBlock, type ResendRefusal, rtpTimestamp } from '@farpoint/rtp';
 import type { RtpTransport } from '../../send/transport/rtp-transport.ts';
 
 /**

@@ -10,8 +10,7 @@ import type { SendLoop } from '../../send/transport/send-loop.ts';
 import { SharedFrame } from '../../send/transport/shared-frame.ts';
 import { frame, RecordingTransport } from '../../send/transport/testing/recording-transport.ts';
 import type { SessionHost } from './operator-messages.ts';
-import type { OperatorSessionEvents } from './operator-session.ts';
-import { OperatorSession } from './operator-session.ts';
+import { OperatorSession, type OperatorSessionEvents } from './operator-session.ts';
 
 const CLAIM = { priority: 0, weight: 1, usefulBitsPerSecond: 1e9 };
 

@@ -1,8 +1,7 @@
 /** Lets the operator hear and feel that the robot does less than it is told, wherever they look. */
 import type { RobotClient } from '@farpoint/operator';
 import type { VrSession } from '../../scene/view/vr-session.ts';
-import type { Cue } from './cue-judge.ts';
-import { CueJudge } from './cue-judge.ts';
+import { type Cue, CueJudge } from './cue-judge.ts';
 import { CueSound } from './cue-sound.ts';
 
 /** How hard, 0–1, and how long. */

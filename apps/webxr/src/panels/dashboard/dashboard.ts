@@ -8,7 +8,6 @@ import type { Moment } from '../../ground/telemetry/moment.ts';
 import type { TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
 import type { Words } from '../../words/words.ts';
 import { quietButton, selectOf } from '../ui/panel-parts.ts';
-import type { TileSize } from './layout.ts';
 import {
   changed,
   DEFAULT_LAYOUT,
@@ -18,6 +17,7 @@ import {
   parseLayout,
   placed,
   TILE_SIZES,
+  type TileSize,
   WINDOWS_S,
 } from './layout.ts';
 import { ageText, spanText } from './number-words.ts';

@@ -2,10 +2,13 @@
  * The panel for clouds: what their colours mean, as colour bars to read values off, and the controls for it. It has
  * no field to type in and no control keeps the focus after a click, because both would take keys from driving.
  */
-import type { CloudView, HeightCut } from '@farpoint/cloud-view';
-import { DROP_TINT, HIT_TINT, type Rgb } from '@farpoint/cloud-view';
-import type { BodyHeights } from '@farpoint/operator';
-import { MemoryFileError, POINT_FILE_FORMATS, type PointFileFormat } from '@farpoint/operator';
+import { type CloudView, DROP_TINT, type HeightCut, HIT_TINT, type Rgb } from '@farpoint/cloud-view';
+import {
+  type BodyHeights,
+  MemoryFileError,
+  POINT_FILE_FORMATS,
+  type PointFileFormat,
+} from '@farpoint/operator';
 import { effect, type ReadonlySignal, type Signal, signal, untracked } from '@preact/signals-core';
 import { roomAbove } from '../../ground/panels/room-above.ts';
 import type { Switches } from '../../ground/switches.ts';

@@ -1,7 +1,7 @@
 /** The remembered world of the page: remembers what comes, draws it, also as a small map, and saves and loads it. */
 import { bodyYaw, MemoryView } from '@farpoint/cloud-view';
-import type { HeldClouds } from '@farpoint/operator';
 import {
+  type HeldClouds,
   type PointFileFormat,
   type RobotClient,
   TOP_VIEW,

@@ -2,8 +2,7 @@
 import { effect } from '@preact/signals-core';
 import type { PageState } from '../../state/page-state.ts';
 import { alarmLine } from '../../words/alarm-words.ts';
-import type { Fact } from '../../words/facts.ts';
-import { sessionFacts } from '../../words/facts.ts';
+import { type Fact, sessionFacts } from '../../words/facts.ts';
 import type { ShownReading } from '../../words/shown-readings.ts';
 import type { Words } from '../../words/words.ts';
 import { elements } from './elements.ts';

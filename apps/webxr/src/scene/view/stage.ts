@@ -1,8 +1,7 @@
 /** Renderer, scene and cameras. The frame loop only uploads new data, places the camera and draws. */
 
 import { bodyYaw, type CloudView, opticalYaw, RobotWorld } from '@farpoint/cloud-view';
-import type { RobotBody } from '@farpoint/protocol';
-import { shortestTurn } from '@farpoint/protocol';
+import { type RobotBody, shortestTurn } from '@farpoint/protocol';
 import {
   BoxGeometry,
   BufferGeometry,

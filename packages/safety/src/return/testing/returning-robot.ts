@@ -1,8 +1,7 @@
 import { type Command, type Twist, zeroTwist } from '@farpoint/protocol';
 import { DriveGuard } from '../../drive-guard.ts';
 import { defaultDriveLimits } from '../../limits.ts';
-import type { MotionBound, MotionGuard } from '../../motion/motion-guard.ts';
-import { FREE } from '../../motion/motion-guard.ts';
+import { FREE, type MotionBound, type MotionGuard } from '../../motion/motion-guard.ts';
 import { MotionSupervisor } from '../../motion/motion-supervisor.ts';
 import { type Lookout, ReturnDrive } from '../return-drive.ts';
 import { defaultReturnOptions, type ReturnOptions } from '../return-options.ts';

@@ -10,8 +10,7 @@ import {
 import type { Coding } from '@farpoint/video';
 import { capturedAtMs, type RosClock } from '../../../ground/ros/capture-time.ts';
 import { type Listener, listenBytes } from '../../../ground/ros/ros-listener.ts';
-import type { Feed, FeedEvents, FeedTarget } from './feed.ts';
-import { FrameRooms } from './feed.ts';
+import { type Feed, type FeedEvents, type FeedTarget, FrameRooms } from './feed.ts';
 import { imageFrame } from './image-frame.ts';
 
 const COMPRESSED = 'sensor_msgs/msg/CompressedImage';

@@ -1,7 +1,6 @@
 import { officeWorld, SimulatedCamera, type WorldSnapshot, withThings } from '@farpoint/sim';
 import { SharedWorld } from '../../base/shared-snapshot.ts';
-import type { Feed, FeedTarget } from './feed.ts';
-import { FrameRooms } from './feed.ts';
+import { type Feed, type FeedTarget, FrameRooms } from './feed.ts';
 import type { SimVideoSource } from './feed-source.ts';
 import { SimTrigger } from './sim-trigger.ts';
 
