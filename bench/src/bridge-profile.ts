@@ -2,9 +2,9 @@
  * `pnpm bench bridge --profile`: measures where the time of a small frame goes, from a camera's shared memory to a
  * page's socket.
  */
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { BridgeProcess, LocalStack, type RobotSpec } from '@farpoint/local-stack';
+import { BridgeProcess, LocalStack, processFolder, type RobotSpec } from '@farpoint/local-stack';
 import { buildAddon } from '@farpoint/shared-memory/build';
 import { buildAddon as buildUdpBatch } from '@farpoint/udp-batch/build';
 import { PageReader, readBridgeFrames } from './bridge-page.ts';
@@ -57,7 +57,7 @@ interface LogFiles {
 export async function profile(options: ProfileOptions): Promise<void> {
   buildAddon();
   buildUdpBatch();
-  const folder = mkdtempSync('/dev/shm/farpoint-profile-');
+  const folder = processFolder('/dev/shm');
   const files: LogFiles = {
     packetLog: join(folder, 'packets.csv'),
     frameLog: join(folder, 'frames.csv'),
@@ -91,7 +91,6 @@ export async function profile(options: ProfileOptions): Promise<void> {
     await bridge?.stop();
     await stack?.stop();
     producer.kill('SIGTERM');
-    rmSync(folder, { recursive: true, force: true });
   }
 }
 

@@ -1,9 +1,8 @@
 /** `pnpm bench bridge`: the robot in the reference profile, through the bridge, to a page's streaming socket. */
 
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { BridgeProcess, LocalStack, type RobotSpec } from '@farpoint/local-stack';
+import { BridgeProcess, LocalStack, processFolder, type RobotSpec } from '@farpoint/local-stack';
 import { bytesOfPoints, MAX_POINT_DATA_BYTES, POINTS_PER_PACKET, packetCountOf } from '@farpoint/protocol';
 import { BitRate } from '@farpoint/timing';
 import { benchOptions, option } from './bench-options.ts';
@@ -123,7 +122,7 @@ interface Load {
 }
 
 async function run(load: Load): Promise<RunResult> {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-bridge-'));
+  const folder = processFolder();
   const [sentFile, frameFile] = [join(folder, 'sent.csv'), join(folder, 'frames.jsonl')];
   const env = { FARPOINT_LOG_LEVEL: 'warn' };
   const { packets, fps, seconds } = load;
@@ -152,7 +151,6 @@ async function run(load: Load): Promise<RunResult> {
     reader?.kill();
     await bridge?.stop();
     await stack.stop();
-    rmSync(folder, { recursive: true, force: true });
   }
 }
 

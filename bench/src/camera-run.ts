@@ -1,7 +1,7 @@
 /** One run of `pnpm bench cameras`: the real programs, from cameras to the page, with a driving operator. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { processFolder } from '@farpoint/local-stack';
 import type { Page } from '@playwright/test';
 import type { BenchCamera } from './camera-list.ts';
 import { type AskedShares, type SharePair, sharesSeen } from './camera-shares.ts';
@@ -84,7 +84,7 @@ interface CameraFiles {
 
 /** @param log takes lines about the progress */
 export async function runCameras(setup: CameraSetup, log: (line: string) => void): Promise<CameraRun> {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-cameras-'));
+  const folder = processFolder();
   const files: CameraFiles = {
     config: join(folder, 'c.yaml'),
     link: join(folder, 'link.jsonl'),
@@ -105,7 +105,6 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
     return figuresOf(setup, record, files);
   } finally {
     await live.close();
-    rmSync(folder, { recursive: true, force: true });
   }
 }
 

@@ -1,10 +1,9 @@
 /** `pnpm bench connect`: how long it takes to establish a session. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { ReferenceOperator } from '@farpoint/conformance';
 import { grantTo, makeIssuer, type TestIssuer } from '@farpoint/grants/testing';
-import { LocalStack } from '@farpoint/local-stack';
+import { LocalStack, processFolder } from '@farpoint/local-stack';
 import { type Credentials, SignaledOperator } from '@farpoint/robot-node/testing';
 import { metricOf } from '@farpoint/robot-node/testing/metric-of';
 import { shownGrant } from '@farpoint/robot-node/testing/shown-grant';
@@ -40,7 +39,7 @@ export const bench: Bench = {
       starts: option.number(5),
       busy: option.number(0),
     });
-    const folder = mkdtempSync(join(tmpdir(), 'farpoint-bench-connect-'));
+    const folder = processFolder();
     const keys = join(folder, 'grant-keys.json');
     const issuer = await makeIssuer();
     writeFileSync(keys, JSON.stringify({ keys: [issuer.publicJwk] }));
@@ -59,7 +58,6 @@ export const bench: Bench = {
     } finally {
       await stack.stop();
       loops.stop();
-      rmSync(folder, { recursive: true });
     }
   },
 };

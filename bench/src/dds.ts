@@ -2,13 +2,12 @@
  * `pnpm bench dds`: clouds from a ROS 2 node of another implementation to the robot's packets, and velocities back to
  * it.
  */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { DdsGraph } from '@farpoint/dds';
 import { buildAddon } from '@farpoint/dds/build';
 import { findPeer, PEER_REMEDY, Peer, testDomain } from '@farpoint/dds/testing';
-import { LocalStack } from '@farpoint/local-stack';
+import { LocalStack, processFolder } from '@farpoint/local-stack';
 import { SignaledOperator } from '@farpoint/robot-node/testing';
 import { VELOCITY_QOS, velocityWriter } from '@farpoint/ros';
 import { benchOptions, type OptionValues, option } from './bench-options.ts';
@@ -107,7 +106,7 @@ interface DdsResult {
 }
 
 async function measure({ command, side, hz, seconds, mbps, reliability }: Run): Promise<DdsResult> {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-bench-dds-'));
+  const folder = processFolder();
   const [frameLog, config] = [join(folder, 'frames.csv'), join(folder, 'farpoint.yaml')];
   const domain = testDomain();
   writeFileSync(config, configuration(domain, reliability));
@@ -135,7 +134,6 @@ async function measure({ command, side, hz, seconds, mbps, reliability }: Run): 
   } finally {
     await stack?.stop();
     await peer.kill();
-    rmSync(folder, { recursive: true, force: true });
   }
 }
 

@@ -1,8 +1,8 @@
 /** `pnpm bench faults`: what goes wrong while a robot is driven, and how soon it brakes. */
 import { spawn } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { processFolder } from '@farpoint/local-stack';
 import { type FaultTime, TIMES_FILE } from '@farpoint/robot-node/testing/fault-times';
 import { benchOptions } from './bench-options.ts';
 import { type Bench, printJson, printTable } from './report.ts';
@@ -17,26 +17,22 @@ const root = join(import.meta.dirname, '..', '..');
 
 /** @throws Error if a test of the table failed for another reason than its time, or nothing was measured */
 export async function faultTimes(): Promise<FaultTime[]> {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-fault-times-'));
-  try {
-    const file = join(folder, 'times.json');
-    const vitest = join(root, 'node_modules', 'vitest', 'vitest.mjs');
-    const args = ['run', '--project', 'stack-alone', 'apps/robot-node/src/fault-table.stack.test.ts'];
-    const child = spawn(process.execPath, [vitest, ...args], {
-      cwd: root,
-      env: { ...process.env, [TIMES_FILE]: file, FARPOINT_LONG_TESTS: '1' },
-      // The JSON goes to standard output alone.
-      stdio: ['ignore', 2, 2],
-    });
-    const code = await new Promise<number | null>((resolve, reject) => {
-      child.once('error', reject);
-      child.once('exit', resolve);
-    });
-    if (code !== 0) throw new Error('a test of the fault table failed; see above');
-    return JSON.parse(readFileSync(file, 'utf8')) as FaultTime[];
-  } finally {
-    rmSync(folder, { recursive: true, force: true });
-  }
+  const folder = processFolder();
+  const file = join(folder, 'times.json');
+  const vitest = join(root, 'node_modules', 'vitest', 'vitest.mjs');
+  const args = ['run', '--project', 'stack-alone', 'apps/robot-node/src/fault-table.stack.test.ts'];
+  const child = spawn(process.execPath, [vitest, ...args], {
+    cwd: root,
+    env: { ...process.env, [TIMES_FILE]: file, FARPOINT_LONG_TESTS: '1' },
+    // The JSON goes to standard output alone.
+    stdio: ['ignore', 2, 2],
+  });
+  const code = await new Promise<number | null>((resolve, reject) => {
+    child.once('error', reject);
+    child.once('exit', resolve);
+  });
+  if (code !== 0) throw new Error('a test of the fault table failed; see above');
+  return JSON.parse(readFileSync(file, 'utf8')) as FaultTime[];
 }
 
 export function printFaults(faults: readonly FaultTime[]): void {

@@ -1,9 +1,7 @@
 /** `pnpm bench first-drive`: what a newcomer's first drive is like on this computer, by the README's first command. */
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
-import { availableParallelism, tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { freePorts, ManagedProcess, repositoryRoot } from '@farpoint/local-stack';
+import { availableParallelism } from 'node:os';
+import { freePorts, ManagedProcess, processFolder, repositoryRoot } from '@farpoint/local-stack';
 import { benchOptions, type OptionValues, option } from './bench-options.ts';
 import { BusyLoops } from './busy-loops.ts';
 import { FIRST_DRIVE_BROWSERS, openFirstDrive } from './first-drive-browser.ts';
@@ -111,7 +109,6 @@ async function driveAll({
   } finally {
     loops?.stop();
     if (stack !== null) await endGroup(stack);
-    if (!here) rmSync(folder, { recursive: true, force: true });
   }
   return rows;
 }
@@ -160,7 +157,7 @@ function print(rows: readonly Row[]): void {
 
 /** @returns a fresh clone of the last commit */
 function clone(): string {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-first-drive-'));
+  const folder = processFolder();
   if (execFileSync('git', ['status', '--porcelain'], { cwd: repositoryRoot, encoding: 'utf8' }).trim() !== '')
     console.error(
       'this checkout has changes that are not committed: they are not in the clone (--here uses them)',

@@ -1,6 +1,5 @@
 /** `pnpm bench janus`: what viewers at Janus cost the robot. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import {
   chromiumLaunchOptions,
@@ -8,6 +7,7 @@ import {
   JANUS_REMEDY,
   JanusServer,
   LocalStack,
+  processFolder,
   repositoryRoot,
 } from '@farpoint/local-stack';
 import { JanusViewer } from '@farpoint/robot-node/testing/janus';
@@ -95,7 +95,7 @@ export const bench: Bench = {
 };
 
 async function measure(options: RunOptions) {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-bench-janus-'));
+  const folder = processFolder();
   const janus = await JanusServer.start();
   const viewers: JanusViewer[] = [];
   let stack: LocalStack | null = null;
@@ -122,7 +122,6 @@ async function measure(options: RunOptions) {
     await browser?.close();
     await stack?.stop();
     await janus.stop();
-    rmSync(folder, { recursive: true, force: true });
   }
 }
 

@@ -1,8 +1,8 @@
 /** `pnpm bench link`: the real robot and the real browser over an emulated link. */
 
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { processFolder } from '@farpoint/local-stack';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { type LinkRecord, linkFigures } from './link-figures.ts';
 import { LINK_USAGE, type LinkOptions, readLinkOptions } from './link-options.ts';
@@ -27,7 +27,7 @@ export const bench: Bench = {
     const options = readLinkOptions(argv);
     const { robots, keep, plot } = options;
 
-    const folder = keep ?? mkdtempSync(join(tmpdir(), 'farpoint-link-'));
+    const folder = keep ?? processFolder();
     const files: LinkFiles = {
       link: join(folder, 'link.jsonl'),
       robots: Array.from({ length: robots }, (_, i) => join(folder, `robot-${i + 1}.jsonl`)),
@@ -49,7 +49,6 @@ export const bench: Bench = {
       if (options.json) printJson(result);
     } finally {
       await live.close();
-      if (keep === undefined) rmSync(folder, { recursive: true, force: true });
     }
   },
 };

@@ -2,9 +2,10 @@
  * `pnpm bench recording`: what recording costs the robot, whether its memory use stays constant, and whether the
  * recording is complete.
  */
-import { mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
+import { readFileSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { processFolder } from '@farpoint/local-stack';
 import { MAX_VIDEOS } from '@farpoint/protocol';
 import { openRecording } from '@farpoint/recording';
 import { benchOptions, type OptionValues, option } from './bench-options.ts';
@@ -52,18 +53,14 @@ export const bench: Bench = {
   async run(argv) {
     const options = benchOptions(argv, OPTIONS);
     buildSharedMemory();
-    const folder = mkdtempSync(join(options.folder, 'farpoint-bench-recording-'));
+    const folder = processFolder(options.folder);
     const path = join(folder, 'session.mcap');
-    try {
-      const runs = await measureBoth(options, folder, path);
-      const file = await readBack(path);
-      const result = figuresOf(options, runs, file, statSync(path).size);
-      printRuns(runs, result);
-      printFile(file, runs.skipped);
-      if (options.json) printJson(result);
-    } finally {
-      rmSync(folder, { recursive: true, force: true });
-    }
+    const runs = await measureBoth(options, folder, path);
+    const file = await readBack(path);
+    const result = figuresOf(options, runs, file, statSync(path).size);
+    printRuns(runs, result);
+    printFile(file, runs.skipped);
+    if (options.json) printJson(result);
   },
 };
 

@@ -1,8 +1,7 @@
 /** `pnpm bench ros1`: clouds from a rospy node to the robot's packets. */
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { LocalStack } from '@farpoint/local-stack';
+import { LocalStack, processFolder } from '@farpoint/local-stack';
 import { SignaledOperator } from '@farpoint/robot-node/testing';
 import { Ros1Peers } from '@farpoint/ros/testing/ros1';
 import { benchOptions, option } from './bench-options.ts';
@@ -56,7 +55,7 @@ interface Options {
 }
 
 async function measure(python: string, { as, hz, seconds, mbps }: Options) {
-  const folder = mkdtempSync(join(tmpdir(), 'farpoint-bench-ros1-'));
+  const folder = processFolder();
   const [frameLog, config] = [join(folder, 'frames.csv'), join(folder, 'farpoint.yaml')];
   const peers = await Ros1Peers.open(python);
   let stack: LocalStack | null = null;
@@ -90,7 +89,6 @@ async function measure(python: string, { as, hz, seconds, mbps }: Options) {
   } finally {
     await stack?.stop();
     await peers.close();
-    rmSync(folder, { recursive: true, force: true });
   }
 }
 

@@ -1,8 +1,8 @@
 /** One run of a robot with a camera in shared memory, and an operator in this process who watches it. */
 import { type ChildProcess, spawn } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { LocalStack, type RobotSpec } from '@farpoint/local-stack';
+import { LocalStack, processFolder, type RobotSpec } from '@farpoint/local-stack';
 import { SignaledOperator } from '@farpoint/robot-node/testing';
 import { buildAddon } from '@farpoint/shared-memory/build';
 import { cpuSecondsOfMainThread, cpuSecondsOfTree } from './cpu-time.ts';
@@ -58,7 +58,7 @@ export function buildSharedMemory(): void {
 }
 
 export async function measure(layout: Layout, run: ShmRun): Promise<LayoutResult> {
-  const folder = mkdtempSync('/dev/shm/farpoint-bench-');
+  const folder = processFolder('/dev/shm');
   const [frameLog, producerLog] = [join(folder, 'frames.csv'), join(folder, 'producer.txt')];
   const { size, fps, pictures = false } = run;
   const producer = startProducer({ layout, folder, size, fps, log: producerLog, scene: pictures });
@@ -75,7 +75,6 @@ export async function measure(layout: Layout, run: ShmRun): Promise<LayoutResult
   } finally {
     await stack?.stop();
     await stop(producer);
-    rmSync(folder, { recursive: true, force: true });
   }
 }
 

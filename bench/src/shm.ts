@@ -1,5 +1,5 @@
 /** `pnpm bench shm`: clouds through shared memory, from a producer's process to the robot's first packet. */
-import { mkdtempSync, rmSync } from 'node:fs';
+import { processFolder } from '@farpoint/local-stack';
 import { type KillTestResult, runKillTest } from '@farpoint/shared-memory/kill-test';
 import { benchOptions, type OptionValues, option } from './bench-options.ts';
 import { type Bench, distributionCells, printJson, printTable } from './report.ts';
@@ -104,21 +104,17 @@ async function killAll(
 ): Promise<Partial<Record<Layout, KillTestResult>>> {
   const results: Partial<Record<Layout, KillTestResult>> = {};
   for (const layout of layouts) {
-    const folder = mkdtempSync('/dev/shm/farpoint-bench-');
+    const folder = processFolder('/dev/shm');
     console.error(`${layout}: ${frames} frames of ${points} points, both sides killed at random`);
-    try {
-      results[layout] = await runKillTest({
-        layout,
-        folder,
-        frames,
-        points,
-        leastKills: 10,
-        seed,
-        lifeMs: [20, 1500],
-      });
-    } finally {
-      rmSync(folder, { recursive: true, force: true });
-    }
+    results[layout] = await runKillTest({
+      layout,
+      folder,
+      frames,
+      points,
+      leastKills: 10,
+      seed,
+      lifeMs: [20, 1500],
+    });
   }
   printTable(
     ['', 'frames', 'torn', 'producer kills', 'reader kills', 'longest pause, ms', 'frames/s'],

@@ -1,8 +1,7 @@
 /** `pnpm bench transport`: the point stream from the robot process to the browser's worker, at a fixed rate. */
 
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { processFolder } from '@farpoint/local-stack';
 import { MAX_POINT_DATA_BYTES } from '@farpoint/protocol';
 import { BitRate } from '@farpoint/timing';
 import { benchOptions, type OptionValues, option } from './bench-options.ts';
@@ -37,7 +36,7 @@ export const bench: Bench = {
   usage: USAGE,
   async run(argv) {
     const options = benchOptions(argv, OPTIONS);
-    const folder = mkdtempSync(join(tmpdir(), 'farpoint-transport-'));
+    const folder = processFolder();
     const logFile = join(folder, 'sent.csv');
     const live = await startLiveStack({
       robot: { id: 'sim-1', name: 'Simulated robot', args: robotArgs(options, logFile) },
@@ -52,7 +51,6 @@ export const bench: Bench = {
       if (options.json) printJson(result);
     } finally {
       await live.close();
-      rmSync(folder, { recursive: true, force: true });
     }
   },
 };

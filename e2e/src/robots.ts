@@ -1,11 +1,10 @@
 /** The simulated robots of the tests with real programs. */
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import type { RobotSpec } from '@farpoint/local-stack';
+import { processFolder, type RobotSpec } from '@farpoint/local-stack';
 import { ADDON_FILE } from '@farpoint/sound/build';
 import { samplesOf } from '@farpoint/sound/testing';
 import { availableEncoders } from '@farpoint/video';
-import { processFolder } from './process-folder.ts';
 import { AUDIO_RATE } from './voice.ts';
 
 /** Whether GStreamer and the program that encodes are there; without them, tests of videos are skipped. */

@@ -1,7 +1,7 @@
 /** What the browser's microphone hears in tests. */
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { processFolder } from './process-folder.ts';
+import { processFolder } from '@farpoint/local-stack';
 
 /** Samples a second. */
 export const AUDIO_RATE = 48_000;

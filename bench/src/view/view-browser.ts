@@ -1,9 +1,7 @@
 /** The benchmark's page (page/view-page.ts), bundled and opened in a headless Chromium. */
 import { spawnSync } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { extname, join } from 'node:path';
-import { chromiumLaunchOptions, repositoryRoot } from '@farpoint/local-stack';
+import { chromiumLaunchOptions, processFolder, repositoryRoot } from '@farpoint/local-stack';
 import type { Pose } from '@farpoint/protocol';
 import { chromium, type Page } from '@playwright/test';
 import type { ViewOptions } from './page/view-page.ts';
@@ -28,7 +26,7 @@ export class ViewBrowser {
   }
 
   static async open(): Promise<ViewBrowser> {
-    const folder = mkdtempSync(join(tmpdir(), 'farpoint-view-'));
+    const folder = processFolder();
     bundle(folder);
     const browser = await chromium.launch(chromiumLaunchOptions());
     const page = await browser.newPage();
@@ -39,10 +37,7 @@ export class ViewBrowser {
     page.on('pageerror', (error) => console.error(error.message));
     await page.goto(`${ORIGIN}/index.html`);
     await page.waitForFunction(() => window.view !== undefined);
-    return new ViewBrowser(page, async () => {
-      await browser.close();
-      rmSync(folder, { recursive: true, force: true });
-    });
+    return new ViewBrowser(page, () => browser.close());
   }
 
   /** @param header of an organised stream; `null` for `points64` */

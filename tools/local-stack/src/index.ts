@@ -10,6 +10,7 @@ export * from './free-port.ts';
 export * from './janus-server.ts';
 export * from './keep-running.ts';
 export * from './managed-process.ts';
+export * from './process-folder.ts';
 export * from './stack.ts';
 export * from './turn-server.ts';
 export * from './virtual-display.ts';
