@@ -171,6 +171,16 @@ describe('sources', () => {
     expect(spread).toEqual([]);
   });
 
+  test('programs make folders by makeFolder: the recursive mkdir of Node never returns where none can be made', () => {
+    const own = [...sources].filter(
+      ([file, text]) =>
+        /^(?:apps|packages)\/[^/]+\/src\//.test(file) &&
+        !DEVELOPERS.test(file) &&
+        /\bmkdir(?:Sync)?\([^;]*recursive/.test(text),
+    );
+    expect(own.map(([file]) => file)).toEqual([]);
+  });
+
   test(`no file is longer than ${MAX_LINES} lines`, () => {
     const long = [...sources]
       .filter(([file]) => !/\.test\.ts$/.test(file))

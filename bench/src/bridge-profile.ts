@@ -61,7 +61,7 @@ export async function profile(options: ProfileOptions): Promise<void> {
   const files: LogFiles = {
     packetLog: join(folder, 'packets.csv'),
     frameLog: join(folder, 'frames.csv'),
-    stats: join(folder, 'frames.jsonl'),
+    stats: join(folder, 'bridge-frames.jsonl'),
   };
   // As many points as are sent: the reference system's producer has already sampled them, too.
   const size = Math.ceil(Math.sqrt(options.points) / 4) * 4;
@@ -71,7 +71,7 @@ export async function profile(options: ProfileOptions): Promise<void> {
   let bridge: BridgeProcess | null = null;
   let reader: PageReader | null = null;
   try {
-    stack = await LocalStack.start({ env, robots: [robotSpec(options, folder, files)] });
+    stack = await LocalStack.start({ env, robots: [robotSpec(options, folder)] });
     bridge = await BridgeProcess.start(stack, { env, args: ['--stats', files.stats] });
     reader = new PageReader(bridge);
     await reader.connected();
@@ -94,7 +94,7 @@ export async function profile(options: ProfileOptions): Promise<void> {
   }
 }
 
-function robotSpec({ points, fps }: ProfileOptions, folder: string, files: LogFiles): RobotSpec {
+function robotSpec({ points, fps }: ProfileOptions, folder: string): RobotSpec {
   return {
     id: ROBOT,
     name: 'Robot with a camera in shared memory',
@@ -110,10 +110,8 @@ function robotSpec({ points, fps }: ProfileOptions, folder: string, files: LogFi
       String(fps),
       '--max-points',
       String(points),
-      '--packet-log',
-      files.packetLog,
-      '--frame-log',
-      files.frameLog,
+      '--measure',
+      folder,
     ],
   };
 }

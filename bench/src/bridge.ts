@@ -123,7 +123,7 @@ interface Load {
 
 async function run(load: Load): Promise<RunResult> {
   const folder = processFolder();
-  const [sentFile, frameFile] = [join(folder, 'sent.csv'), join(folder, 'frames.jsonl')];
+  const [sentFile, frameFile] = [join(folder, 'packets.csv'), join(folder, 'frames.jsonl')];
   const env = { FARPOINT_LOG_LEVEL: 'warn' };
   const { packets, fps, seconds } = load;
   const mbps = BitRate.toMbps(BitRate.fromBytesPerSecond(packets * WIRE_BYTES_PER_PACKET * fps));
@@ -132,7 +132,7 @@ async function run(load: Load): Promise<RunResult> {
   let bridge: BridgeProcess | null = null;
   let reader: PageReader | null = null;
   try {
-    await stack.startRobot(robotSpec(load, mbps, sentFile));
+    await stack.startRobot(robotSpec(load, mbps, folder));
     bridge = await BridgeProcess.start(stack, {
       env,
       args: ['--stats', frameFile, '--start-bits-per-second', '200e6', '--max-bits-per-second', '200e6'],
@@ -154,7 +154,7 @@ async function run(load: Load): Promise<RunResult> {
   }
 }
 
-function robotSpec({ packets, fps }: Load, mbps: number, packetLog: string): RobotSpec {
+function robotSpec({ packets, fps }: Load, mbps: number, folder: string): RobotSpec {
   return {
     id: 'sim-1',
     name: 'Simulated robot',
@@ -162,8 +162,8 @@ function robotSpec({ packets, fps }: Load, mbps: number, packetLog: string): Rob
     args: [
       '--fps',
       String(fps),
-      '--packet-log',
-      packetLog,
+      '--measure',
+      folder,
       '--max-points',
       String(packets * POINTS_PER_PACKET),
       // Slightly more than the frames need, so that pacing leaves a pause before the next frame.

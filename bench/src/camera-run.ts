@@ -1,6 +1,6 @@
 /** One run of `pnpm bench cameras`: the real programs, from cameras to the page, with a driving operator. */
 import { writeFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { processFolder } from '@farpoint/local-stack';
 import type { Page } from '@playwright/test';
 import type { BenchCamera } from './camera-list.ts';
@@ -88,7 +88,7 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
   const files: CameraFiles = {
     config: join(folder, 'c.yaml'),
     link: join(folder, 'link.jsonl'),
-    stats: join(folder, 'stats.jsonl'),
+    stats: join(folder, 'streams.jsonl'),
     commands: join(folder, 'commands.csv'),
   };
   const robot = { videos: cameraOptions(setup), ...soundOptions(setup) };
@@ -110,7 +110,7 @@ export async function runCameras(setup: CameraSetup, log: (line: string) => void
 
 function stackOptions(
   setup: CameraSetup,
-  { config, link, stats, commands }: CameraFiles,
+  { config, link, stats }: CameraFiles,
   log: (line: string) => void,
 ): LiveStackOptions {
   const { trace } = setup;
@@ -118,7 +118,7 @@ function stackOptions(
     robot: {
       id: ROBOT,
       name: 'Robot with cameras',
-      args: ['--config', config, '--stats', stats, '--command-log', commands, ...cloudArgs(setup)],
+      args: ['--config', config, '--measure', dirname(stats), ...cloudArgs(setup)],
     },
     canvas: setup.canvas,
     query: `barcode=1&video=${setup.receiver ?? ''}`,

@@ -9,7 +9,7 @@ export interface CommandDelays {
 }
 
 /**
- * @param path of the robot's `--command-log`
+ * @param path of the `commands.csv` that the robot writes with `--measure`
  * @param offsetMs what to add to the page's clock to get the robot's
  * @param linkMs the link's own delay in that direction
  * @param time of the robot's clock: what was sent in it counts

@@ -123,7 +123,7 @@ async function measure({ command, side, hz, seconds, mbps, reliability }: Run): 
   try {
     const roundTripMs = await roundTrips(domain);
     const rate = ['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', String(mbps)];
-    const args = ['--config', config, '--frame-log', frameLog, ...rate];
+    const args = ['--config', config, '--measure', folder, ...rate];
     stack = await LocalStack.start({
       robots: [{ id: ROBOT, name: 'Robot in a ROS 2 graph', args }],
       env: { FARPOINT_LOG_LEVEL: 'warn' },

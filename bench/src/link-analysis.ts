@@ -146,7 +146,7 @@ function recovery(bins: readonly LinkBin[], from: number, capacityMbps: number):
   return null;
 }
 
-/** One line of the robot's `--stats`. */
+/** One line of the `streams.jsonl` that a robot writes with `--measure`. */
 export interface RobotSample {
   timeMs: number;
   session: string;

@@ -1,7 +1,7 @@
 /** `pnpm bench link`: the real robot and the real browser over an emulated link. */
 
 import { writeFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { processFolder } from '@farpoint/local-stack';
 import { coresBetween, cpuSecondsOfTree } from './cpu-time.ts';
 import { type LinkRecord, linkFigures } from './link-figures.ts';
@@ -30,7 +30,7 @@ export const bench: Bench = {
     const folder = keep ?? processFolder();
     const files: LinkFiles = {
       link: join(folder, 'link.jsonl'),
-      robots: Array.from({ length: robots }, (_, i) => join(folder, `robot-${i + 1}.jsonl`)),
+      robots: Array.from({ length: robots }, (_, i) => join(folder, `robot-${i + 1}`, 'streams.jsonl')),
     };
     const live = await startLiveStack(stackOptions(options, files));
     try {
@@ -88,8 +88,8 @@ function robotArgs({ fps, plan, rateControl, mode, sensors }: LinkOptions, stats
     ...(sensors > 1 ? ['--sim-lidars', String(sensors - 1)] : []),
     '--bitrate-mbps',
     '200',
-    '--stats',
-    statsFile,
+    '--measure',
+    dirname(statsFile),
   ];
 }
 

@@ -1,7 +1,7 @@
 /** Joins the robot's log of sent packets with the page's record of received ones. */
 import { readFileSync } from 'node:fs';
 
-/** Send times by packet, from the robot's `--packet-log`. */
+/** Send times by packet, from the `packets.csv` that it writes with `--measure`. */
 export type SentTimes = ReadonlyMap<string, number>;
 
 export function readPacketLog(path: string): SentTimes {

@@ -20,11 +20,11 @@ import {
 import { type Bench, distributionCells, printJson, printTable } from './report.ts';
 import { buildSharedMemory, type LayoutResult, measure, type ShmRun } from './shm-run.ts';
 
-const USAGE = `pnpm bench recording [--size 480] [--fps 30] [--captured-fps 30] [--seconds 60] [--mbps 20] [--pictures 0] [--videos 0] [--encoder x264enc] [--compression none] [--folder FOLDER] [--json]
+const USAGE = `pnpm bench recording [--size 480] [--fps 30] [--seconds 60] [--mbps 20] [--pictures 0] [--videos 0] [--encoder x264enc] [--compression none] [--folder FOLDER] [--json]
 
 A camera process writes size × size points --fps times a second to shared memory. The robot sends them to an operator, first
-without a recording, then while recording everything: --captured-fps captured clouds a second (16 bytes a point), all sent
-clouds, and all other topics; with --pictures N also the camera's picture N times a second, as sent to the operator; with
+without a recording, then while recording everything: all clouds as captured (16 bytes a point) and as sent, and all
+other topics; with --pictures N also the camera's picture N times a second, as sent to the operator; with
 --videos N also N cameras with test pictures, 640×480 at 30/s and 1500 kbit/s, encoded by --encoder and watched by the operator.
 Lost frames of a video: gaps in the capture times in the file. Main: the robot's main thread, which drives and sends.
 Latency: from when the camera starts to write a frame until the robot has its packets ready. Memory: of the robot process, in
@@ -33,7 +33,6 @@ the first and the last fifth of the run. Afterwards the file is read back and ev
 const OPTIONS = {
   size: option.number(480, { least: 16 }),
   fps: option.number(30, { least: 1 }),
-  capturedFps: option.number(30),
   seconds: option.number(60, { least: 5 }),
   mbps: option.number(20, { least: 1 }),
   /** Pictures a second; 0 without. */
@@ -98,7 +97,7 @@ async function measureBoth(options: Options, folder: string, path: string): Prom
   return { plain, recorded, memoryMb, skipped: encoded.skipped };
 }
 
-function recordArgs({ capturedFps, compression }: Options, path: string): string[] {
+function recordArgs({ compression }: Options, path: string): string[] {
   return [
     '--record',
     path,
@@ -106,9 +105,7 @@ function recordArgs({ capturedFps, compression }: Options, path: string): string
     'both',
     '--record-max',
     'none',
-    '--record-captured-fps',
-    String(capturedFps),
-    '--record-sent-fps',
+    '--record-fps',
     '120',
     '--record-compression',
     compression,
@@ -131,7 +128,6 @@ function figuresOf(options: Options, runs: Runs, file: ReadBack, fileBytes: numb
     compression,
     picturesPerSecond,
     videoCameras: options.videos,
-    capturedFps: options.capturedFps,
     latencyMs: recorded.latencyMs,
     latencyMsWithout: plain.latencyMs,
     addedMs: {

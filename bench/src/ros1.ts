@@ -64,7 +64,7 @@ async function measure(python: string, { as, hz, seconds, mbps }: Options) {
     const node = await peers.startNode(as === 'images' ? 'rgbd' : 'cloud', 'camera', hz);
     writeFileSync(config, configuration(peers.masterUrl, as));
     const rate = ['--rate-control', 'fixed', '--plan', 'paper', '--bitrate-mbps', String(mbps)];
-    const args = ['--config', config, '--frame-log', frameLog, ...rate];
+    const args = ['--config', config, '--measure', folder, ...rate];
     stack = await LocalStack.start({
       robots: [{ id: ROBOT, name: 'Robot in a ROS 1 graph', args }],
       env: { FARPOINT_LOG_LEVEL: 'warn' },

@@ -65,7 +65,7 @@ export async function measure(layout: Layout, run: ShmRun): Promise<LayoutResult
   let stack: LocalStack | null = null;
   try {
     stack = await LocalStack.start({
-      robots: [robotSpec(layout, run, folder, frameLog)],
+      robots: [robotSpec(layout, run, folder)],
       env: { FARPOINT_LOG_LEVEL: 'warn' },
     });
     const watched = await watch(stack, producer, run);
@@ -111,7 +111,7 @@ export function startProducer({ layout, folder, size, fps, log, scene }: Produce
   );
 }
 
-function robotSpec(layout: Layout, run: ShmRun, folder: string, frameLog: string): RobotSpec {
+function robotSpec(layout: Layout, run: ShmRun, folder: string): RobotSpec {
   const { fps, mbps, robotArgs = [] } = run;
   return {
     id: ROBOT,
@@ -131,8 +131,8 @@ function robotSpec(layout: Layout, run: ShmRun, folder: string, frameLog: string
       'paper',
       '--bitrate-mbps',
       String(mbps),
-      '--frame-log',
-      frameLog,
+      '--measure',
+      folder,
       ...robotArgs,
     ],
   };

@@ -37,9 +37,9 @@ export const bench: Bench = {
   async run(argv) {
     const options = benchOptions(argv, OPTIONS);
     const folder = processFolder();
-    const logFile = join(folder, 'sent.csv');
+    const logFile = join(folder, 'packets.csv');
     const live = await startLiveStack({
-      robot: { id: 'sim-1', name: 'Simulated robot', args: robotArgs(options, logFile) },
+      robot: { id: 'sim-1', name: 'Simulated robot', args: robotArgs(options, folder) },
       canvas: options.canvas,
       log: (line) => console.error(line),
     });
@@ -55,14 +55,14 @@ export const bench: Bench = {
   },
 };
 
-function robotArgs({ fps, mbps }: Options, packetLog: string): string[] {
+function robotArgs({ fps, mbps }: Options, folder: string): string[] {
   return [
     '--mode',
     'points64',
     '--fps',
     String(fps),
-    '--packet-log',
-    packetLog,
+    '--measure',
+    folder,
     '--rate-control',
     'fixed',
     '--plan',

@@ -276,7 +276,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
       'janus',
       'sim',
       'recording',
-      'recording --videos 3 --seconds 40 --captured-fps 10',
+      'recording --videos 3 --seconds 40',
       'congestion',
       'guard',
       'first-drive',

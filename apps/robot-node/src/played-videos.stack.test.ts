@@ -76,7 +76,7 @@ describe.skipIf(!hasVideo)(`videos of a recording (needs: ${BUILD_REMEDY})`, { t
 
   beforeAll(async () => {
     const args = ['--config', config, '--sim-size', '64', '--max-points', '600', '--record', path];
-    args.push('--record-clouds', 'captured', '--record-captured-fps', '30');
+    args.push('--record-clouds', 'captured', '--record-fps', '30');
     await withRobot('recorded-drive', args, async ({ client }) => {
       const { videos: described } = await client.message('videos');
       // The pictures carry their capture time, which the played ones then still carry.

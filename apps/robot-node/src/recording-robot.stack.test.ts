@@ -61,8 +61,8 @@ async function withRobot(
 
 describe('robot process that records', { timeout: 60_000 }, () => {
   it('records clouds as captured and as sent, pictures, commands, telemetry, estimates and latencies', async () => {
-    const args = ['--sim-size', '64', '--max-points', '600', '--record', path, '--record-captured-fps', '10'];
-    args.push('--record-clouds', 'both', '--record-sent-fps', '120', '--pictures-of-cloud');
+    const args = ['--sim-size', '64', '--max-points', '600', '--record', path, '--record-fps', '120'];
+    args.push('--record-clouds', 'both', '--pictures-of-cloud');
     args.push('--sim-charge', '15', '--sim-origin', '48.1374,11.5755');
     const seen: Uint8Array[] = [];
     const commands = { accepted: 0, dropped: 0 };

@@ -48,7 +48,7 @@ export function openContext(
   log: Logger,
 ): RobotContext {
   const board = openBoard(options, parts.captures[0] as Capture, parts.recording, log);
-  const logs = new MeasurementLogs(options);
+  const logs = new MeasurementLogs(options.measurementFolder);
   return { options, parts, signaling, counters, stages: new StageTimer(), logs, board, log };
 }
 
@@ -175,7 +175,7 @@ export function linkReadings(
 
 /** What operators are told again and again, and what is measured. */
 export function linkReports(
-  { options, parts, counters, stages, board, log }: RobotContext,
+  { parts, counters, stages, logs, board, log }: RobotContext,
   { status }: Drive,
   operators: ReadonlyMap<string, OperatorSession>,
   state: () => TimedBaseState | null,
@@ -189,7 +189,7 @@ export function linkReports(
     recording: parts.recording,
     log,
     state,
-    statisticsFile: options.statisticsFile,
+    statisticsFile: logs.statisticsFile,
     now: monotonicMs,
   });
 }

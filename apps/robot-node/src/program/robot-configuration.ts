@@ -90,14 +90,8 @@ export interface RobotOptions extends RateControlOptions {
   portRange?: readonly [number, number] | undefined;
   /** `relay`: media through TURN servers only. */
   icePolicy: 'all' | 'relay';
-  /** File for a log of every packet sent, written when the robot closes. */
-  packetLog?: string | undefined;
-  /** File for a log of every frame, written when the robot closes. */
-  frameLog?: string | undefined;
-  /** File for a log of every command, written when the robot closes. */
-  commandLog?: string | undefined;
-  /** File for the statistics of each stream in each 100 ms, one JSON object per line. */
-  statisticsFile?: string | undefined;
+  /** Where measurements are written; if undefined, nothing is measured. */
+  measurementFolder?: string | undefined;
   /** Where everything is recorded; if undefined, nothing is recorded. */
   record?: RecordingOptions | undefined;
   /** Where the same is served live; if undefined, nowhere. */

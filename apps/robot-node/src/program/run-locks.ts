@@ -2,9 +2,8 @@
  * Keeps two running robots from writing the same files: each would undo what the other remembers, such as its emergency
  * stop. The kernel frees the locks when the process ends, however it ends.
  */
-import { mkdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
-import { type Logger, StartFailure } from '@farpoint/service';
+import { type Logger, makeFolder, StartFailure } from '@farpoint/service';
 import { FileInUseError, isAvailable, MappedFile } from '@farpoint/shared-memory';
 import type { RobotOptions } from './robot-configuration.ts';
 
@@ -62,7 +61,7 @@ function take({ path, what, remedy }: Claim, log: Logger): MappedFile | null {
   if (!isAvailable()) return unlocked('the shared-memory addon is not available');
   let file: MappedFile | null = null;
   try {
-    mkdirSync(dirname(path), { recursive: true, mode: 0o750 });
+    makeFolder(dirname(path), 0o750);
     file = MappedFile.open(path, { bytes: 1, create: true });
     file.claim(remedy);
     return file;

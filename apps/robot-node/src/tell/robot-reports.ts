@@ -37,7 +37,7 @@ export class RobotReports {
     if (statisticsFile !== undefined) {
       this.#statistics = new JsonLinesFile(statisticsFile, (error) =>
         log.error(
-          { remedy: 'set --stats to a file that can be written' },
+          { remedy: 'set --measure to a folder that can be written' },
           `statistics are not written: ${fileFault(error) ?? error.message}`,
         ),
       );

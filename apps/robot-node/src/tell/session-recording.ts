@@ -39,7 +39,7 @@ const MOST_VIEWERS = 8;
 const KEY_FRAME_MS = 1000;
 const NO_CLOUDS: Readonly<Record<CloudKind, number>> = { captured: 0, sent: 0 };
 const MORE_ROOM =
-  'for longer recordings: a larger --record-max, or fewer clouds (--record-clouds, --record-sent-fps)';
+  'for longer recordings: a larger --record-max, or fewer clouds (--record-clouds, --record-fps)';
 
 const FORMATS: Readonly<Record<VideoCodec, VideoFormatName>> = { H264: 'h264', VP8: 'vp8' };
 const UNSEEN = 'these cameras are in VP8, which this robot plays but Foxglove and Lichtblick do not show';

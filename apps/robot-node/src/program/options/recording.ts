@@ -54,19 +54,12 @@ export const recordingOptions = optionGroup('recording', {
     file: 'clouds',
     help: 'record: which clouds: sent (as operators got them), captured (as the source gave them), both, none; a cloud takes 16 bytes a point',
   }),
-  recordSentFps: defineOption({
+  recordFps: defineOption({
     schema: schema.number({ min: 0.1, max: 120 }),
     default: 10,
     argument: 'RATE',
-    file: 'sentFps',
-    help: 'record: maximum sent clouds a second',
-  }),
-  recordCapturedFps: defineOption({
-    schema: schema.number({ min: 0.1, max: 120 }),
-    default: 5,
-    argument: 'RATE',
-    file: 'capturedFps',
-    help: 'record: maximum captured clouds a second, with --record-clouds captured or both',
+    file: 'fps',
+    help: 'record: maximum clouds a second, of each kind',
   }),
   recordVideos: defineOption({
     schema: schema.choice(RECORDED_VIDEOS),
@@ -91,30 +84,13 @@ export const recordingOptions = optionGroup('recording', {
   }),
 });
 
-/** Files for measurements. */
+/** Where measurements are written. */
 export const measurementOptions = optionGroup('measurement', {
-  packetLog: defineOption({
+  measure: defineOption({
     schema: schema.optional(schema.text()),
     default: null,
-    argument: 'FILE',
-    help: 'for measurements: write the time at which each packet was sent, as CSV, when the robot stops',
-  }),
-  frameLog: defineOption({
-    schema: schema.optional(schema.text()),
-    default: null,
-    argument: 'FILE',
-    help: 'for measurements: write the times at which each frame was captured and ready, as CSV, when the robot stops',
-  }),
-  commandLog: defineOption({
-    schema: schema.optional(schema.text()),
-    default: null,
-    argument: 'FILE',
-    help: 'for measurements: write the times at which each command was sent and received, as CSV, when the robot stops',
-  }),
-  stats: defineOption({
-    schema: schema.optional(schema.text()),
-    default: null,
-    argument: 'FILE',
-    help: 'for measurements: write the statistics of each stream every 100 ms, one JSON object a line',
+    argument: 'FOLDER',
+    file: 'folder',
+    help: 'for measurements: write to this folder when each packet was sent (packets.csv), each frame captured and ready (frames.csv), each command sent and received (commands.csv), all when the robot stops, and the statistics of each stream every 100 ms (streams.jsonl)',
   }),
 });

@@ -172,10 +172,7 @@ function toConnections(values: RobotOptionValues) {
 /** What is written while the robot runs. */
 function toFiles(values: RobotOptionValues) {
   return {
-    packetLog: values.packetLog ?? undefined,
-    frameLog: values.frameLog ?? undefined,
-    commandLog: values.commandLog ?? undefined,
-    statisticsFile: values.stats ?? undefined,
+    measurementFolder: values.measure ?? undefined,
     record: toRecording(values),
   } satisfies Partial<RobotOptions>;
 }
@@ -198,8 +195,8 @@ function toRecording(values: RobotOptionValues): RobotOptions['record'] {
     path: values.record,
     compression: values.recordCompression,
     clouds: {
-      captured: recorded('captured') ? values.recordCapturedFps : 0,
-      sent: recorded('sent') ? values.recordSentFps : 0,
+      captured: recorded('captured') ? values.recordFps : 0,
+      sent: recorded('sent') ? values.recordFps : 0,
     },
     videos: values.recordVideos,
     mostBytes: values.recordMax,
