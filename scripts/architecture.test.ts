@@ -12,6 +12,14 @@ const MAX_LINES = 400;
 const NAMES_WHAT_IS_NOT = /^scripts\/lib\/(?:file-imports|import-graph)\.test\.ts$/;
 /** What is shorter stands beside its user. */
 const LEAST_LINES = 15;
+/** Sources whose numbers decide how the robot drives, what is sent, and what is seen. */
+const TUNED = /^(?:apps\/(?:robot-node|webxr)|packages\/(?:safety|operator|congestion|cloud-view))\/src\//;
+/** A constant of a file that is a number, or numbers. What follows from other constants needs no word. */
+const NUMBER = /^(?:export )?const (\[[A-Z\d_, ]+\]|[A-Z][A-Z\d_]*)(?:: [\w ]+)? = [-([]*\d/;
+/** Units of docs/style.md and quantities without any; `NS_PER_MS` and `TICKS_PER_MS` convert, and `PER_SECOND` is a rate. */
+const WITH_UNIT =
+  /^(?!.*_PER_MS).*_(?:MS|S|M|MPS|RAD|RADPS|HZ|PX|BYTES|PER_S|PER_SECOND|SHARE|FACTOR|MARGIN|FRAMES|PACKETS|POINTS|SAMPLES)(?:[,\]]|$)/;
+const COMMENT_ENDS = /\*\/$|^\/\//;
 const DEVELOPERS = /\.test\.ts$|\/(?:testing|deploy|vectors)\/|(?:\.config|\/build)\.ts$/;
 
 const rooms = parseRooms(read('docs/architecture.md')).filter(({ folder }) => !folder.includes('/src/'));
@@ -179,6 +187,20 @@ describe('sources', () => {
         /\bmkdir(?:Sync)?\([^;]*recursive/.test(text),
     );
     expect(own.map(([file]) => file)).toEqual([]);
+  });
+
+  test('a number with a unit says what it is for and where it comes from: a comment stands before it, before its neighbours, or beside it', () => {
+    const silent = [...sources]
+      .filter(([file]) => TUNED.test(file) && !DEVELOPERS.test(file))
+      .flatMap(([file, text]) => {
+        let isSaid = false;
+        return text.split('\n').flatMap((line, i) => {
+          const [, name = ''] = NUMBER.exec(line) ?? [];
+          isSaid = name === '' ? COMMENT_ENDS.test(line) : isSaid || /\/[/*]/.test(line);
+          return !isSaid && WITH_UNIT.test(name) ? [`${file}:${i + 1}: ${name}`] : [];
+        });
+      });
+    expect(silent).toEqual([]);
   });
 
   test(`no file is longer than ${MAX_LINES} lines`, () => {

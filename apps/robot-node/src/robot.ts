@@ -16,6 +16,10 @@ import type { OperatorSession } from './serve/session/operator-session.ts';
 import type { OperatorSessions } from './serve/session/operator-sessions.ts';
 import type { RobotReports } from './tell/robot-reports.ts';
 
+/**
+ * How often budgets, sessions and stops are brought up to date, ms: as often as the rate controller wants to
+ * be asked (docs/congestion.md).
+ */
 const UPDATE_EVERY_MS = 25;
 
 /** The complete robot: a base, a velocity sink, sensors, operators, and one guard over the wheels. */

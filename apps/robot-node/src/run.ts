@@ -10,9 +10,15 @@ import { lockRun } from './program/run-locks.ts';
 import { warnOfFleetingState } from './program/state-place.ts';
 import { Robot } from './robot.ts';
 
-/** The capture thread reports every 20 ms, unless a frame takes longer. */
+/**
+ * The capture thread reports every 20 ms, unless a frame takes longer; then the program ends, ms. Chosen: no
+ * frame takes seconds, and a service manager's restart costs the session.
+ */
 const MOST_CAPTURE_SILENCE_MS = 5000;
-/** Time that the start may take in addition to the wait for a producer or a topic. */
+/**
+ * Time that the start may take in addition to the wait for a producer or a topic, ms. Chosen: a cold start on
+ * a small board takes some seconds.
+ */
 const START_MS = 30_000;
 
 type Context = ProgramContext<typeof robotProgram.options>;

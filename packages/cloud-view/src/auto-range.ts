@@ -5,13 +5,19 @@
 
 /** Samples that are kept: two or three frames of 200 (point-colouring.ts). */
 const SAMPLES = 512;
-/** With fewer samples there is no range. */
+/** With fewer samples there is no range. Chosen: fewer tell of single things. */
 const LEAST_SAMPLES = 32;
-/** Share of the samples that are left out at either end. */
+/**
+ * Share of the samples that are left out at either end. Chosen: noise in front of and behind the scene; more
+ * would cut real things.
+ */
 const OUTLIERS = 0.01;
-/** The samples are evaluated this often, ms. */
+/** The samples are evaluated this often, ms. Chosen: far below the time in which the range follows. */
 const INTERVAL_MS = 250;
-/** Time constant with which the range follows, ms. */
+/**
+ * Time constant with which the range follows, ms. Chosen by eye: faster ones make all colours flicker when
+ * somebody passes. auto-range.test.ts holds it.
+ */
 const FOLLOW_MS = 1500;
 
 export class AutoRange {

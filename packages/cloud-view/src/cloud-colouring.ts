@@ -65,7 +65,11 @@ export interface CloudColouring {
   readonly scene: SceneFigures;
 }
 
-/** After this time without points the picture starts to turn grey; {@link STALE_FADE_MS} later it is grey. */
+/**
+ * After this time without points the picture starts to turn grey; {@link STALE_FADE_MS} later it is grey.
+ * Chosen: the robot has been braking since 400 ms (`motion.viewBrakeMs`), the page says that points are
+ * missing after 3 s, and grey must be told from a stutter. cloud-colouring.test.ts holds both.
+ */
 const STALE_AFTER_MS = 600;
 const STALE_FADE_MS = 1400;
 

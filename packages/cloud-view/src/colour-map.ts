@@ -13,8 +13,9 @@ export const COLOUR_STOPS = 17;
 /** Lightness and hue (degrees) at both ends. The darkest colour still stands out from a dark background. */
 const FROM = { lightness: 0.4, hue: 300 };
 const TO = { lightness: 0.95, hue: 105 };
+/** The strongest colour, in Oklab. Chosen by eye: stronger ones hide shapes. */
 const MOST_CHROMA = 0.16;
-/** Share of the chroma that a screen can show. */
+/** Share of the chroma that a screen can show. Chosen: rounding leaves the screen's range no more. */
 const CHROMA_SHARE = 0.93;
 /** Steps in which the curve is measured. */
 const STEPS = 512;

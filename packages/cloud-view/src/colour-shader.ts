@@ -3,7 +3,10 @@ import { COLOUR_STOPS } from './colour-map.ts';
 import { INTENSITY_LUMAS, LUMA_WEIGHTS } from './point-values.ts';
 import { RING_TEXELS } from './ring-table.ts';
 
-/** Share of its brightness that the oldest point loses when colours show ages. */
+/**
+ * Share of its brightness that the oldest point loses when colours show ages. Chosen by eye: the oldest can
+ * still be seen before black.
+ */
 export const AGE_FADE = 0.75;
 
 /** Adds up how far a brightness has come on each stretch of the intensity's map. */

@@ -1,6 +1,6 @@
 import { sequenceDelta32 } from '@farpoint/protocol';
 
-/** At this rate and above, all that comes is wanted, clouds/s. */
+/** At this rate and above, all that comes is wanted, clouds/s. Chosen: the usual display's rate. */
 export const ALL_FRAMES_PER_SECOND = 60;
 // `pnpm bench first-drive` measures what these numbers give: docs/decisions/2026-11-28-first-drive.md.
 

@@ -9,7 +9,10 @@
  * second.
  */
 const CHEAP_MS = 8;
-/** Longest wait for a frame to become whole, ms. */
+/**
+ * Longest wait for a frame to become whole, ms. Chosen: one and a half intervals at 30 a second, so that the
+ * next frame's points are there; draw-gate.test.ts holds it.
+ */
 const MAX_HOLD_MS = 50;
 /** Weight of the latest cost in the running mean. */
 const SMOOTHING = 0.2;

@@ -11,6 +11,10 @@
  */
 import { pointsOfBytes, sequenceDelta32 } from '@farpoint/protocol';
 
+/**
+ * Runs of one frame's points that the shader knows. Chosen: a second at 30 a second; each is a vector of
+ * uniforms, of which WebGL 2 has 256 in a vertex shader.
+ */
 export const MAX_RUNS = 32;
 /** int32 fields of a run in {@link FrameWindow.runs}: first vertex, first visible vertex, pose slot, unused. */
 export const RUN_FIELDS = 4;
@@ -28,7 +32,7 @@ export interface Relocation {
   capacity: number;
 }
 
-/** Number of runs that out-of-order packets may not use. */
+/** Number of runs that out-of-order packets may not use. Chosen: the newest frames come in meanwhile. */
 const RUNS_KEPT = 3;
 /** Packets of the window that can be remembered: a power of two, so that a place is found with a mask. */
 const ENTRIES = 65_536;

@@ -25,11 +25,14 @@ export interface Hazards {
 export const HIT_TINT: Rgb = [1, 0.27, 0.2];
 /** Where the floor is missing, with this one. */
 export const DROP_TINT: Rgb = [0.71, 0.48, 1];
-/** Share of a tint's colour: what is tinted can still be recognised. */
+/** Share of a tint's colour: what is tinted can still be recognised. Chosen by eye. */
 export const TINT_SHARE = 0.6;
 /** Up to this distance from base_link, tints are whole, metres. */
 export const TINTED_M = 4;
-/** Here they end: farther away, a base that is tilted by a degree would tint the floor. */
+/**
+ * Here they end: farther away, a base that is tilted by a degree would tint the floor: 14 cm at 8 m
+ * (docs/awareness.md).
+ */
 export const LAST_TINTED_M = 8;
 
 export interface HazardUniforms {

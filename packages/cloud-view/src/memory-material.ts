@@ -13,13 +13,19 @@ import { HEIGHT_CUT_FUNCTION, UNLIMITED_M } from './shader-features.ts';
 
 /** Pages in a row of the texture: 2048 texels, which every WebGL 2 has room for. */
 export const PAGES_PER_ROW = 8;
-/** Brightness of what was just seen, and what of it is left after {@link OLD_S}: nobody may take it for live. */
+/**
+ * Brightness of what was just seen, and what of it is left after {@link OLD_S}: nobody may take it for live.
+ * All three and the share below are chosen by eye (docs/memory.md has a picture).
+ */
 const BRIGHTNESS = 0.6;
 const OLD_BRIGHTNESS = 0.4;
 const OLD_S = 300;
 /** Share of its colour that it loses. */
 const GREYED = 0.4;
-/** How far it is moved away from the eye, metres and share of the distance. */
+/**
+ * How far it is moved away from the eye, metres and share of the distance: a voxel (memory-layout.ts), and a
+ * stereo camera's noise (docs/memory.md).
+ */
 const BEHIND_M = 0.05;
 const BEHIND_SHARE = 0.02;
 

@@ -7,7 +7,7 @@
 import { isSameInstant } from '@farpoint/operator';
 import { sequenceDelta32 } from '@farpoint/protocol';
 
-/** How many of the cloud's newest frames are known. */
+/** How many of the cloud's newest frames are known. As many as have tiles (tile-map.ts). */
 const FRAMES_KEPT = 64;
 
 export class PictureMatch {

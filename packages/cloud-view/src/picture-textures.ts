@@ -1,9 +1,15 @@
 /** A camera's newest pictures on the GPU, as the layers of one texture. */
 import { ExternalTexture, type WebGLRenderer } from 'three';
 
-/** Room for all layers together, bytes. */
+/**
+ * Room for all layers together, bytes: five pictures of 1920 × 1080 (docs/cameras.md). Chosen: phones give a
+ * page some hundred MB on their GPU.
+ */
 const MOST_BYTES = 48 * 1024 * 1024;
-/** The newest pictures wait for their frames, and a frame is drawn for some time. */
+/**
+ * The newest pictures wait for their frames, and a frame is drawn for some time. Chosen: some intervals
+ * between pictures (docs/cameras.md).
+ */
 const LEAST_LAYERS = 4;
 const MOST_LAYERS = 8;
 const PIXEL_BYTES = 4;

@@ -17,7 +17,10 @@ import { fillRingTable, ringScale } from './ring-table.ts';
 import { SceneEstimate } from './scene-estimate.ts';
 import { UNLIMITED_M } from './shader-features.ts';
 
-/** Number of points of a frame whose values are looked at. */
+/**
+ * Number of points of a frame whose values are looked at. Chosen: a few microseconds of the main thread
+ * (docs/page.md).
+ */
 const SAMPLES_PER_FRAME = 200;
 /** No automatic range is narrower, in the mode's unit. */
 const LEAST_SPAN: Readonly<Record<ColourMode, number>> = {

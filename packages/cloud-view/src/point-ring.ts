@@ -2,6 +2,7 @@
 import { GLBufferAttribute, IntType } from 'three';
 import type { Relocation } from './frame-window.ts';
 
+/** A point on the GPU: four 16-bit integers (docs/drawing.md). */
 const VERTEX_BYTES = 8;
 const VERTEX_COMPONENTS = 4;
 

@@ -4,7 +4,10 @@
  */
 import { type Rgb, rgbOfTint } from './colour-map.ts';
 
-/** Number of different colours. */
+/**
+ * Number of different colours. Chosen by eye: neighbours differ in hue and lightness, and after eight nobody
+ * confuses two (docs/decisions/2026-11-23-rings-by-elevation.md).
+ */
 export const RING_COLOURS = 8;
 
 /** Lightness of rings with even and with odd numbers. */

@@ -7,8 +7,9 @@
  */
 import type { Vector3 as Position, Quaternion } from '@farpoint/operator';
 
+/** Samples that are kept: ten frames of 200 (point-colouring.ts), and a power of two. */
 const SAMPLES = 2048;
-/** With fewer samples nothing is said. */
+/** With fewer samples nothing is said. Chosen: two frames. */
 const LEAST_SAMPLES = 256;
 /** The samples are evaluated this often, ms. */
 const INTERVAL_MS = 500;

@@ -1,7 +1,10 @@
 /** How much of its own picture each frame's slot of a surface shows, so that colours do not jump. Time is an argument. */
 import { FRAME_SLOTS } from './tile-map.ts';
 
-/** A picture that comes after its frame appears within this time, and one that is switched off disappears. */
+/**
+ * A picture that comes after its frame appears within this time, and one that is switched off disappears, ms.
+ * Chosen by eye: at once it flickers (docs/cameras.md); slot-weights.test.ts holds it.
+ */
 const BLEND_MS = 150;
 
 export class SlotWeights {

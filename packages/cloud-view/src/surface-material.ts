@@ -24,9 +24,15 @@ import { SLOTS_PER_ROW, TILE_SAMPLES } from './tile-textures.ts';
 
 /** As in the decoder, which fills thinned tiles in by the same rule. */
 const NEAREST_PLANE_M = 0.2;
-/** Noise of neighbouring samples' inverse depth, as a share of it. */
+/**
+ * Noise of neighbouring samples' inverse depth, as a share of it. Chosen: above a stereo camera's
+ * (docs/drawing.md).
+ */
 const NOISE = 0.02;
-/** What is torn is left out where it covers this number of times the area that its samples had in the camera's picture. */
+/**
+ * What is torn is left out where it covers this number of times the area that its samples had in the camera's
+ * picture. Chosen by eye.
+ */
 const MOST_STRETCH = 6;
 
 const vertexShader = /* glsl */ `

@@ -13,7 +13,7 @@ import { FRAME_SLOTS } from './tile-map.ts';
 
 /** Sides are rounded when a picture is scaled: the ratios of picture and grid may differ by this share. */
 const SAME_SHAPE = 0.03;
-/** Time constant of the mean share, ms. */
+/** Time constant of the mean share, ms. Chosen: a number that people can read. */
 const SHARE_MS = 500;
 
 export class SurfacePaint implements CloudPaint {

@@ -6,11 +6,17 @@
  */
 import { sequenceDelta32 } from '@farpoint/protocol';
 
-/** Number of frames whose tiles can be shown at once. */
+/**
+ * Number of frames whose tiles can be shown at once. Chosen: two seconds at 30 a second, twice as long as a
+ * tile may stay.
+ */
 export const FRAME_SLOTS = 64;
 /** Stands for the slot of a tile that is not shown. */
 export const HIDDEN = 255;
-/** A tile is hidden when it is older than the newest frame by this time … */
+/**
+ * A tile is hidden when it is older than the newest frame by this time … Chosen: what has moved on within a
+ * second is somewhere else (docs/drawing.md).
+ */
 const STALE_MS = 1000;
 /** … and by more than this number of frames. */
 const STALE_FRAMES = 3;

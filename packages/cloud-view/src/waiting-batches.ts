@@ -1,6 +1,10 @@
 import type { Batch } from '@farpoint/operator';
 
-/** Maximum number of batches that wait for the next display frame; beyond it the oldest are dropped. */
+/**
+ * Maximum number of batches that wait for the next display frame; beyond it the oldest are dropped. Chosen: a
+ * display that stops for a second at 30 clouds a second shows the newest when it goes on. cloud/pipeline.ts
+ * of the operator has buffers for them.
+ */
 const MAX_WAITING = 40;
 
 /** What takes batches back. */

@@ -1,8 +1,15 @@
 /** A media program that is started again when it ends. */
 import { Backoff } from '@farpoint/timing';
 
+/**
+ * Wait before a program is started again, ms: it doubles. Chosen: a device that was unplugged is back in
+ * seconds; a lasting fault costs a start in 10 s (docs/video.md, docs/sound.md).
+ */
 const RETRY = { firstMs: 500, mostMs: 10_000 };
-/** A process that has worked for so long has succeeded: the next wait is short again. */
+/**
+ * A process that has worked for so long has succeeded: the next wait is short again, ms. As long as the
+ * longest wait, so that one that fails soon is not started ever faster.
+ */
 const SUCCESS_MS = 10_000;
 
 export interface Retry {

@@ -9,8 +9,8 @@ import type { WireMessage, WireMessageParser } from './wire-messages.ts';
 /** From the friendly signal to the one that cannot be ignored. */
 const KILL_AFTER_MS = 3000;
 /**
- * Each program tells its counts once a second. Its first sign of life may take long: GStreamer looks at every plugin at
- * the first start, and devices take their time.
+ * When a program that says nothing is given up. Chosen: the first start after an installation looks at each
+ * plugin; later, a busy computer delays no message for so long (docs/video.md, docs/sound.md).
  */
 const SIGNS_OF_LIFE = { firstMs: 30_000, silenceMs: 5000, checkMs: 500 };
 

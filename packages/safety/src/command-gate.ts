@@ -66,7 +66,11 @@ interface OperatorState {
  * silent for longest is forgotten. Far more than a robot takes: four, unless configured.
  */
 const MAX_OPERATORS = 64;
-/** So much longer than usual any command may take, ms: what was read longer ago is valid for less. */
+/**
+ * So much longer than usual any command may take, ms: what was read longer ago is valid for less. Chosen:
+ * more than a page's timer and a good link vary by, and a fifth of the 150 ms of the watchdog;
+ * drive-guard.test.ts holds it.
+ */
 const JITTER_MS = 30;
 /** What a hand may have held through. */
 export const WITHOUT_WHEELS = 'the wheels took no velocities';

@@ -3,7 +3,10 @@ import { playText, type SoundSinkOptions, soundSinkSchema } from './sound-device
 import { SoundProcess, type SoundProcessEvents, type SoundProcessOptions } from './sound-process.ts';
 import { writePlay } from './wire.ts';
 
-/** A process that does not take what it is sent is not waited for: some 100 ms of sound. */
+/**
+ * A process that does not take what it is sent is not waited for: some 100 ms of sound. Chosen: as much as a
+ * voice may wait for its turn (voice-buffer.ts).
+ */
 const MOST_BACKLOG_BYTES = 4096;
 
 export interface LoudspeakerOptions

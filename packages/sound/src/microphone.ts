@@ -4,10 +4,16 @@ import { captureText, type SoundSourceOptions, soundSourceSchema } from './sound
 import { SoundProcess, type SoundProcessEvents, type SoundProcessOptions } from './sound-process.ts';
 import type { SoundPacket } from './wire.ts';
 
-/** The lowest and the highest rate of a microphone, bit/s. */
+/**
+ * The lowest and the highest rate of a microphone, bit/s. RFC 7587, 3.1.1: 16 to 20 kbit/s for speech in wide
+ * band, 48 to 64 for music in full band, mono.
+ */
 export const LEAST_SOUND_BITS_PER_S = 16_000;
 export const MOST_SOUND_BITS_PER_S = 64_000;
-/** A device that gives nothing for so long counts as lost. */
+/**
+ * A device that gives nothing for so long counts as lost, ms: as a program that says nothing
+ * (packages/media-process).
+ */
 const SILENCE_MS = 5000;
 
 const rateSchema = z.number().min(LEAST_SOUND_BITS_PER_S).max(MOST_SOUND_BITS_PER_S);

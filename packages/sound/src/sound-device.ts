@@ -78,7 +78,10 @@ export interface Encoding {
   readonly dtx: boolean;
 }
 
-/** The older of what waits for the encoder is dropped after so long. */
+/**
+ * The older of what waits for the encoder is dropped after so long, ns. Chosen: five packets; later sound is
+ * not sent either (sound-frame.ts of the robot).
+ */
 const QUEUE_NS = 100_000_000;
 
 /** A whole pipeline: a microphone's. */

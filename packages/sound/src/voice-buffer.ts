@@ -19,17 +19,27 @@ export interface PlayedVoice {
   readonly bytes: Uint8Array;
 }
 
-/** From the arrival of a packet to its turn, ms. It begins in the middle, and follows the jitter. */
+/**
+ * From the arrival of a packet to its turn, ms. It begins in the middle, and follows the jitter. Chosen: a
+ * packet at least; two at first, as a browser's own buffer (docs/sound.md); and what a talk bears.
+ * voice-buffer.test.ts has paths of all kinds.
+ */
 export const LEAST_DELAY_MS = 20;
 export const MOST_DELAY_MS = 100;
 const FIRST_DELAY_MS = 40;
-/** What the delay exceeds the jitter by, ms. */
+/** What the delay exceeds the jitter by, ms. Chosen: half of a packet. */
 const MARGIN_MS = 10;
 /** A packet must be decoded before it is heard, ms. */
 const LEAD_MS = 5;
-/** More than this is not concealed, ms: the voice goes on after a pause. */
+/**
+ * More than this is not concealed, ms: the voice goes on after a pause. Chosen: Opus' concealment fades out
+ * by then.
+ */
 const MOST_CONCEALED_MS = 100;
-/** After such a pause the voice begins anew, ms. */
+/**
+ * After such a pause the voice begins anew, ms. Chosen: people pause between sentences for as long, and
+ * nobody hears that the delay changes.
+ */
 const PAUSE_MS = 500;
 /** A timestamp that deviates so much from its packet's arrival belongs to another time scale, ms. */
 const OTHER_SCALE_MS = 500;

@@ -6,7 +6,10 @@ import { type EncoderList, parseEncoders } from './process-messages.ts';
 import { VideoError, videoFailure } from './video-failure.ts';
 
 const execute = promisify(execFile);
-/** The first start after an installation looks at each plugin. */
+/**
+ * The first start after an installation looks at each plugin, ms. Chosen: on a small board with a slow card
+ * that takes tens of seconds.
+ */
 const MOST_MS = 60_000;
 
 /** @throws {VideoError} `not-built` if the program is missing or cannot be run */

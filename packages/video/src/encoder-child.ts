@@ -15,7 +15,10 @@ import {
   writeFrameHead,
 } from './wire.ts';
 
-/** Coded pictures that wait for the process, bytes. It reads all that comes, so there are many only if it hangs. */
+/**
+ * Coded pictures that wait for the process, bytes. It reads all that comes, so there are many only if it
+ * hangs. Chosen: above a few of the largest coded pictures.
+ */
 const MOST_WAITING_BYTES = 4 * 1024 * 1024;
 
 export interface EncoderChildEvents {

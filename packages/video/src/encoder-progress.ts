@@ -1,7 +1,10 @@
 /** Notices an encoder that takes pictures and gives none, although its process lives: a driver that hangs. */
 import type { VideoStats } from './process-messages.ts';
 
-/** Statistics come each second. */
+/**
+ * Statistics come each second: an encoder that gives nothing for so many, while so many pictures came, hangs.
+ * Chosen: above the start of any encoder.
+ */
 const MOST_WITHOUT = 10;
 /** Pictures that must have come meanwhile. */
 const LEAST_PICTURES = 10;

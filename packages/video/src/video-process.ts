@@ -21,13 +21,22 @@ import {
   writeKeyFrame,
 } from './wire.ts';
 
-/** At most one key frame in this time, whoever asks for it. */
+/**
+ * At most one key frame in this time, whoever asks for it, ms. Chosen: above the round trip after which a
+ * page asks again; each costs some average pictures (docs/video.md). key-frame-limit.test.ts holds the limit.
+ */
 const KEY_FRAME_INTERVAL_MS = 300;
-/** Of the process's log, at most so many lines in this time, ms. */
+/**
+ * Of the process's log, at most so many lines in this time, ms. Chosen: a fault is told whole, and a plugin
+ * that complains of each picture fills no disk.
+ */
 const MOST_LINES = 40;
 const LINES_MS = 10_000;
 const RETRY = { firstMs: 500, mostMs: 10_000 };
-/** A process that has given pictures for so long has succeeded: the next wait is short again. */
+/**
+ * A process that has given pictures for so long has succeeded: the next wait is short again, ms (as
+ * kept-child.ts of packages/media-process).
+ */
 const SUCCESS_MS = 10_000;
 
 export interface VideoProcessOptions {

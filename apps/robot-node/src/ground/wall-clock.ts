@@ -1,7 +1,10 @@
 /** The time of day, as in ROS stamps and in NTP times of RTP. */
 import { monotonicMs, readAtOnce } from './clock.ts';
 
-/** Both clocks are read at once if no more than this passes meanwhile. */
+/**
+ * Both clocks are read at once if no more than this passes meanwhile. Chosen: a tenth of the millisecond that
+ * times of day are shown with.
+ */
 const AT_ONCE_MS = 0.1;
 
 /**

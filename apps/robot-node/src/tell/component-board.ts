@@ -7,7 +7,10 @@ import {
 } from '@farpoint/protocol';
 import { shortened } from '@farpoint/ros';
 
-/** A topic without news is sent again after this long: an operator may have connected since, ms. */
+/**
+ * A topic without news is sent again after this long: an operator may have connected since, ms. Chosen: twice
+ * the second in which ROS' diagnostics come.
+ */
 const REPEAT_MS = 2000;
 
 interface Entry {

@@ -14,13 +14,23 @@ import type { PathWidth } from './navigation-board.ts';
 
 /** Time between two messages of the model, ms. */
 const PARTS_MS = { wide: 50, narrow: 400 };
-/** Characters of parts in a message: it is one packet. */
+/** Characters of parts in a message, so that it is one packet of 1,200 bytes; and the most parts. */
 const MESSAGE_PARTS = 900;
 const MOST_PARTS = 32;
-/** Positions that do not change are told again after this long, ms: a message may have been lost. */
+/**
+ * Positions that do not change are told again after this long, ms: a message may have been lost. Chosen: who
+ * missed one sees the wrong pose for a second.
+ */
 const REPEAT_JOINTS_MS = 1000;
-/** Joints that say nothing for longer may be anywhere, ms. */
+/**
+ * Joints that say nothing for longer may be anywhere, ms. Chosen: three of the slowest publishers' intervals,
+ * 1 s.
+ */
 const SILENT_MS = 3000;
+/**
+ * Positions that are kept, and decimals that are told. Chosen: eight times what a model may move
+ * (docs/awareness.md), for names of other robots; 0.1 mm and 0.006° are not seen.
+ */
 const MOST_JOINTS = 1024;
 const DIGITS = 4;
 const NONE: TopicReading = { topic: '/robot_description', label: 'Model', level: 'ok', values: [] };

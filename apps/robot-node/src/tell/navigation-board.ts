@@ -7,10 +7,13 @@ import type { NavigationNews, OccupancyMap } from '@farpoint/ros';
 
 /** A path without news is told again after this long, ms; to a narrow path of the network, after the second. */
 const REPEAT_PATH_MS = { wide: 1000, narrow: 2000 };
-/** A path that is older than this is shown nowhere: its age is told, and less often, ms. */
+/**
+ * A path that is older than this is shown nowhere: its age is told, and less often, ms. Chosen: twice the 5 s
+ * for which the page draws it (navigation-view.ts).
+ */
 const OLD_PATH_MS = 10_000;
 const REPEAT_OLD_PATH_MS = 5000;
-/** Then nothing is said about it any more, ms. */
+/** Then nothing is said about it any more, ms. As long as the page speaks of it (navigation-view.ts). */
 const GONE_PATH_MS = 60_000;
 /** Time between two messages of tiles: of those that are news, and of those that are repeated, ms. */
 const TILES_MS = { wide: 100, narrow: 400 };

@@ -3,9 +3,12 @@ import { BitRate } from '@farpoint/timing';
 
 /** A point of a recorded cloud: x, y, z and colour, four bytes each. */
 const POINT_BYTES = 16;
-/** Poses, velocities, telemetry, estimates and latencies while somebody drives. */
+/**
+ * Poses, velocities, telemetry, estimates and latencies while somebody drives. Chosen: above 20 messages of
+ * telemetry and 40 commands a second.
+ */
 const EVENT_BYTES_PER_SECOND = 50_000;
-/** The most that pictures may take of any link, 3 Mbit/s. */
+/** The most that pictures may take of any link, 3 Mbit/s (picture-plan.ts). */
 const PICTURE_BYTES_PER_SECOND = BitRate.toBytesPerSecond(BitRate.fromMbps(3));
 
 export interface RecordedKinds {

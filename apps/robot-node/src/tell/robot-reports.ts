@@ -7,7 +7,15 @@ import { streamStatistics } from './stream-statistics.ts';
 import type { TelemetryBoard } from './telemetry-board.ts';
 import type { TelemetrySender, TelemetryTarget } from './telemetry-sender.ts';
 
+/**
+ * How often operators are told, ms: 20 times a second. Prediction needs as many poses (`pnpm bench
+ * prediction`, docs/prediction.md), and a display shows no more of numbers.
+ */
 const TELEMETRY_MS = 50;
+/**
+ * How often a line is written to the file of statistics, ms: the bins of the link emulator
+ * (docs/bad-network.md).
+ */
 const STATISTICS_MS = 100;
 
 export interface RobotReportsParts {

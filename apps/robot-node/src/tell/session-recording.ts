@@ -34,8 +34,15 @@ import type { TelemetryTaker } from './sample-board.ts';
 import type { StreamStatistics } from './stream-statistics.ts';
 
 const HOSTS = { localhost: '127.0.0.1', network: '0.0.0.0' } as const;
+/**
+ * Foxglove's viewers at a time. Chosen: each takes all that is recorded, so that more would cost operators
+ * their processor.
+ */
 const MOST_VIEWERS = 8;
-/** The least time between two key frames that are requested for one video: each costs operators some bits, ms. */
+/**
+ * The least time between two key frames that are requested for one video: each costs operators some bits, ms.
+ * Chosen: who joins a live view waits so long at most.
+ */
 const KEY_FRAME_MS = 1000;
 const NO_CLOUDS: Readonly<Record<CloudKind, number>> = { captured: 0, sent: 0 };
 const MORE_ROOM =

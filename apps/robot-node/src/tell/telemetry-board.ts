@@ -22,7 +22,10 @@ export const STATE_QUANTITIES = {
   voltage: { label: 'Battery voltage', unit: 'V' },
 } as const;
 
-/** Raised alarms are recorded again at this interval, so that a player can begin anywhere, ms. */
+/**
+ * Raised alarms are recorded again at this interval, so that a player can begin anywhere, ms. Chosen: a
+ * player looks back no farther.
+ */
 const REPEAT_MS = 5000;
 /** An alarm is recorded at the time at which it was judged, unless that was longer ago: it is a played one, ms. */
 const MOST_LATE_MS = 1000;

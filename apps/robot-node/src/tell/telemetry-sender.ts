@@ -32,7 +32,10 @@ export interface TelemetryTarget {
   status(captureStages: StageTimings, nowMs: number): { stages: StageTimings; stream: StreamStatus };
 }
 
-/** On a path that carries less, telemetry is sent less often, because it would take a fifth of the path. */
+/**
+ * On a path that carries less, telemetry is sent less often, because it would take a fifth of the path: every
+ * fourth time, five a second.
+ */
 const NARROW_BITS_PER_SECOND = BitRate.fromMbps(1);
 const NARROW_EVERY = 4;
 /** Components report once a second, and every 4 s to a narrow path: a multiple of what that gets. */
@@ -135,7 +138,10 @@ export class TelemetrySender {
   }
 }
 
-/** What has not changed is repeated this often, so that operators know that it is still so, ms. */
+/**
+ * What has not changed is repeated this often, so that operators know that it is still so, ms. Chosen: the
+ * page calls what is near old after two of these (near-view.ts).
+ */
 const REPEAT_MS = 500;
 
 /** Leaves out what operators already know. */

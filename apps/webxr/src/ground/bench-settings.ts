@@ -20,6 +20,7 @@ export const NO_BENCH: Readonly<BenchSettings> = {
   barcode: false,
 };
 
+/** The largest side of a canvas in the address, pixels: what WebGL 2 draws on any common GPU. */
 const MAX_CANVAS = 8192;
 
 /** @param query the page's query string */

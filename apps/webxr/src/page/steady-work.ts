@@ -11,7 +11,10 @@ import type { PageStatistics } from '../words/page-stats.ts';
 import type { FrameLoop } from './frame-loop.ts';
 import type { PageViews } from './page-views.ts';
 
-/** As often as commands are sent, and as often as people can read. */
+/**
+ * As often as commands are sent (COMMANDS_PER_SECOND of the operator package: 40 a second), and as often as
+ * people can read, ms.
+ */
 const DRIVE_EVERY_MS = 25;
 const STATUS_EVERY_MS = 250;
 

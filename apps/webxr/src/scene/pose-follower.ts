@@ -54,5 +54,8 @@ export class PoseFollower {
   }
 }
 
-/** Farther from one pose to the next, the robot is at another place, and nothing is blended, m. */
+/**
+ * Farther from one pose to the next, the robot is at another place, and nothing is blended, m. Chosen: no
+ * robot here drives so far between two poses.
+ */
 const JUMP_M = 2;

@@ -24,7 +24,10 @@ const WEIGHTS: Readonly<Record<Priority, { cloud: number; video: number }>> = {
   clouds: { cloud: 6, video: 1 },
   cameras: { cloud: 1, video: 2 },
 };
-/** An enlarged video shows three times as much as it would otherwise. */
+/**
+ * An enlarged video shows three times as much as it would otherwise. Chosen: who enlarges it wants to see
+ * more, and the others still move.
+ */
 const ENLARGED = 3;
 
 export class LinkPriority {

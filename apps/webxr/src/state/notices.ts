@@ -34,6 +34,10 @@ export function tellNotices(client: RobotClient, notices: Notices): void {
   });
 }
 
+/**
+ * How long a line stays, ms. Chosen: two sentences are read in it, and what stays is no news; notices.test.ts
+ * holds it.
+ */
 const SHOWN_MS = 5000;
 /**
  * Good news stays for as long before it makes room for what is only mentioned, ms: chosen, a dozen words are read in it. Otherwise

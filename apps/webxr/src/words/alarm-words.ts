@@ -2,7 +2,10 @@
 import type { Alarm } from '@farpoint/operator';
 import type { Words } from './words.ts';
 
-/** Without a word from the robot for so long, an alarm may have ended or become worse, ms. */
+/**
+ * Without a word from the robot for so long, an alarm may have ended or become worse, ms: as its path is
+ * called lost (resume-policy.ts of the operator package).
+ */
 const STALE_MS = 1000;
 
 /** @param silentMs how long nothing has been heard of the robot, ms */

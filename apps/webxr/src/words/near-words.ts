@@ -3,7 +3,10 @@ import { type NearHit, nearestHits, unseenDirections } from '../ground/near-fiel
 import type { NearView } from '../ground/near-field/near-view.ts';
 import type { Tone, Words } from './words.ts';
 
-/** Nearer than this is very near, and near, metres. */
+/**
+ * Nearer than this is very near, and near, metres. Chosen: about half an arm's length and a step
+ * (docs/awareness.md).
+ */
 export const VERY_NEAR_M = 0.35;
 export const NEAR_M = 1;
 const ALL_AROUND = 'ahead,left,behind,right';

@@ -10,7 +10,10 @@ export interface ShownReading {
   tone: Tone;
 }
 
-/** From this age on, the text includes the reading's age, unless the topic's own rate is known, ms. */
+/**
+ * From this age on, the text includes the reading's age, unless the topic's own rate is known, ms. Chosen:
+ * five of the robot's repetitions (reading-board.ts).
+ */
 const OLD_MS = 10_000;
 /** With a known rate: after so many intervals; at least and at most, ms. Readings take turns on the way here. */
 const OLD_INTERVALS = 3;

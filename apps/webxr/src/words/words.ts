@@ -176,6 +176,11 @@ export interface LinkFacts {
   rateByReports: boolean;
 }
 
+/**
+ * Without a word from the robot, and without points, for so long, the link's line says so, ms. Chosen: the
+ * first as its path is called lost; points may be missing while a sensor starts or a link is narrow.
+ * status.test.ts holds the second.
+ */
 const SILENT_MS = 1000;
 const NO_POINTS_MS = 3000;
 
@@ -266,7 +271,7 @@ export function vrUnavailable(facts: {
   return 'No headset found.';
 }
 
-/** Grants that end sooner than this are spoken of, s. */
+/** Grants that end sooner than this are spoken of, s: from when the robot warns (robot-access.ts). */
 const SOON_S = 60;
 
 /** @returns `null` unless the grant ends soon */

@@ -9,6 +9,9 @@ import { BridgeSession, type BridgeSessionActions } from './bridge-session.ts';
 import type { BridgeAddress } from './bridge-settings.ts';
 import { BridgeSocket } from './bridge-socket.ts';
 
+/**
+ * How often the bridge's silence is looked for, ms: a tenth of the time after which the page stops driving.
+ */
 const CHECK_EVERY_MS = 100;
 
 export class BridgeLink implements RobotLink {

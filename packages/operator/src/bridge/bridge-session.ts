@@ -39,10 +39,17 @@ export interface BridgeSessionActions {
 
 /** Assumed, because the robot does not send its limits. The reference system drives at 0.5 m/s. */
 export const BRIDGE_LIMITS = { maxLinear: 0.5, maxAngular: 1, watchdogMs: 150, maxCommandsPerSecond: 100 };
-/** The page stops driving if no points have arrived for this long, ms. */
+/**
+ * The page stops driving if no points have arrived for this long, ms. As long as a path of our own may be
+ * silent (resume-policy.ts).
+ */
 const BLIND_AFTER_MS = 1000;
-/** A green frame is requested again after this time, ms: each request produces one. */
+/**
+ * A green frame is requested again after this time, ms: each request produces one. Chosen: above the round
+ * trip of any link that can be driven by.
+ */
 const GREEN_AGAIN_MS = 500;
+/** Number of zero commands after the grip is released, as over a link of our own (command-stream.ts). */
 const STOP_REPEATS = 4;
 
 export class BridgeSession {

@@ -5,7 +5,10 @@ export interface BridgeSocketEvents {
   onText(text: string): void;
 }
 
-/** With more than this unsent, bytes, a message would arrive too late and is dropped. */
+/**
+ * With more than this unsent, bytes, a message would arrive too late and is dropped. Chosen: some 40
+ * commands, a second.
+ */
 const MAX_BACKLOG = 4096;
 
 /** One of the bridge's local WebSockets. Reconnects without end. */

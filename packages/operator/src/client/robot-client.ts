@@ -19,6 +19,10 @@ import { clientParts, openLink } from './client-parts.ts';
 import { type ClientParts, linkEvents } from './link-events.ts';
 import type { RobotEvents } from './robot-events.ts';
 
+/**
+ * How often the client's clocks are looked at, ms: as often as commands leave (command-stream.ts); and how
+ * often statistics are told: as often as people can read.
+ */
 const [UPDATE_EVERY_MS, STATISTICS_MS] = [25, 250];
 
 /**

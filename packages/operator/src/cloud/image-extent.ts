@@ -6,6 +6,7 @@
 /** A field of view of 90°, until a frame has given an estimate. */
 export const DEFAULT_EXTENT = 2;
 
+/** Samples of each packet that are looked at. Chosen: some hundred of a frame. */
 const SAMPLES_PER_PACKET = 4;
 /** A frame with fewer samples is ignored. */
 const LEAST_SAMPLES = 16;

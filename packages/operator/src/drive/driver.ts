@@ -14,9 +14,15 @@ export interface DriverPort {
   onGripLost?(loss: GripLoss): void;
 }
 
-/** While the grip is held and nobody drives, the lease is requested at this interval. */
+/**
+ * While the grip is held and nobody drives, the lease is requested at this interval, ms. Chosen: a lost
+ * request costs half of a second; driver.test.ts holds it.
+ */
 const LEASE_RETRY_MS = 500;
-/** While nobody drives by this hand, the robot is told at this interval that it is open. */
+/**
+ * While nobody drives by this hand, the robot is told at this interval that it is open, ms (docs/safety.md).
+ * Chosen: so long a first grip waits at most.
+ */
 const OPEN_HAND_MS = 500;
 
 /**

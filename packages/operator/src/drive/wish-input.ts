@@ -2,7 +2,10 @@
 import type { DriveInput } from './drive-input.ts';
 import type { DriveWish } from './velocity-mapping.ts';
 
-/** A wish that is not renewed within this time expires, ms. */
+/**
+ * A wish that is not renewed within this time expires, ms. Chosen: programs that renew it ten times a second
+ * may miss one.
+ */
 export const WISH_HOLDS_MS = 200;
 
 export class WishInput implements DriveInput {

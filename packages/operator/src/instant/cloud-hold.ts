@@ -7,7 +7,7 @@ import { SAME_INSTANT_US } from './capture-instant.ts';
 
 // `pnpm bench cameras` measures how far apart clouds and pictures are with these numbers (docs/cameras.md).
 
-/** For one who only watches, ms: nothing is lost by it. */
+/** For one who only watches, ms: nothing is lost by it; docs/janus.md has what it gives. */
 const WATCHER_HOLD_MS = 200;
 /** For one who drives, ms beyond the time from one picture to the next … */
 const DRIVER_MARGIN_MS = 10;

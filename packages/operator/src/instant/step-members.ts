@@ -10,7 +10,10 @@ export interface DelayedSource {
   readonly isHeld: boolean;
 }
 
-/** A source that is in step leaves the others only when it is farther away than this, so that it does not flutter. */
+/**
+ * A source that is in step leaves the others only when it is farther away than this, so that it does not
+ * flutter. Chosen as the margin of a wait (newest-step.ts); step-members.test.ts holds it.
+ */
 const STAY_MS = 10;
 
 /**

@@ -5,6 +5,10 @@ import { type Distribution, SampleWindow } from './sample-window.ts';
 /** Age of a capture timestamp at a local time, ms; `null` while the robot's clock is unknown. */
 export type AgeOfStamp = (captureTimeUs: number, nowMs: number) => number | null;
 
+/**
+ * Frames that were shown and are remembered, half of a second at 30 a second: a late packet of one begins no
+ * new measurement.
+ */
 const MAX_DONE = 16;
 
 export class FrameLatency {

@@ -34,8 +34,15 @@ interface Waiting {
   robot: LatencyFrame | null;
 }
 
+/**
+ * Without an answer after this time, a test has failed, ms. Chosen: above the loop of any link that can be
+ * driven by.
+ */
 const TIMEOUT_MS = 3000;
-/** A request that the robot has not confirmed is repeated at this interval, because commands may be lost. */
+/**
+ * A request that the robot has not confirmed is repeated at this interval, because commands may be lost.
+ * Chosen: two commands' intervals.
+ */
 const REPEAT_MS = 50;
 
 /** Runs latency tests. {@link RobotClient} creates and calls it; an app calls {@link RobotClient.latencyTest}. */

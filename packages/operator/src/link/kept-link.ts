@@ -16,6 +16,10 @@ import { SessionKeeper, type SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
 import type { RobotLink, RobotLinkEvents, SignalingState } from './robot-link.ts';
 
+/**
+ * How often silence is looked for, ms: a quarter of the time after which a path is lost; and how often the
+ * robot's clock is asked for: five times before it counts as unanswered (resume-policy.ts).
+ */
 const [UPDATE_EVERY_MS, PROBE_MS] = [250, 500];
 
 export abstract class KeptLink implements RobotLink {

@@ -11,7 +11,10 @@ const BUDGET = 60_000;
 /** What is seen through is nearer than what is seen by this, and by what grows with the square of the range, metres. */
 const LEAST_GAP_M = 0.1;
 const GAP_PER_M2 = 0.005;
-/** Sightings that being seen through once takes back. */
+/**
+ * Sightings that being seen through once takes back. Chosen: what was confirmed goes after three frames,
+ * within a second (docs/memory.md); world-map.test.ts holds it.
+ */
 const LOST_SIGHTINGS = 3;
 /** What was not confirmed is forgotten after this time, ticks. */
 const UNCONFIRMED_TICKS = 10 * TICKS_PER_S;

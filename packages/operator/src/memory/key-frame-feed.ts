@@ -6,7 +6,10 @@ import { sequenceDelta32 } from '@farpoint/protocol';
 import { type Batch, TILE_ROOM, type TileGrid } from '../cloud/batch.ts';
 import { KEY_FRAME_SAMPLES, type KeyFrame } from './key-frame.ts';
 
-/** A key frame begins this long after the one before, ms. */
+/**
+ * A key frame begins this long after the one before, ms. `pnpm bench memory` measures what a frame takes in
+ * the worker and how much is remembered with four a second (docs/memory.md).
+ */
 const INTERVAL_MS = 250;
 const TILE = 16;
 

@@ -1,4 +1,8 @@
-/** Silence after which the path counts as lost, ms: points, telemetry and clock answers come many times a second. */
+/**
+ * Silence after which the path counts as lost, ms: points, telemetry and clock answers come many times a
+ * second. Chosen: longer than a radio takes to change cells, so that restarts are rare; resume-policy.test.ts
+ * holds it.
+ */
 export const LOST_AFTER_MS = 1000;
 /** The same shortly after a change of the network, when silence is less likely to be a coincidence, ms. */
 export const LOST_AFTER_CHANGE_MS = 300;

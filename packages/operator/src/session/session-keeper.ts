@@ -34,7 +34,10 @@ export interface SessionActions {
   onPath(up: boolean): void;
 }
 
-/** Time limit from the request to an established peer connection, ms. */
+/**
+ * Time limit from the request to an established peer connection, ms. Chosen: the 8 s that a robot waits for a
+ * slow relay (waiting-places.ts), and the ways of signaling.
+ */
 const OPEN_TIMEOUT_MS = 15_000;
 /** Silence after which the session is given up, ms: the robot has given it up by then, too. */
 const SILENCE_LIMIT_MS = 60_000;

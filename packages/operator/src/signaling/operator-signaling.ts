@@ -44,8 +44,15 @@ export type SessionSignal = Exclude<
   { type: 'operator.welcome' } | { type: 'robots' } | { type: 'robots.changed' }
 >;
 
+/**
+ * A service that has refused the page is asked again after this time, ms. Chosen: it changes its mind only
+ * when a person changes something, and thousands of pages ask.
+ */
 const REFUSED_RETRY_MS = 30_000;
-/** Time limit for answers that the service gives by itself, ms; after it the connection counts as dead. */
+/**
+ * Time limit for answers that the service gives by itself, ms; after it the connection counts as dead.
+ * Chosen: longer than TCP's first repetition of a lost packet, 1 s (RFC 6298, 2.1); the robot waits as long.
+ */
 const ANSWER_TIMEOUT_MS = 2000;
 
 export class OperatorSignaling {

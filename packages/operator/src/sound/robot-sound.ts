@@ -33,7 +33,10 @@ export interface RobotSoundPort {
   onTrack(track: MediaStreamTrack): void;
 }
 
-/** The microphone stays open for so long after the last word, ms: opening it takes a moment. */
+/**
+ * The microphone stays open for so long after the last word, ms: opening it takes a moment. Chosen: pauses
+ * within a talk are shorter, and nobody likes a page that keeps the microphone (docs/sound.md).
+ */
 const KEEP_OPEN_MS = 10_000;
 
 /** {@link RobotClient.sound}. */

@@ -31,8 +31,17 @@ export interface RobotWatcherOptions {
   transform: TransformSupport;
 }
 
+/** How often silence is looked for, ms: a sixth of what follows. */
 const CHECK_EVERY_MS = 250;
+/**
+ * Without media for so long, nothing live is shown, ms. Chosen: later than for a driver, 1 s, because nothing
+ * is driven by it.
+ */
 const SILENT_MS = 1500;
+/**
+ * The first and the longest wait before Janus is asked again, ms: it doubles. Chosen: the page is back soon
+ * after Janus is; the robot itself waits about as long (mountpoint-keeper.ts).
+ */
 const FIRST_RETRY_MS = 300;
 const MOST_RETRY_MS = 4000;
 /** The fastest of the last frames tells the difference of the clocks, ms. */

@@ -4,15 +4,28 @@ interface Point {
   y: number;
 }
 
-/** A position may stay behind odometry by so much, besides its error: receivers hold still what moves slowly, metres. */
+/**
+ * A position may stay behind odometry by so much, besides twice its error, metres: receivers hold still what
+ * moves slowly. Chosen: more lets a robot leave its fence by as much. frozen-position.test.ts holds it and
+ * the next.
+ */
 const LAG_M = 1;
-/** A position that has changed by so much is not frozen, metres. */
+/**
+ * A position that has changed by so much is not frozen, metres. Chosen: half of the lag, so that one that
+ * moves in steps is believed; above what a receiver at rest wanders within seconds.
+ */
 const MOVED_M = 0.5;
-/** After the robot has stood for so long by its odometry, its position is believed again, ms: wheels may have slipped. */
+/**
+ * After the robot has stood for so long by its odometry, its position is believed again, ms: wheels may have
+ * slipped. Chosen: longer than for odometry, because receivers say little of a robot that stands.
+ */
 const STANDS_MS = 5000;
-/** Odometry that has changed by less stands, metres. */
+/** Odometry that has changed by less stands, metres. Chosen: above what it drifts at rest. */
 const STANDS_M = 0.05;
-/** Each time with half of what it may stay behind; not more often than this allows. */
+/**
+ * Each time with half of what it may stay behind; not more often than this allows: four times, a second metre
+ * in all.
+ */
 const LEAST_SHARE = 1 / 16;
 
 /**

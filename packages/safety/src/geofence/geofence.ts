@@ -43,13 +43,25 @@ export const defaultGeofenceOptions: Readonly<GeofenceOptions> = Object.freeze({
 
 // geofence.property.test.ts drives random fences with these numbers: the robot leaves none of them.
 
-/** Towards the edge the robot slows with this share of its brakes: the rest is for what was not foreseen. */
+/**
+ * Towards the edge the robot slows with this share of its brakes: the rest is for what was not foreseen.
+ * docs/geofence.md says it; with 0.8 the property test's robot leaves its fence.
+ */
 const COMFORT = 0.4;
-/** Nearer to the edge than this the robot may only move away from it, m. */
+/**
+ * Nearer to the edge than this the robot may only move away from it, m. Chosen: above what rounding and a
+ * tick of motion add, below what anybody misses.
+ */
 const EDGE_M = 0.03;
-/** Speed at most on the way back in, m/s. */
+/**
+ * Speed at most on the way back in, m/s. Chosen: as where no sensor sees (`guard.unseenMps`);
+ * geofence.test.ts holds it.
+ */
 const RETURN_MPS = 0.3;
-/** What leads back in comes nearer by this share of the way, at least. */
+/**
+ * What leads back in comes nearer by this share of the way, at least. Chosen: an arc that mostly leads along
+ * the edge is no way back.
+ */
 const RETURN_SHARE = 0.2;
 /** The way is looked at in so many places: it must come nearer all along. */
 const RETURN_STEPS = 8;

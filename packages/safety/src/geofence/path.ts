@@ -13,6 +13,7 @@ export interface Arc {
 
 /**
  * Steps that are tried. What is left after them does not count: the way is then called shorter than it is.
+ * Chosen: a bound on what a command takes (docs/geofence.md).
  */
 const MOST_STEPS = 48;
 /** Closer is there, m. */

@@ -10,7 +10,10 @@ export interface ViewAgeLimits {
   stallMs: number;
 }
 
-/** What a picture that was late within the last second leaves of the speed. */
+/**
+ * What a picture that was late within the last second leaves of the speed. Chosen: it slows down and does not
+ * stop, so that a link that stutters can be driven over; view-age.test.ts holds it.
+ */
 const MIN_FACTOR = 0.25;
 
 const UNKNOWN: Readonly<MotionBound> = Object.freeze({ factor: 0, reason: 'view-unknown', urgent: true });

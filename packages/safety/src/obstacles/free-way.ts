@@ -26,7 +26,10 @@ export interface Sweep {
   travel: number;
 }
 
-/** The grown outline moves by at most this share of a cell between two looks, so that no cell is skipped. */
+/**
+ * The grown outline moves by at most this share of a cell between two looks, so that no cell is skipped:
+ * below half of a cell's diagonal.
+ */
 const STEP_CELLS = 0.7;
 /**
  * Steps that are looked at, so that a command costs a bounded time: 0.11 ms at the 95th percentile (pnpm

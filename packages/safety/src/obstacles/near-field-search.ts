@@ -6,10 +6,13 @@ import { OWN_BODY_M } from './obstacle-guard-options.ts';
 import { type FloorPose, floorClasses } from './sensor-grid.ts';
 
 const SECTOR = (2 * Math.PI) / NEAR_SECTORS;
-/** An unseen stretch ends where the floor is seen again for so long, metres: shorter ones are gaps in what is seen. */
+/**
+ * An unseen stretch ends where the floor is seen again for so long, metres: shorter ones are gaps in what is
+ * seen. Chosen: four cells.
+ */
 const SEEN_AGAIN_M = 0.2;
 
-/** Of the table of distances, metres. */
+/** Of the table of distances, metres: half a cell, so that it adds no error to theirs. */
 const TABLE_M = 0.025;
 
 /** Finds what is nearest to a footprint in each direction. Keeps its buffers: one per guard. */

@@ -44,11 +44,15 @@ export const defaultObstacleGuardOptions: Readonly<ObstacleGuardOptions> = {
 };
 
 /**
- * How much of the margin is kept even when the robot creeps. The robot gets through a narrow door with 10 of
- * 15 cm.
+ * * How much of the margin is kept even when the robot creeps. The robot gets through a narrow door with 10
+ * of 15 cm: docs/obstacle-guard.md says both; `pnpm bench guard-runs` counts contacts and false stops with
+ * these numbers.
  */
 export const CREEPING_SHARE = 2 / 3;
-/** The highest speed within the rest of the margin, m/s. */
+/**
+ * The highest speed within the rest of the margin, m/s. Chosen: it stops within 4 cm from there, with 0.1 s
+ * of reaction and 1 m/s².
+ */
 export const CREEPING_MPS = 0.2;
 /**
  * Slower than this, the robot stops; and it goes again when it may be faster than that, m/s. The gap between
@@ -56,9 +60,18 @@ export const CREEPING_MPS = 0.2;
  */
 export const STOP_BELOW_MPS = 0.04;
 export const GO_ABOVE_MPS = 0.1;
-/** Emergency braking ends when the robot could stop within this share of the way. */
+/**
+ * Emergency braking ends when the robot could stop within this share of the way. Chosen: without a gap it
+ * would brake hard and let go by turns.
+ */
 export const RELEASE_SHARE = 0.7;
-/** Odometry is carried on by its velocity for at most this long; older, it is silent, ms. */
+/**
+ * Odometry is carried on by its velocity for at most this long; older, it is silent, ms.
+ * docs/obstacle-guard.md says it; obstacle-guard.test.ts holds it.
+ */
 export const MOST_EXTRAPOLATION_MS = 300;
-/** Deeper inside the footprint are parts of the robot itself, metres. */
+/**
+ * Deeper inside the footprint are parts of the robot itself, metres: a cell, within which nobody can tell.
+ * The page's tint follows it (show-hazards.ts).
+ */
 export const OWN_BODY_M = 0.05;

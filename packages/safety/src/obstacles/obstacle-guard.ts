@@ -17,7 +17,10 @@ import type { FloorPose, SensorGrid } from './sensor-grid.ts';
 import { Whereabouts } from './whereabouts.ts';
 
 const [WIDE, NARROW] = [0, 1];
-/** Without odometry, a cell no longer counts as free when the robot has gone this far since it was seen, metres. */
+/**
+ * Without odometry, a cell no longer counts as free when the robot has gone this far since it was seen,
+ * metres. Chosen: two cells, below the margin; obstacle-guard.test.ts holds it.
+ */
 const FREE_MEMORY_M = 0.1;
 
 /** Bounds the robot's motion by what its sensors' whole clouds say about the floor on its way. */

@@ -2,7 +2,7 @@ import type { Twist } from '@farpoint/protocol';
 import { MOST_EXTRAPOLATION_MS } from './obstacle-guard-options.ts';
 import type { FloorPose } from './sensor-grid.ts';
 
-/** Poses that are kept: a second or two of odometry. */
+/** Poses that are kept: a second or two of odometry. Clouds that are older are silent. */
 const KEPT = 64;
 
 interface Sample {

@@ -15,14 +15,26 @@ export interface MeasuredMotion {
   measuredMs: number;
 }
 
-/** Odometry may say that the robot is by so much faster than it is allowed to be. */
+/**
+ * Odometry may say that the robot is by so much faster than it is allowed to be. Chosen: it is on a slope,
+ * overshoots, or has a wheel that is a little smaller than thought; more is another place.
+ */
 export const ODOMETRY_OVERSPEED = 1.5;
-/** Farther than its speed explains, a pose has jumped: metres, radians. */
+/**
+ * Farther than its speed explains, a pose has jumped: metres, radians. Chosen: two cells of the guard's map,
+ * whose obstacles would be wrong by as much; smaller corrections by localisation are common.
+ */
 const JUMP_M = 0.1;
 const JUMP_RAD = 0.1;
-/** After a longer silence, any pose is possible, ms. */
+/**
+ * After a longer silence, any pose is possible, ms. Chosen: what was placed by poses before is older than
+ * anything that is driven by.
+ */
 const MOST_GAP_MS = 2000;
-/** A pose that has changed by less has not moved: metres, radians. */
+/**
+ * A pose that has changed by less has not moved: metres, radians. Chosen: above the jitter of localisation at
+ * rest, and a tenth of the way that is waited for; odometry.test.ts holds it and those that follow.
+ */
 const MOVED_M = 0.01;
 const MOVED_RAD = 0.02;
 /**
@@ -31,14 +43,26 @@ const MOVED_RAD = 0.02;
  */
 const PATIENCE_M = 0.1;
 const PATIENCE_S = 0.5;
-/** How far a turn of one radian moves its outline, m. */
+/**
+ * How far a turn of one radian moves its outline, m. Chosen: a small robot's radius; a larger one is believed
+ * a little longer while it turns.
+ */
 const OUTLINE_M = 0.25;
-/** After it has been told to stand for so long, it may try again, ms; with half of the patience each time. */
+/**
+ * After it has been told to stand for so long, it may try again, ms; with half of the patience each time,
+ * four times. Chosen: it has come to rest, and who drives can wait for it (docs/safety.md).
+ */
 const STANDS_MS = 1000;
 const LEAST_PATIENCE = 1 / 16;
-/** What says that it moves, m/s and rad/s, and does not, is broken. */
+/**
+ * What says that it moves, m/s and rad/s, and does not, is broken. Chosen: above the noise of a gyroscope and
+ * of wheels at rest.
+ */
 const MOVES = 0.05;
-/** A velocity that nobody measures is estimated over such a time, ms. */
+/**
+ * A velocity that nobody measures is estimated over such a time, ms. Chosen: a millimetre of noise is 1 cm/s
+ * over the shorter one; over the longer one a robot has changed its velocity.
+ */
 const [LEAST_BASELINE_MS, MOST_BASELINE_MS] = [80, 500];
 /** Poses that are kept for that: the longest time, at up to 128 a second. */
 const KEPT = 64;

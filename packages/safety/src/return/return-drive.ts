@@ -26,14 +26,23 @@ export type ReturnPhase =
   | 'waiting' // nobody is heard any more
   | ToldReturnPhase;
 
-/** Operators who are silent for longer are lost, ms. */
+/**
+ * Operators who are silent for longer are lost, ms: as long as the page takes to call its path lost
+ * (docs/return.md, docs/connection.md). return-drive.test.ts holds it.
+ */
 const LOST_MS = 1000;
-/** A shorter track leads nowhere, m. */
+/** A shorter track leads nowhere, m. Chosen: two crumbs (track.ts). */
 const LEAST_TRACK_M = 0.2;
-/** A robot that moves less than this makes no progress, m and rad. */
+/**
+ * A robot that moves less than this makes no progress, m and rad. Chosen: at 0.2 m/s it takes a quarter of a
+ * second, while 20 s without it end the return.
+ */
 const PROGRESS_M = 0.05;
 const PROGRESS_RAD = 0.1;
-/** If the waiting robot moves farther than this, something else moves it, m and rad. */
+/**
+ * If the waiting robot moves farther than this, something else moves it, m and rad. Chosen: above what
+ * odometry drifts at rest; return-drive.test.ts holds it.
+ */
 const STRANGE_M = 0.1;
 const STRANGE_RAD = 0.2;
 

@@ -31,5 +31,8 @@ export const defaultReturnOptions: Readonly<ReturnOptions> = Object.freeze({
   unseen: 'stop',
 });
 
-/** Odometry that is older is silent: the robot must not move, ms. */
+/**
+ * Odometry that is older is silent: the robot must not move, ms. As long as the guard carries it on
+ * (obstacle-guard-options.ts): at 0.2 m/s, 6 cm.
+ */
 export const ODOMETRY_SILENT_MS = 300;

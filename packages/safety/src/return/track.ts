@@ -15,18 +15,27 @@ export interface TrackOptions {
   mostRadps: number;
 }
 
-/** From one crumb to the next, at least one of these. */
+/**
+ * From one crumb to the next, at least one of these, m and rad. Chosen: a third of the way that it looks
+ * ahead (track-follower.ts); track.test.ts holds these and the next two.
+ */
 const STEP_M = 0.1;
 const STEP_RAD = 0.2;
 /** Who comes so near to an earlier crumb, in its direction, is back there: what lies between is forgotten. */
 const SAME_M = 0.08;
 const SAME_RAD = 0.2;
-/** Odometry that says nothing for longer may have missed anything, ms. */
+/**
+ * Odometry that says nothing for longer may have missed anything, ms. Chosen: at full speed a metre, more
+ * than the 0.3 m that it may leave its track by.
+ */
 const SILENT_MS = 1000;
-/** What rounding and filters may add to a step between two poses. */
+/**
+ * What rounding and filters may add to a step between two poses. Chosen: half of a jump of odometry
+ * (odometry.ts).
+ */
 const SLACK_M = 0.05;
 const SLACK_RAD = 0.1;
-/** Turns on the spot need no length. */
+/** Turns on the spot need no length. Chosen: twice as many crumbs as a straight way has bound the memory. */
 const CRUMBS_PER_M = 20;
 
 /**

@@ -24,6 +24,7 @@ export type BlockedGrant = z.infer<typeof blockedSchema>;
 
 /** As many keys as a robot may meet in its life; those that count now are far fewer. */
 export const MAX_LISTS = 64;
+/** Operators that the robot itself has blocked. Chosen: more than a robot meets, and still a short file. */
 export const MAX_BLOCKED = 1024;
 
 const dateSchema = z.int().min(0);

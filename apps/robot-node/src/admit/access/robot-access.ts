@@ -17,7 +17,10 @@ import type { GrantKeysFile } from './grant-keys-file.ts';
 import { OperatorRoster } from './operator-roster.ts';
 import { RobotRevocations, type RobotRevocationsOptions } from './robot-revocations.ts';
 
-/** How long before the end of its grant an operator is warned, s. */
+/**
+ * How long before the end of its grant an operator is warned, s. Chosen: long enough to stand still and to
+ * renew a grant; the page speaks of it as long before (words.ts).
+ */
 const WARNING_S = 60;
 
 /** The parts of an operator's session that {@link RobotAccess} uses. */

@@ -14,13 +14,21 @@ import type { Logger, Secret } from '@farpoint/service';
 import { Reconnect } from '@farpoint/timing';
 import { WebSocket } from 'ws';
 
+/**
+ * A half-open connection is given up after two of these, ms. Chosen: while somebody waits, a check finds it
+ * in 2 s; this one is for robots that nobody asks for, and each of thousands costs the service a ping.
+ */
 const HEARTBEAT_MS = 10_000;
 /**
- * A ping that checks a doubtful connection must be answered within this time, ms; otherwise the connection is given
- * up.
+ * A ping that checks a doubtful connection must be answered within this time, ms; otherwise the connection is
+ * given up. Chosen: longer than TCP's first repetition of a lost packet, 1 s (RFC 6298, 2.1); the page waits
+ * as long.
  */
 const CHECK_TIMEOUT_MS = 2000;
-/** Shortest interval between such pings, ms. The service disconnects clients that ping without limit. */
+/**
+ * Shortest interval between such pings, ms. The service disconnects clients that ping without limit. Chosen:
+ * the page asks for a restart once a second at most (resume-policy.ts).
+ */
 const CHECK_INTERVAL_MS = 500;
 
 /** Pings one connection, at intervals and on demand, and terminates it if no answer comes. */
@@ -91,7 +99,9 @@ export interface SignalingOptions {
 /** The service refused a robot.hello or another message. */
 export type SignalingRefusal = Extract<ServiceToRobot, { type: 'error' }>;
 
-/** With more unsent bytes than this, the service counts as gone. */
+/**
+ * With more unsent bytes than this, the service counts as gone. Chosen: 16 of its largest messages (64 KiB).
+ */
 const MAX_BACKLOG_BYTES = 1_048_576;
 
 /**

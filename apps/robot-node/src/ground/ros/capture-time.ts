@@ -10,10 +10,16 @@ export interface RosClock {
   wallNs(): bigint;
 }
 
-/** Stamps that lie farther back are of another clock, ms. */
+/**
+ * Stamps that lie farther back are of another clock, ms. Chosen: no message waits for a day, and clocks that
+ * were never set or simulate are off by years.
+ */
 export const FOREIGN_AGE_MS = 24 * 3600 * 1000;
 
-/** Both clocks are read at once if no more time passes between two readings, ms. */
+/**
+ * Both clocks are read at once if no more time passes between two readings, ms. Chosen: reading both takes
+ * some microseconds, and stamps of ROS need no more.
+ */
 const AT_ONCE_MS = 0.02;
 
 /** When what a ROS message holds was captured: on the robot's clock, ms. */
@@ -41,7 +47,10 @@ export function readBoth(clock: RosClock): { nowMs: number; wallNs: bigint } {
   return { nowMs: (beforeMs + afterMs) / 2, wallNs: time };
 }
 
-/** Messages that are older when they come are late, or of a clock that is behind, ms. */
+/**
+ * Messages that are older when they come are late, or of a clock that is behind, ms. Chosen: as old as a
+ * cloud whose stamp is refused (stamp-clock.ts); nothing is driven by it.
+ */
 export const LATE_MS = 1000;
 
 /** That a topic's messages are older than that. */

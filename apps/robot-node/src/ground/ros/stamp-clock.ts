@@ -5,20 +5,35 @@
  */
 import { FOREIGN_AGE_MS, type RosClock, readBoth } from './capture-time.ts';
 
-/** By so much clocks that are kept in step may differ, ms. */
+/**
+ * By so much clocks that are kept in step may differ, ms. Chosen: chrony and NTP keep it by far; at full
+ * speed it costs 100 ms of way (docs/safety.md).
+ */
 export const MOST_AHEAD_MS = 100;
 /**
  * Nobody knows when a cloud was captured whose stamp is refused. It counts as so old, ms: too old to be driven by, but what
  * stands in the robot's way is better seen late than not at all.
  */
 export const REFUSED_AGE_MS = 1000;
-/** Localisation says ahead of time where frames will be, ms. */
+/**
+ * Localisation says ahead of time where frames will be, ms. Chosen: more than Nav2's AMCL does by default
+ * (`transform_tolerance`, 1 s).
+ */
 const MOST_AHEAD_LOCALISED_MS = 2000;
-/** How long another clock is watched before its stamps are believed, ms. */
+/**
+ * How long another clock is watched before its stamps are believed, ms. Chosen: ten clouds of a LiDAR;
+ * meanwhile the source is silent, so that the robot waits.
+ */
 const SETTLES_MS = 1000;
-/** The least delay of the last one to two of these counts, ms. */
+/**
+ * The least delay of the last one to two of these counts, ms. Chosen: clocks that drift by 100 ppm part by 2
+ * ms in it; a delay that lasts longer is not noticed.
+ */
 const WINDOW_MS = 10_000;
-/** A source's stamps may go back by less, where messages overtake each other, ms. */
+/**
+ * A source's stamps may go back by less, where messages overtake each other, ms. Chosen: as much as a message
+ * may be late.
+ */
 const RESTART_MS = 1000;
 /** Sources whose order is kept. */
 const MOST_SOURCES = 2048;

@@ -2,16 +2,24 @@ import { Worker } from 'node:worker_threads';
 import { Backoff } from '@farpoint/timing';
 import { monotonicMs } from '../clock.ts';
 
-const FIRST_RETRY_MS = 250;
-/** The time that a thread has to end by itself, ms. */
-const CLOSE_MS = 1000;
+/**
+ * The wait before a thread that ended is started again, ms: it doubles up to the most. Chosen: a single fault
+ * is over in a quarter of a second; a lasting one costs the processor a start in 10 s, and the log a line.
+ */
+export const FIRST_RETRY_MS = 250;
+export const MOST_RETRY_MS = 10_000;
+/**
+ * The time that a thread has to end by itself, ms. Chosen: its last messages leave within milliseconds, and
+ * service managers wait longer for the program.
+ */
+export const CLOSE_MS = 1000;
 
 export interface KeptThreadOptions<Report> {
   program: URL;
   /** At most 15 characters are shown by Linux. */
   name: string;
-  /** The longest wait before another one is started, ms. */
-  mostRetryMs: number;
+  /** The longest wait before another one is started, ms; default: {@link MOST_RETRY_MS}. */
+  mostRetryMs?: number;
   /** One that has lived so long was well, ms; default: only {@link KeptThread.isWell} says so. */
   wellAfterMs?: number;
   /** What it is told to end by itself. */
@@ -39,7 +47,7 @@ export class KeptThread<Report> {
 
   constructor(options: KeptThreadOptions<Report>) {
     this.#options = options;
-    const { mostRetryMs: mostMs } = options;
+    const { mostRetryMs: mostMs = MOST_RETRY_MS } = options;
     this.#backoff = new Backoff({ firstMs: FIRST_RETRY_MS, mostMs, random: Math.random });
   }
 

@@ -2,9 +2,15 @@ import { type Twist, zeroTwist } from '@farpoint/protocol';
 import type { DriveGuard, MotionSupervisor } from '@farpoint/safety';
 import { type SinkFault, sinkFaultWords } from '../../ground/velocity-sink.ts';
 
-/** Refresh interval, ms: well within the time of the worker's own watchdog. */
+/**
+ * Refresh interval, ms: well within the time of the worker's own watchdog, 150 ms by default. Chosen: two
+ * refreshments may be missing.
+ */
 const REFRESH_MS = 40;
-/** Interval while the velocity is on its way to its target, ms. */
+/**
+ * Interval while the velocity is on its way to its target, ms. Chosen: at 4 m/s² a step is 4 cm/s, and the
+ * worker looks as often; docs/safety.md counts with it.
+ */
 const RAMP_MS = 10;
 
 /**

@@ -8,7 +8,10 @@ import type { DriveGuard, EstopReleaseRefusal } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import type { ReleaseRequest } from './release-request.ts';
 
-/** Between two looks for a request, ms. */
+/**
+ * Between two looks for a request, ms. Chosen: who releases at the robot waits this long at most; a look
+ * costs a call of the file system.
+ */
 const LOOK_MS = 250;
 
 const words: Readonly<Record<EstopReleaseRefusal, string>> = {

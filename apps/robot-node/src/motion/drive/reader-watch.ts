@@ -1,6 +1,8 @@
 /** Whether the program that reads the command block still reads it. Pure: time is an argument. */
 
-/** A reader that follows the counter reads at least this often, ms. */
+/**
+ * A reader that follows the counter reads at least this often, ms. Chosen: twice the 150 ms of the watchdog.
+ */
 export const READER_SILENT_MS = 300;
 /** How many writes a reader may be behind. */
 const MOST_BEHIND = 16;

@@ -4,6 +4,7 @@ import type { TopicReading } from '@farpoint/ros';
 import type { Logger } from '@farpoint/service';
 import { Backoff } from '@farpoint/timing';
 import { monotonicMs } from '../../ground/clock.ts';
+import { CLOSE_MS, FIRST_RETRY_MS, MOST_RETRY_MS } from '../../ground/threads/kept-thread.ts';
 import type { SinkFault, VelocitySink } from '../../ground/velocity-sink.ts';
 import type {
   RosDriveOptions,
@@ -11,25 +12,33 @@ import type {
   RosDriveRequest,
   RosDriveSetup,
 } from './ros-drive-messages.ts';
+import { REPEAT_MS, TAIL_MS } from './ros-velocity.ts';
 import { SinkBeat } from './sink-beat.ts';
 import { wheelsReading } from './wheels-reading.ts';
 
 const THREAD = new URL('./ros-drive-worker.ts', import.meta.url);
-/** The thread beats every 10 ms. When 25 of them are missing, it counts as hung, ms. */
+/**
+ * The thread beats every 10 ms. When 25 of them are missing, it counts as hung, ms. Chosen: collections of
+ * garbage and a busy computer stay below; the thread's own watchdog has stopped the wheels before.
+ */
 const HUNG_MS = 250;
-/** A thread that hangs for longer is replaced. */
+/**
+ * A thread that hangs for longer is replaced, ms. Chosen: motion is refused after a quarter of it; to replace
+ * a thread that is only slow would cost the graph's discovery, seconds.
+ */
 const REPLACE_MS = 1000;
-const CHECK_MS = 100;
-/** The wait before a thread that ended is started again, ms: doubles up to the most. */
-const FIRST_RETRY_MS = 250;
-const MOST_RETRY_MS = 10_000;
-/** A thread that has lived this long was well: the next wait is short again. */
-const WELL_MS = 10_000;
-/** The time that a thread has to hand the last zero to the graph. */
-const CLOSE_MS = 1000;
+/** How often hanging is looked for, ms: a tenth of the time after which a thread is replaced. */
+const CHECK_MS = REPLACE_MS / 10;
+/**
+ * A thread that has lived this long was well: the next wait is short again, ms. As long as the longest wait.
+ */
+const WELL_MS = MOST_RETRY_MS;
 /** After a thread ended in motion, its successor publishes zero this many times: for a second. */
-const OWED_ZEROS = 25;
-/** How long after motion zeros may not have been published: a thread that hangs takes some time to end. */
+const OWED_ZEROS = TAIL_MS / REPEAT_MS;
+/**
+ * How long after motion zeros may not have been published: a thread that hangs takes some time to end.
+ * Chosen: above the second after which a thread that hangs is replaced and the second that it has to end.
+ */
 const OWED_FOR_MS = 5000;
 
 /**

@@ -24,12 +24,12 @@ export interface RosVelocityOptions {
 }
 
 /**
- * How long zeros are published after the last motion, ms. A base that loses one receives others; afterwards Nav2 may
- * drive.
+ * How long zeros are published after the last motion, ms. A base that loses one receives others; afterwards
+ * Nav2 may drive. Chosen: twice the 0.5 s after which diff_drive_controller stops by itself (docs/ros.md).
  */
-const TAIL_MS = 1000;
-/** Interval between zeros during silence, ms. */
-const REPEAT_MS = 40;
+export const TAIL_MS = 1000;
+/** Interval between zeros during silence, ms. As often as velocities are refreshed (drive-station.ts). */
+export const REPEAT_MS = 40;
 const FRAME = 'base_link';
 
 /** Call `apply` at each velocity and at a steady rate, and `checkSilence` every few ms. */

@@ -57,6 +57,7 @@ export type GuardTopicsReport =
 export const COLLISION_TYPES = { bool: 'std_msgs/msg/Bool', speed: 'std_msgs/msg/Float32' } as const;
 export type CollisionType = keyof typeof COLLISION_TYPES;
 
+/** Of a std_msgs/Float32. */
 const FLOAT_BYTES = 4;
 
 /**

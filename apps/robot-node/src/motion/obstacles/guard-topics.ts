@@ -14,12 +14,23 @@ import type {
 } from './guard-topics-messages.ts';
 
 const PROGRAM = new URL('./guard-topics-worker.ts', import.meta.url);
+/**
+ * The longest wait before another thread is started, ms. Chosen: half of the usual, because the robot stands
+ * or creeps meanwhile.
+ */
 const MOST_RETRY_MS = 5000;
-/** A thread that has lived this long was well: the next wait is short again. */
+/**
+ * A thread that has lived this long was well: the next wait is short again, ms. Chosen: discovery and the
+ * first messages come within seconds, so that a thread that fails at them is not called well.
+ */
 const WELL_MS = 10_000;
-/** A thread that gives no sign of life for longer is replaced, ms. */
+/**
+ * A thread that gives no sign of life for longer is replaced, ms. Chosen as in ros-sink.ts: the motion is
+ * bounded by silence long before.
+ */
 const REPLACE_MS = 1000;
-const CHECK_MS = 100;
+/** How often that is looked for, ms: a tenth of it. */
+const CHECK_MS = REPLACE_MS / 10;
 
 export interface GuardTopicsPlan extends GuardTopicsOptions {
   shape: GridShape;

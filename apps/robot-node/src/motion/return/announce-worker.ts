@@ -14,7 +14,10 @@ export interface AnnounceReport {
   fault: string;
 }
 
-/** Repeated, for nodes that come later. */
+/**
+ * Repeated, for nodes that come later, ms. Chosen: a lamp or horn follows within half of a second
+ * (docs/return.md).
+ */
 const REPEAT_MS = 500;
 
 const port = parentPort;

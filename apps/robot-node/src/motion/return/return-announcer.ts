@@ -12,7 +12,6 @@ export interface ReturnConfiguration {
 }
 
 const PROGRAM = new URL('./announce-worker.ts', import.meta.url);
-const MOST_RETRY_MS = 10_000;
 
 /** Says on a topic of the robot's ROS graph, std_msgs/Bool, whether the robot drives back by itself. */
 export class ReturnAnnouncer {
@@ -28,7 +27,6 @@ export class ReturnAnnouncer {
     this.#thread = new KeptThread<AnnounceReport>({
       program: PROGRAM,
       name: 'return topic',
-      mostRetryMs: MOST_RETRY_MS,
       closeMessage,
       data: (): AnnounceSetup => ({ ...this.#topic, isActive: this.#isActive }),
       onReport: ({ fault }) => this.#warn(fault),

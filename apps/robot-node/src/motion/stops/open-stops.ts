@@ -6,7 +6,10 @@ import { KeyStop } from './key-stop.ts';
 import { STEADY_MS, type StopSource } from './stop-source.ts';
 import { TopicStop, type TopicStopOptions } from './topic-stop.ts';
 
-/** Between two attempts to open the file, ms. */
+/**
+ * Between two attempts to open the file, ms. Chosen: a producer that starts is found within a tenth of a
+ * second, for ten cheap calls a second.
+ */
 const FILE_RETRY_MS = 100;
 
 export interface ShmStopOptions {
@@ -75,9 +78,15 @@ class ShmStop implements StopSource {
   }
 }
 
-/** Between two attempts to request the line, ms. */
+/**
+ * Between two attempts to request the line, ms. Chosen: seldomer than a file, because another program may
+ * hold the line for as long as it runs.
+ */
 const LINE_RETRY_MS = 500;
-/** A line is read at every look. If this thread hangs for longer, what was read before no longer counts, ms. */
+/**
+ * A line is read at every look. If this thread hangs for longer, what was read before no longer counts, ms.
+ * Chosen: as long as other stops may be silent by default (`robot.stops.silenceMs`).
+ */
 const SILENT_MS = 500;
 
 /** A GPIO line: active stops, and so does a line that cannot be read. */

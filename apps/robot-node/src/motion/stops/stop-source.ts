@@ -1,6 +1,9 @@
 import type { RobotStop, RobotStopState } from '@farpoint/safety';
 
-/** Time for which a stop that repeats itself must say go before it counts, ms. */
+/**
+ * Time for which a stop that repeats itself must say go before it counts, ms. Chosen: contacts bounce for
+ * some milliseconds, bad ones for tens; who releases does not notice the wait.
+ */
 export const STEADY_MS = 250;
 
 /** A stop at the robot itself. */

@@ -7,7 +7,6 @@ import { STEADY_MS, type StopSource } from './stop-source.ts';
 import type { TopicStopReport, TopicStopSetup } from './topic-stop-worker.ts';
 
 const PROGRAM = new URL('./topic-stop-worker.ts', import.meta.url);
-const MOST_RETRY_MS = 10_000;
 
 export interface TopicStopOptions {
   graph: GraphOptions;
@@ -37,7 +36,6 @@ export class TopicStop implements StopSource {
     this.#thread = new KeptThread<TopicStopReport>({
       program: PROGRAM,
       name: 'stop topic',
-      mostRetryMs: MOST_RETRY_MS,
       closeMessage: 'close',
       data: () => this.#setup(),
       onReport: (report) => this.#onReport(report),

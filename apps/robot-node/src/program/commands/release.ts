@@ -16,8 +16,12 @@ It releases what whoever drives might release: not what a stop at the robot hold
 Exit code: 0 if the emergency stop is released, 1 if not, 2 for a mistake in the options.
 `;
 
-/** The robot looks for requests every 0.25 s, unless it is busy. */
+/**
+ * The robot looks for requests every 0.25 s, unless it is busy: twelve looks, ms. Chosen: who stands before
+ * the console waits no longer.
+ */
 const MOST_WAIT_MS = 3000;
+/** Between two looks for the answer, ms. Chosen: it seems immediate. */
 const LOOK_MS = 50;
 
 export interface ReleaseRim extends CommandRim {

@@ -6,6 +6,7 @@ import type { Host } from './host.ts';
 
 /** Reading these clocks accesses slow hardware, thousands of times a second. */
 const SLOW_SOURCES = ['hpet', 'acpi_pm', 'jiffies', 'refined-jiffies', 'pit'];
+/** Readings that are timed. Chosen: so many that one interruption hardly counts. */
 const READINGS = 20_000;
 
 export function checkMonotonicClock(host: Host, now: () => number): Result[] {
@@ -40,6 +41,10 @@ export interface ServerTime {
   answeredMs: number;
 }
 
+/**
+ * Difference from the service's clock that is told, ms. Chosen: its answer comes in whole seconds; grants
+ * bear a minute, and clocks that are kept in step differ by far less.
+ */
 const MOST_OFFSET_MS = 2000;
 
 /** @param time `null` if no server gave the time */

@@ -15,7 +15,9 @@ import { fleetingState, placeText, STATE_REMEDY } from '../state-place.ts';
 import { fail, ok, type Result, warn } from './finding.ts';
 import { megabytes } from './host.ts';
 
+/** Shared memory without a word, bytes. Chosen: the 64 MiB that Docker gives a container just pass. */
 const EASY_SHARED_BYTES = 64e6;
+/** Room for recordings without a word, bytes. Chosen: some half an hour at 24 Mbit/s. */
 const EASY_RECORDING_BYTES = 5e9;
 
 /**

@@ -12,6 +12,7 @@ export interface Load {
   load: number;
 }
 
+/** Above it processors are slowed down soon, °C. Chosen: most begin at 95 to 105, boards at 80 to 85. */
 const HOT_CELSIUS = 85;
 const CPU = '/sys/devices/system/cpu';
 
@@ -88,7 +89,12 @@ function checkHeat(host: Host): Result[] {
   return results;
 }
 
+/**
+ * Frames that are timed; their median counts. Chosen: the first ones compile, and the check stays under a
+ * second or two.
+ */
 const FRAMES = 12;
+/** Side of the frames, pixels: the simulated depth camera's own. */
 const SIZE = 480;
 /** 24 Mbit/s at 30 frames a second. */
 const BUDGET_BYTES = 100_000;
@@ -151,6 +157,10 @@ export function checkNode(version: string, platform: string, architecture: strin
   return [ok(what)];
 }
 
+/**
+ * Less free memory than the first is a fault, less than the second is told, bytes. Chosen: below the first,
+ * the system may end the program while it drives.
+ */
 const LEAST_MEMORY = 128e6;
 const EASY_MEMORY = 512e6;
 

@@ -3,6 +3,10 @@ import type { SignalingErrorCode } from '@farpoint/protocol';
 import { fail, ok, type Result, warn } from './finding.ts';
 import type { SignalingAnswer } from './signaling-probe.ts';
 
+/**
+ * A certificate that ends sooner is told. Chosen: ACME clients renew a month before the end, so a renewal
+ * that fails shows two weeks later.
+ */
 const EASY_CERTIFICATE_DAYS = 14;
 const DAY_MS = 86_400_000;
 

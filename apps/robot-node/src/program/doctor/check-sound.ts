@@ -10,7 +10,10 @@ export interface SoundTrial {
   startedMs: number | null;
 }
 
-/** A device that takes longer is not ready when somebody begins to listen or to drive, ms. */
+/**
+ * A device that takes longer is not ready when somebody begins to listen or to drive, ms. Chosen: who waits
+ * so long speaks unheard.
+ */
 const SLOW_MS = 2000;
 
 /** @param robotRuns the running robot may hold the devices */

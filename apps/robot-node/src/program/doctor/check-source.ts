@@ -5,8 +5,12 @@ import { fail, ok, type Result, warn } from './finding.ts';
 import { asDoctor } from './ros-probe.ts';
 import type { SourceTrial } from './source-trial.ts';
 
+/** Fewer show no world that moves: as the page judges itself (display-meter.ts). */
 const FEW_FRAMES_PER_SECOND = 5;
-/** The longest wait for ROS, ms: discovery precedes the first message. */
+/**
+ * The longest wait for ROS, ms: discovery precedes the first message. Twice the time that the probe gives
+ * discovery (ros-probe.ts).
+ */
 const MOST_ROS_WAIT_MS = 6000;
 
 /** The source's options for the trial, with waits for a camera's program of `mostWaitMs` at most. */

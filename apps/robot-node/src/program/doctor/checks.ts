@@ -45,7 +45,10 @@ export interface DoctorTimes {
 }
 
 const TIMES: DoctorTimes = { answerMs: 5000, producerMs: 3000, watchMs: 2000 };
-/** Time that a check may take in addition to its waits, ms. */
+/**
+ * Time that a check may take in addition to its waits, ms. Chosen: threads start and modules load in it on a
+ * slow computer.
+ */
 const SLACK_MS = 2000;
 
 const now = () => performance.now();

@@ -13,6 +13,10 @@ import type { SoundOptions } from '../../sense/sound/open-sound-devices.ts';
 import type { SoundTrial } from './check-sound.ts';
 import { type TimedEncoder, TRIAL } from './check-video.ts';
 
+/**
+ * The longest wait for a device's first sound, ms: a second more than the silence after which its process
+ * calls it lost (packages/sound).
+ */
 const LONGEST_SOUND_MS = 6000;
 
 /** Opens each device that is configured, waits until it works or says why not, and closes it. */
@@ -50,7 +54,9 @@ async function tryDevice(
   return trial;
 }
 
+/** Pictures that are timed. Chosen: half of a second at 30 a second, after the key frame. */
 const PICTURES = 15;
+/** The longest wait for them, ms. Chosen: an encoder that takes longer is far too slow for any camera. */
 const LONGEST_MS = 4000;
 
 /** @returns all encoders that are there, timed one after another; or why there are none */

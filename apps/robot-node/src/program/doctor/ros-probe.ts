@@ -5,8 +5,12 @@ import type { RobotOptions } from '../robot-configuration.ts';
 import { graphName, judgeHostname, judgeTopics, stopEntry } from './check-ros.ts';
 import { fail, ok, type Result } from './finding.ts';
 
-/** Time that discovery has to find every topic of the table, ms. */
+/**
+ * Time that discovery has to find every topic of the table, ms. Chosen: people wait for the doctor; a topic
+ * that takes longer is told as missing, and found by the robot later.
+ */
 const DISCOVERY_MS = 3000;
+/** Between two looks whether all were found, ms. Chosen: the check ends soon after the last. */
 const LOOK_MS = 100;
 
 export interface UsedGraph {

@@ -57,7 +57,10 @@ export const broadcastOptions = optionGroup('broadcast', {
   }),
 });
 
-/** Each viewer that asks for a key frame costs all viewers bits; a viewer who joins waits this long at most. */
+/**
+ * Each viewer that asks for a key frame costs all viewers bits; a viewer who joins waits this long at most.
+ * Chosen: docs/janus.md says it.
+ */
 const KEY_FRAME_MS = 2000;
 
 type BroadcastKey = keyof typeof broadcastOptions;

@@ -7,6 +7,7 @@ import type { GuardScan, GuardTopicsOptions } from '../../motion/obstacles/guard
 import { mountSchema } from './guard.ts';
 import { type RosKindValues, rosKindOf } from './sink.ts';
 
+/** Laser scanners of a robot. Chosen: one at each corner. */
 const MOST_SCANS = 4;
 
 const topicSchema = z

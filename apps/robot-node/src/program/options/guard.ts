@@ -6,6 +6,10 @@ import type { GuardTopicsOptions } from '../../motion/obstacles/guard-topics-mes
 import type { ObstacleGuardConfiguration } from '../../motion/obstacles/guarded-sensors.ts';
 import type { SensorMount } from '../../sense/sources/sensor-mount.ts';
 
+/**
+ * What a mount may say, metres and radians: as far as a footprint may reach (footprint.ts), and every
+ * direction.
+ */
 const LIMITS = [10, 10, 10, Math.PI, Math.PI, Math.PI] as const;
 
 /** Where a sensor sits on the robot, as text. */
@@ -24,6 +28,7 @@ export const mountSchema = z
     return z.NEVER;
   });
 
+/** Default footprint, a disc, m: a small wheeled robot's, as the simulated one. */
 const RADIUS = 0.25;
 
 /** Stays text, as a configuration file has it. */

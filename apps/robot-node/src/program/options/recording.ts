@@ -36,7 +36,10 @@ export const foxgloveOptions = optionGroup('foxglove', {
 
 const RECORDED_CLOUDS = ['sent', 'captured', 'both', 'none'] as const;
 
-/** A file that contains only its topics takes some 20 kB. */
+/**
+ * A file that contains only its topics takes some 20 kB; a smaller limit than 50 of these would begin files
+ * all the time, bytes.
+ */
 const LEAST_BYTES = 1_000_000;
 
 export const recordingOptions = optionGroup('recording', {

@@ -32,12 +32,19 @@ import { toModel } from './to-model.ts';
 import { toReturn } from './to-return.ts';
 import { toSensors } from './to-sensors.ts';
 
-/** Who has lost a connection while driving comes back within this time, or has gone. */
+/**
+ * Who has lost a connection while driving comes back within this time, or has gone, ms. Chosen: a tunnel or a
+ * restart of the browser; a place that is kept longer keeps others out
+ * (docs/decisions/2026-11-30-fewer-options.md).
+ */
 const KEEP_PLACE_MS = 30_000;
-/** JPEG's quality, and the pictures' most share of the link's rate: what the clouds can do without (docs/ros.md). */
+/**
+ * JPEG's quality, and the pictures' most share of the link's rate: what the clouds can do without. `pnpm
+ * bench pictures` measures both (docs/ros.md).
+ */
 const PICTURE_QUALITY = 70;
 const PICTURE_SHARE = 0.15;
-/** As a camera's own default. */
+/** As a camera's own default, bit/s (docs/video.md). */
 const PLAYED_VIDEO_BITS_PER_S = 1_500_000;
 
 /** How messages say where an option's value comes from. */

@@ -17,8 +17,11 @@ const earthOrigin = z
     return z.NEVER;
   });
 
-/** Nearer, it would stand in the robot, metres. */
+/**
+ * Nearer, it would stand in the robot, metres: the robot's radius, the guard's margin and half of a thing.
+ */
 const LEAST_THING_M = 0.55;
+/** Things that can be put before the simulated robot. Chosen: a figure for a test; each costs every ray. */
 const MOST_THINGS = 32;
 
 const things = z.string('must be "ahead,left,height …" in metres').transform((text, context): Thing[] => {

@@ -4,7 +4,10 @@ import type { ReturnConfiguration } from '../../motion/return/return-announcer.t
 import type { RobotOptionKey, RobotOptionValues } from './robot-program.ts';
 import { configuresOdometry, rosKindOf } from './sink.ts';
 
-/** The lease must be free by then, and its holder told. */
+/**
+ * The lease must be free by then, and its holder told, s. Chosen: the second that the lease's end is checked
+ * and told within (docs/return.md).
+ */
 const AFTER_LEASE_S = 1;
 
 /**

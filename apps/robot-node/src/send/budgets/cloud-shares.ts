@@ -11,7 +11,10 @@ export interface CloudClaim {
   usefulBitsPerSecond: number;
 }
 
-/** Clouds below this rate show nothing useful, so each sensor gets this much first, as far as the link allows. */
+/**
+ * Clouds below this rate show nothing useful, so each sensor gets this much first, as far as the link allows.
+ * It carries some 3,000 points at 10 frames/s with 16 bits each (plan.ts).
+ */
 const LEAST_BITS_PER_SECOND = BitRate.fromMbps(0.5);
 
 /**

@@ -4,12 +4,21 @@ import { BitRate, RateMeter } from '@farpoint/timing';
 import { pictureAllowance } from '../../sense/pictures/picture-plan.ts';
 import { LEAST_VIDEO_BITS_PER_SECOND } from '../../sense/video/video-plan.ts';
 
-/** Margin on the measured rate of messages (answers to commands, session, telemetry), which come in bursts. */
+/**
+ * Margin on the measured rate of messages (answers to commands, session, telemetry), which come in bursts.
+ * Chosen: bursts beyond it wait for a packet or two of points.
+ */
 const MESSAGE_MARGIN = 1.25;
-/** Always reserved for messages, bit/s. */
+/**
+ * Always reserved for messages, bit/s. Chosen: it counts only until messages were measured; telemetry alone
+ * is more.
+ */
 const LEAST_MESSAGES = 20_000;
 
-/** Margin on the measured rate of pictures. */
+/**
+ * Margin on the measured rate of pictures. Chosen: their rate is planned, so that it varies by a picture's
+ * size only.
+ */
 const PICTURE_MARGIN = 1.1;
 
 /**
@@ -17,12 +26,22 @@ const PICTURE_MARGIN = 1.1;
  * 1,180 are 6.4 %, and the last packet of a frame is shorter.
  */
 const VIDEO_OVERHEAD = 1.08;
-/** Sound takes at most this share of what messages leave. */
+/**
+ * Sound takes at most this share of what messages leave. Chosen: 46 kbit/s fit a path of some 160 kbit/s, and
+ * there is still something to see (docs/sound.md).
+ */
 const SOUND_SHARE = 1 / 3;
-/** A paused video returns once its share is this much above the least, so that a changing rate does not switch it. */
+/**
+ * A paused video returns once its share is this much above the least, so that a changing rate does not switch
+ * it. Chosen: more than an estimate moves on a steady link.
+ */
 const RETURN_MARGIN = 1.3;
 /** Until the operator says otherwise, clouds count as much as two videos. */
 const USUAL_SHARES: Omit<LinkShares, 'type'> = { cloud: 2, videos: [] };
+/**
+ * Weight of a video that the operator has not weighed: two of them count as much as a cloud
+ * (docs/in-step.md).
+ */
 const USUAL_VIDEO = 1;
 
 /** Highest rates of videos by number, bit/s without headers. */

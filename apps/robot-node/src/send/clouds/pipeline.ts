@@ -19,7 +19,10 @@ import type { SendLoop } from '../transport/send-loop.ts';
 import { SharedFrame } from '../transport/shared-frame.ts';
 import type { FrameLog } from './frame-log.ts';
 
-/** A frame older than this when it leaves the worker is not sent. */
+/**
+ * A frame older than this when it leaves the worker is not sent, ms: as a video's frame (video-frame.ts).
+ * From the same age of the view on, the robot is slower (`motion.viewSlowMs`).
+ */
 const MAX_FRAME_AGE_MS = 250;
 
 /** A receiver of frames, of either protocol. */

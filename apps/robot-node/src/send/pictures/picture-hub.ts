@@ -33,7 +33,10 @@ export interface PictureHubOptions {
   log: Logger;
 }
 
-/** A thread that ended is started again after this time, ms. */
+/**
+ * A thread that ended is started again after this time, ms. Chosen: pictures are not what is driven by, so
+ * there is no hurry.
+ */
 const RESTART_MS = 1000;
 /** Shortest time between two plans, ms: rates change with the feedback, many times a second. */
 const PLAN_MS = 250;

@@ -12,14 +12,20 @@ import type { StreamSender } from '../transport/stream-sender.ts';
 import type { VoicePacket } from '../transport/voice-packet.ts';
 import { VoiceGate } from './voice-gate.ts';
 
-/** A receiver uses the reports to relate timestamps to time of day, ms. */
+/**
+ * A receiver uses the reports to relate timestamps to time of day, ms: as videos' (operator-videos.ts), more
+ * often than RFC 3550's 5 s, so that a new listener need not wait.
+ */
 const REPORT_MS = 1000;
 /**
  * Sound that was switched off for want of room comes back with so much more room than it needs. It returns
  * with room for 20 kbit/s instead of 16.
  */
 const ROOM_TO_RETURN = 1.25;
-/** After the voice has closed, it is still heard at the robot for so long, ms: the jitter buffer and the device. */
+/**
+ * After the voice has closed, it is still heard at the robot for so long, ms: the jitter buffer and the
+ * device. Those may take 100 and 40 ms (docs/sound.md).
+ */
 const TAIL_MS = 200;
 
 /** One operator's sound: what it hears, and what it says. Before it has connected, there is neither. */

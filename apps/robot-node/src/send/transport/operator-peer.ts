@@ -68,9 +68,15 @@ class OfferedSound {
  * Bytes on the wire in addition to a message's text: SCTP chunk and header 28, DTLS record 37, UDP and IPv4 28 bytes.
  */
 const MESSAGE_OVERHEAD_BYTES = 93;
-/** Unreliable messages are dropped while more than this is queued, bytes. */
+/**
+ * Unreliable messages are dropped while more than this is queued, bytes. Chosen: a quarter of a second at 500
+ * kbit/s; what waits longer is old when it arrives.
+ */
 const MAX_UNRELIABLE_BACKLOG = 16_384;
-/** A peer is closed when more than this is queued on its reliable channel, bytes. */
+/**
+ * A peer is closed when more than this is queued on its reliable channel, bytes. Chosen: more than a model
+ * and all lists together (docs/awareness.md: 100 kB).
+ */
 const MAX_RELIABLE_BACKLOG = 262_144;
 
 export class OperatorPeer {

@@ -1,7 +1,10 @@
 import type { ReceiverSums } from '@farpoint/congestion';
 import { type ReportBlock, SequenceNumber } from '@farpoint/rtp';
 
-/** Number of packets whose send time is kept: several seconds of any stream that such reports permit. */
+/**
+ * Number of packets whose send time is kept. Chosen: 2 s at 41 Mbit/s, while reports come within 1.5 s; a
+ * power of two.
+ */
 const REMEMBERED = 8192;
 
 /**

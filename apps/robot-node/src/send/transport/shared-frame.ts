@@ -4,7 +4,10 @@ import type { OutgoingFrame } from '../../ground/outgoing-frame.ts';
 import type { ReadyFrame } from '../../sense/capture/capture-messages.ts';
 import { slotPayload, slotPayloadBytes } from '../../sense/encode/packetiser.ts';
 
-/** A frame takes one interval to send. When it has taken this many, its farthest points are dropped. */
+/**
+ * A frame takes one interval to send. When it has taken this many, its farthest points are dropped. Chosen:
+ * by then the next frame waits, and would be late by another interval.
+ */
 const MOST_INTERVALS = 2;
 
 /** One captured cloud on its way to several operators. Its buffer is returned when the last of them has released it. */

@@ -26,7 +26,7 @@ export interface VoiceReceiverOptions {
 
 /** Twice what packets of 10 ms are. */
 const MOST_PACKETS = { perSecond: 200, burst: 40 };
-/** Feedback interval, ms. */
+/** Feedback interval, ms: libwebrtc's own default. */
 const FEEDBACK_MS = 100;
 /** Our SSRC in RTCP; any number will do. */
 const OWN_SSRC = 1;

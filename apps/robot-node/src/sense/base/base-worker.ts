@@ -26,6 +26,10 @@ import { Wheels } from './wheels.ts';
 const ADVANCE_EVERY_MS = 10;
 /** The robot is told about every second of them. */
 const REPORT_MS = 2 * ADVANCE_EVERY_MS;
+/**
+ * How often the simulated robot tells of its components and of its joints, ms: ROS' diagnostics come once a
+ * second, and joints as often as telemetry (robot-reports.ts).
+ */
 const COMPONENTS_MS = 1000;
 const JOINTS_MS = 50;
 /** A receiver with corrections from the ground: centimetres. */

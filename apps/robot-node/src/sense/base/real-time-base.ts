@@ -2,7 +2,10 @@ import type { Base, BaseState } from '@farpoint/cloud-source';
 import type { Twist } from '@farpoint/protocol';
 import type { SimulatedBase } from '@farpoint/sim';
 
-/** The most that the simulated robot catches up after a stall, s. */
+/**
+ * The most that the simulated robot catches up after a stall, s. Chosen: longer ones would move it far in one
+ * step, through what stands there.
+ */
 const MAX_STEP_S = 0.25;
 
 /** The simulator's base, in real time. */

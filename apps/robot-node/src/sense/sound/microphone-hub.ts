@@ -9,7 +9,10 @@ export interface MicrophoneHubOptions {
   log: Pick<Logger, 'info' | 'warn'>;
 }
 
-/** Smaller changes of the bit rate are not worth telling the encoder. */
+/**
+ * Smaller changes of the bit rate are not worth telling the encoder. Chosen: 2 to 6 kbit/s are not heard, and
+ * each change is a message to its process.
+ */
 const RATE_STEP = 0.1;
 
 /** The robot's microphone. It runs while somebody listens, and is encoded once for all who do. */

@@ -3,7 +3,10 @@ import { rtpTimestamp } from '@farpoint/rtp';
 import type { SoundPacket } from '@farpoint/sound';
 import type { OutgoingFrame } from '../../ground/outgoing-frame.ts';
 
-/** Length of a packet, ms. */
+/**
+ * Length of a packet, ms. RFC 6716, 2.1.4: a good choice for most applications; shorter ones would cost more
+ * headers than sound.
+ */
 const SOUND_PACKET_MS = 20;
 /** What RTP, its extensions, SRTP, UDP and IP add to each packet, bytes. */
 const SOUND_OVERHEAD_BYTES = 76;
@@ -11,9 +14,15 @@ const SOUND_OVERHEAD_BYTES = 76;
 export const SOUND_STREAM = 1000;
 /** Sound leaves before videos and clouds: its packets are small, and a gap is heard. */
 const LANE = -1000;
-/** What has waited for so long is not worth being heard, ms. */
+/**
+ * What has waited for so long is not worth being heard, ms. Chosen: a browser's jitter buffer has given it up
+ * by then (docs/sound.md).
+ */
 const MOST_WAIT_MS = 100;
-/** How long a browser can still use a packet that it asks for again, ms. */
+/**
+ * How long a browser can still use a packet that it asks for again, ms. Chromium's jitter buffer has 40 ms on
+ * a quiet path (docs/sound.md), and grows with jitter.
+ */
 const USEFUL_MS = 60;
 
 /** One packet of the microphone on its way to several operators. */

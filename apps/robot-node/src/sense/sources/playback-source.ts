@@ -22,7 +22,10 @@ export interface RecordedFrame {
   cameraPose: Pose;
 }
 
-/** Bytes of decoded frames to keep. Frames beyond this are decoded each time. */
+/**
+ * Bytes of decoded frames to keep. Frames beyond this are decoded each time. Chosen: short loops are decoded
+ * once, and a computer with 2 GB still has room.
+ */
 const CACHE_BYTES = 512 * 1024 * 1024;
 
 /** Optical axes as in REP-103 (z forward, x right, y down), looking along +x of a world with z up. */

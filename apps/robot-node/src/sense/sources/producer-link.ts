@@ -4,7 +4,10 @@
  */
 import { type MappedFile, SharedMemoryError, Watch, type WatchOrder } from '@farpoint/shared-memory';
 
-/** Interval between attempts to find a missing producer, ms. */
+/**
+ * Interval between attempts to find a missing producer, ms. Chosen: a producer that starts is found before
+ * somebody wonders, for five cheap calls a second.
+ */
 const RETRY_MS = 200;
 
 export interface ProducerFiles {

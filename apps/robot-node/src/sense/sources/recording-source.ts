@@ -105,7 +105,7 @@ export interface RecordingSourceOptions extends Omit<PlayOptions, 'along'> {
   telemetry?: boolean;
 }
 
-/** Assumed frame rate of a recording with a single cloud. */
+/** Assumed frame rate of a recording with a single cloud. As a depth camera's. */
 const UNKNOWN_FPS = 30;
 
 /**

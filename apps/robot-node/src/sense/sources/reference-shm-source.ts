@@ -23,17 +23,29 @@ export interface ReferenceShmOptions {
   waitMs: number;
 }
 
+/**
+ * How often its flag is read while a frame is due, ms. Chosen: the frame waits half of it on average; the
+ * layout has nothing to wait for.
+ */
 const LOOK_MS = 0.5;
 /** The longer nothing has arrived, the less often it is polled: [idle time, polling interval], ms. */
 const IDLE_LOOKS: readonly (readonly [number, number])[] = [
   [10_000, 20],
   [1000, 5],
 ];
+/** How often the source looks for its producer while no frame comes, ms: as in cloud-shm-source.ts. */
 const WATCH_TIMEOUT_MS = 100;
-/** Share of the usual frame interval during which there is no polling. */
+/**
+ * Share of the usual frame interval during which there is no polling. Chosen: intervals vary by some tenths;
+ * a frame that comes sooner waits until then.
+ */
 const QUIET_SHARE = 0.6;
+/** Weight of the newest interval in the mean. Chosen: it follows another rate within ten frames. */
 const SMOOTHING = 0.2;
-/** If a producer does not answer the latency flag within this time, the robot makes a frame green itself, ms. */
+/**
+ * If a producer does not answer the latency flag within this time, the robot makes a frame green itself, ms.
+ * Chosen: several intervals of a slow producer.
+ */
 const LATENCY_ANSWER_MS = 500;
 
 /**

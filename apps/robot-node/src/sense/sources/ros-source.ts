@@ -87,7 +87,7 @@ class RosPictureFeed {
   }
 }
 
-/** How often the same fault is told, ms; and how many are remembered. */
+/** How often the same fault is told, ms; and how many are remembered. Chosen: a log that people can read. */
 const AGAIN_MS = 10_000;
 const MOST_FAULTS = 64;
 

@@ -23,7 +23,10 @@ import { type StampClock, stampRefusals } from '../../ground/ros/stamp-clock.ts'
 const STATE_QUEUE = 100;
 const STATE_ROLES = ['pose', 'tf', 'battery'];
 const SPOKEN = [ReadingTopic, NavigationTopic, ModelTopic];
-/** How often a path or a map whose frame was unknown is tried again, times a second. */
+/**
+ * How often a path or a map whose frame was unknown is tried again, times a second. Chosen: transforms come
+ * within half of a second, and each try costs a look-up only.
+ */
 const RETRIES = 2;
 
 export class StateTopics {

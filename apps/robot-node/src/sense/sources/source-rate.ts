@@ -6,7 +6,10 @@
 /** So few that the rate is known soon after it has changed, and so many that jitter hardly matters. */
 const INTERVALS = 8;
 const LEAST_INTERVALS = 3;
-/** Longer intervals count as this one, ms: the lowest rate that is ever measured is 0.5 frames/s. */
+/**
+ * Longer intervals count as this one, ms: the lowest rate that is ever measured is 0.5 frames/s. Chosen: a
+ * pause is none of the source's rate.
+ */
 const LONGEST_MS = 2000;
 
 export class SourceRate {

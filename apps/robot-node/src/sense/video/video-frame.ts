@@ -6,9 +6,15 @@ import type { OutgoingFrame } from '../../ground/outgoing-frame.ts';
 const MAX_PAYLOAD_BYTES = 1180;
 /** What RTP, its extensions, SRTP, UDP and IP add to each packet, bytes. */
 export const VIDEO_OVERHEAD_BYTES = 76;
-/** The longest time that a frame waits for its turn or takes to be sent; older pictures are not worth it, ms. */
+/**
+ * The longest time that a frame waits for its turn or takes to be sent; older pictures are not worth it, ms.
+ * Chosen: from this age of the view on, the robot is slower (`motion.viewSlowMs`).
+ */
 const MAX_AGE_MS = 250;
-/** How long a browser can still use a late packet, ms: it waits for it with the picture on hold. */
+/**
+ * How long a browser can still use a late packet, ms: it waits for it with the picture on hold. As long as it
+ * may wait for its turn.
+ */
 const USEFUL_MS = 250;
 /** Videos leave before clouds: their frames are small, and a decoder waits for each of them. */
 const FIRST_LANE = -64;

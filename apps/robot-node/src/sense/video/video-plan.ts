@@ -15,11 +15,17 @@ export interface EncodedFormat extends VideoFormat {
   barcode: boolean;
 }
 
-/** Below this rate, a video gets nothing, bit/s: no size makes a picture of it. */
+/** Below this rate, a video gets nothing, bit/s: no size makes a picture of it. Chosen by eye. */
 export const LEAST_VIDEO_BITS_PER_SECOND = 60_000;
-/** With fewer bits than this for each pixel of each frame, a smaller picture shows more. */
+/**
+ * With fewer bits than this for each pixel of each frame, a smaller picture shows more. Chosen by eye: 1024 ×
+ * 768 at 30/s needs 330 kbit/s, below all rates of docs/cameras.md.
+ */
 const LEAST_BITS_PER_PIXEL = 0.014;
-/** Margin before the picture becomes larger again, so that a changing rate does not change it all the time. */
+/**
+ * Margin before the picture becomes larger again, so that a changing rate does not change it all the time.
+ * Chosen: above the 25 % that an encoder stays below its rate (docs/video.md); video-plan.test.ts holds it.
+ */
 const LARGER_MARGIN = 1.4;
 /** Steps from best to worst: factors of the sides and of the frame rate. */
 const STEPS = [

@@ -26,9 +26,15 @@ export interface VideoWish {
   barcode: boolean;
 }
 
-/** After the last operator has switched a video off, its camera stays open for this long, ms: a page may be reloading. */
+/**
+ * After the last operator has switched a video off, its camera stays open for this long, ms: a page may be
+ * reloading. Chosen: most are there again by then, and to open a camera anew interrupts it.
+ */
 const LINGER_MS = 3000;
-/** Smaller changes of the bit rate are not worth telling the encoder. */
+/**
+ * Smaller changes of the bit rate are not worth telling the encoder. Chosen: far below what encoders are off
+ * by (docs/video.md).
+ */
 const RATE_STEP = 0.03;
 /** VP8's picture id has 15 bits. */
 const PICTURE_IDS = 0x8000;

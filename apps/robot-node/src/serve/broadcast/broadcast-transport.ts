@@ -4,6 +4,7 @@ import type { ResendRefusal } from '@farpoint/rtp';
 import { deriveSrtpCmKeys, SRTP_CM_TAG_BYTES, type SrtpCmKeys, SrtpCmSealer } from '@farpoint/rtp/srtp';
 import { type RtpTransport, UDP_IPV4_BYTES } from '../../send/transport/rtp-transport.ts';
 
+/** RFC 3550, 5.1: the fixed header, and its first byte without padding, extension and sources. */
 const RTP_HEADER_BYTES = 12;
 const VERSION_2 = 0x80;
 

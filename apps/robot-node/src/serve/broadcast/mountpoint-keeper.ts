@@ -38,9 +38,21 @@ export interface MountpointKeeperEvents {
   onViewers(viewers: number): void;
 }
 
+/**
+ * How often Janus is asked who watches, ms. Chosen: the first viewer waits for it, and an answer is a few
+ * hundred bytes.
+ */
 const POLL_MS = 1000;
+/**
+ * Delay of the first attempt after a failed one, and the longest, ms: it doubles. Chosen: viewers come back
+ * within 5 s after Janus does (docs/janus.md).
+ */
 const FIRST_RETRY_MS = 250;
 const MOST_RETRY_MS = 5000;
+/**
+ * The largest answer of Janus that is read, bytes. Chosen: far above a mountpoint's description, some
+ * kilobytes.
+ */
 const MAX_MESSAGE_BYTES = 256 * 1024;
 
 /**

@@ -50,7 +50,9 @@ export interface ReferenceOperatorEvents {
 }
 
 /**
- * After this long without hearing from the operator, ms: points are no longer sent; it no longer drives; it is gone.
+ * After this long without hearing from the operator, ms: points are no longer sent; it no longer drives; it
+ * is gone. Chosen: the first as for our own operators (docs/connection.md); the others are shorter, because
+ * it has no session that is restored.
  */
 const QUIET_MS = 2000;
 const LEASE_MS = 1000;

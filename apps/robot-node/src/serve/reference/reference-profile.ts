@@ -70,13 +70,22 @@ export interface ReferenceProfileOptions {
   budgets: Pick<Budgets, 'update'>;
 }
 
-/** Delay of the first attempt after a failed connection, and longest delay between two attempts, ms. */
+/**
+ * Delay of the first attempt after a failed connection, and longest delay between two attempts, ms. Chosen:
+ * as for signaling of our own at first, and a service that is down is asked seldom.
+ */
 const FIRST_RETRY_MS = 250;
 const MOST_RETRY_MS = 5000;
-/** After this long without hearing from an operator, another one may replace it, ms. */
+/**
+ * After this long without hearing from an operator, another one may replace it, ms. As long as it may hold
+ * the lease (reference-operator.ts).
+ */
 const REPLACE_AFTER_MS = 1000;
 
-/** Who comes so soon after one who held on when its session ended may be the same, with the hand still closed, ms. */
+/**
+ * Who comes so soon after one who held on when its session ended may be the same, with the hand still closed,
+ * ms. Chosen: as long as a place is kept (robot-options.ts, docs/safety.md).
+ */
 const HELD_MS = 30_000;
 
 export class ReferenceProfile {

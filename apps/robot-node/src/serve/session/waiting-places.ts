@@ -1,4 +1,7 @@
-/** How long an operator may take to answer while nobody else needs its place, ms; several round trips of a bad link. */
+/**
+ * How long an operator may take to answer while nobody else needs its place, ms. Chosen: several round trips
+ * of a bad link.
+ */
 const ANSWER_MS = 1000;
 /** The same for the connection after the answer: checks of slow relays take seconds, ms. */
 const CONNECT_MS = 8000;

@@ -10,6 +10,7 @@ import {
 import { type ReadonlySignal, signal } from '@preact/signals-core';
 import { type AccessStorage, NO_ACCESS, type StoredAccess } from './stored-access.ts';
 
+/** Grants that the browser keeps. Chosen: more than an operator has robots. */
 export const MOST_GRANTS = 32;
 
 /** A grant of this browser, as it is shown. */

@@ -2,14 +2,20 @@
 import { colourAt } from '@farpoint/cloud-view';
 import { TOP_VIEW, type TopView } from '@farpoint/operator';
 
-/** Heights within which a robot's wheels roll, metres. */
+/**
+ * Heights within which a robot's wheels roll, metres. Chosen: a step of the view and the noise of a floor;
+ * only a colour depends on it.
+ */
 const FLOOR_M = 0.08;
 const FLOOR = [58, 74, 88] as const;
 /** What lies below the floor: the robot would fall. */
 const DROP = [214, 72, 62] as const;
-/** The height with the last colour, metres. */
+/** The height with the last colour, metres: what is higher is not on the map (remembered-world.ts). */
 const TALL_M = 2;
-/** As the remembered world itself is drawn: what of its brightness is left after this time, s. */
+/**
+ * What of its brightness is left after this time, s. Chosen by eye: as long as for the remembered world
+ * (memory-material.ts in cloud-view), a little brighter on a small map.
+ */
 const OLD_BRIGHTNESS = 0.45;
 const OLD_S = 300;
 

@@ -1,11 +1,14 @@
 /** What of the navigator's path and map is shown: only what still holds. */
 import type { MapPlace, NavigatorMap, NavigatorPath } from '@farpoint/operator';
 
-/** Navigators plan anew once a second. A path that is older than this may have been left long ago, ms. */
+/**
+ * Navigators plan anew once a second. A path that is older than this may have been left long ago, ms. Chosen:
+ * five plans may be missing (docs/awareness.md).
+ */
 const PATH_HOLDS_MS = 5000;
 /** The robot repeats its map tile by tile, at least every 4 s: a longer silence is none of a tile that was lost, ms. */
 const MAP_HOLDS_MS = 15_000;
-/** From then on, nothing is said of it any more, ms. */
+/** From then on, nothing is said of it any more, ms. Chosen: who looks away for a moment still finds it. */
 const GONE_MS = 60_000;
 
 export interface PathView {

@@ -9,7 +9,9 @@ const BLOCKING: ReadonlySet<MotionState['reasons'][number]> = new Set([
   'collision-silent',
   'fence',
 ]);
-/** How far along its arc the direction is taken, s. */
+/**
+ * How far along its arc the direction is taken, s. Chosen: farther, a turn on the spot would point behind.
+ */
 const AHEAD_S = 0.5;
 
 /**

@@ -14,9 +14,12 @@ const NAMES = [
 ] as const;
 export type Direction = (typeof NAMES)[number];
 
-/** Unseen floor nearer than this is where the robot would go next, metres. */
+/**
+ * Unseen floor nearer than this is where the robot would go next, metres. Chosen: a second at the 0.3 m/s
+ * that are allowed there, and its way to stand.
+ */
 const UNSEEN_NEAR_M = 0.5;
-/** A shorter stretch is drawn, but not named, metres. */
+/** A shorter stretch is drawn, but not named, metres. Chosen: about a robot and its margins. */
 const UNSEEN_LONG_M = 1;
 
 export interface NearHit {

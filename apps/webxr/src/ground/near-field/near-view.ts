@@ -1,9 +1,14 @@
 /** What of the near field is shown: a picture of the past is shown as such, and then no longer. */
 import type { NearSector, NearSurroundings } from '@farpoint/operator';
 
-/** The robot repeats itself twice a second: without two of these, what was told is old, ms. */
+/**
+ * The robot repeats itself twice a second: without two of these, what was told is old, ms. near-view.test.ts
+ * holds it.
+ */
 const STALE_MS = 1000;
-/** And then it is nothing to go by. */
+/**
+ * And then it is nothing to go by, ms: as long as the robot remembers a free floor (docs/obstacle-guard.md).
+ */
 const GONE_MS = 3000;
 
 export interface NearView {

@@ -26,7 +26,7 @@ export interface PanelShape {
   readonly border: number;
 }
 
-/** A panel is no narrower, if the screen is not, CSS pixels. */
+/** A panel is no narrower, if the screen is not, CSS pixels. Chosen: its name and its button fit. */
 export const LEAST_WIDTH = 140;
 
 /** Where the panel is drawn: entirely within the area. */

@@ -1,4 +1,5 @@
-const MARGIN = 8;
+/** Room around panels, CSS pixels. Chosen by eye. */
+export const MARGIN = 8;
 /** Two rows: less is of no use, pixels. */
 const LEAST = 68;
 

@@ -3,6 +3,7 @@ import * as z from 'zod/mini';
 import { MOST_PLACEMENTS, type Placements } from './panel-placements.ts';
 
 const KEY = 'farpoint.panels';
+/** Bounds on what the browser has stored: more than any screen has, and than any name. */
 const MOST_PIXELS = 16_384;
 const MOST_NAME = 256;
 

@@ -2,7 +2,10 @@
 import { computed, type ReadonlySignal, type Signal, signal } from '@preact/signals-core';
 import type { Switch } from '../switches.ts';
 
-/** Pictures older than this are marked as stale, ms. */
+/**
+ * Pictures older than this are marked as stale, ms. Chosen: docs/ros.md says it; two pictures a second are
+ * the fewest that are planned.
+ */
 export const STALE_MS = 1000;
 
 export interface ShownPicture {

@@ -7,6 +7,10 @@ export interface MapTiles {
   readonly attribution: string;
 }
 
+/**
+ * Characters of an address and of a note of its owner. Chosen: above the longest in use; below what a line
+ * shows.
+ */
 const MOST_TEXT = 512;
 const MOST_ATTRIBUTION = 120;
 

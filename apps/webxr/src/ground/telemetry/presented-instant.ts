@@ -1,6 +1,9 @@
 /** The capture instant of what the page shows now: clouds and videos. Time is an argument. */
 
-/** Without anything new for this long, nothing is being presented, ms. */
+/**
+ * Without anything new for this long, nothing is being presented, ms. As long as pictures may be old before
+ * the page says so (camera-view.ts).
+ */
 const FRESH_MS = 1000;
 
 export class PresentedInstant {

@@ -34,7 +34,10 @@ export const OWN = {
 
 /** More than the own series and a robot's quantities: those of a robot that was reconfigured stay for a while. */
 const MOST_SERIES = 128;
-/** Samples may come late, but not this late: the robot's clock began anew, ms. */
+/**
+ * Samples may come late, but not this late: the robot's clock began anew, ms. Chosen: no link that is used
+ * delays by so much; a robot that starts again is farther off.
+ */
 const CLOCK_RESET_MS = 10_000;
 /** About 0.1 m on the ground, degrees. */
 const FIX_STEP = 1e-6;

@@ -2,6 +2,7 @@
 import type { Curve } from './curve.ts';
 import { type RingVerdict, SampleRing } from './sample-ring.ts';
 
+/** Each second of a curve is summed up once. */
 const SECOND_MS = 1000;
 /** The time that two extremes stand for, ms. */
 const EXTREMES_MS = SECOND_MS;
@@ -67,12 +68,19 @@ export interface SeriesRange {
   readonly most: number;
 }
 
+/**
+ * Intervals whose median counts as a value's own. Chosen: two that were lost change nothing, and another rate
+ * is known after eight.
+ */
 const INTERVALS_CONSIDERED = 15;
-/** A value is stale after so many of its intervals without another; at least and at most, ms. */
+/**
+ * A value is stale after so many of its intervals without another; at least and at most, ms. Chosen: two that
+ * are lost on the way are no reason.
+ */
 const STALE_INTERVALS = 3;
 const LEAST_STALE_MS = 500;
 const MOST_STALE_MS = 30_000;
-/** Before its rate is known, ms. */
+/** Before its rate is known, ms. Chosen: as readings (shown-readings.ts). */
 const UNKNOWN_STALE_MS = 10_000;
 
 export class Series {

@@ -33,7 +33,9 @@ export interface WatchPanelsParts {
   readonly sampledAtMs: ReadonlySignal<number>;
 }
 
-/** A picture that was drawn longer ago than this is not live, ms. */
+/**
+ * A picture that was drawn longer ago than this is not live, ms: as on the operator's page (camera-view.ts).
+ */
 const STALE_MS = 1000;
 
 /** The cameras beside the scene: name, whether it is live, and a button that shows or hides the camera. */
@@ -107,6 +109,7 @@ export interface WatchElements {
   readonly fromAbove: HTMLButtonElement;
 }
 
+/** How often figures are renewed, ms: as often as people can read. */
 const SAMPLE_MS = 250;
 
 export class WatchApp {

@@ -10,6 +10,7 @@ export interface WatchSettings {
   synchronised: boolean;
 }
 
+/** Characters of a PIN in the address. Chosen: far more than Janus' are. */
 const MAX_PIN = 64;
 
 /**

@@ -19,7 +19,10 @@ export interface DrivenState {
 
 /** These hold for minutes in ordinary driving, and the screen says them. */
 const LASTING: ReadonlySet<Intervention> = new Set(['blind-travel', 'unseen-space', 'sensor-silent']);
-/** A reason that comes and goes, as it does at the edge of a zone, is told once within this time, ms. */
+/**
+ * A reason that comes and goes, as it does at the edge of a zone, is told once within this time, ms. Chosen:
+ * shorter, cues become noise; longer, a second cause is not heard. cue-judge.test.ts holds it.
+ */
 const QUIET_MS = 1500;
 
 /** Pure: time is an argument. */

@@ -19,8 +19,11 @@ export const cueTones: Readonly<Record<Cue, readonly Tone[]>> = {
   ],
 };
 
+/** Silence between two tones of a cue, ms. Chosen by ear: two are told from one. */
 const GAP_MS = 50;
-/** A cue that cannot be heard within so long is left out. */
+/**
+ * A cue that cannot be heard within so long is left out, ms. Chosen: later, it would tell of something else.
+ */
 const LATE_MS = 300;
 const LOUDNESS = 0.2;
 /** Of a tone's beginning and end: without it they click. */

@@ -121,7 +121,10 @@ export interface DashboardParts {
   close(): void;
 }
 
-/** Without telemetry for this long, the robot is silent, ms. */
+/**
+ * Without telemetry for this long, the robot is silent, ms: as its path is called lost (resume-policy.ts of
+ * the operator package). And how often the header is written, ms.
+ */
 const SILENT_MS = 1000;
 const HEADER_MS = 250;
 

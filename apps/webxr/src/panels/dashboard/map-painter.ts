@@ -28,11 +28,17 @@ const AXIS = '#33424f';
 const TRACK = '#35c9b5';
 const STALE = '#5d6d7a';
 const TEXT = '#dbe5ec';
+/** Sizes on the canvas, CSS pixels: the least mesh of the grid, the scale, the robot. Chosen by eye. */
 const LEAST_GRID_PX = 44;
 const SCALE_PX = 110;
 const ROBOT_PX = 9;
+/** Side of a tile, and the deepest level that servers of the usual tiles have (OpenStreetMap: 19). */
 const TILE_PX = 256;
 const MOST_ZOOM = 19;
+/**
+ * Tiles that are drawn at once. Chosen: a screen of 1920 × 1080 has some 50; more would ask a server for too
+ * much.
+ */
 const MOST_TILES = 80;
 
 export function paintMap(context: CanvasRenderingContext2D, map: PaintedMap, nowMs: number): void {

@@ -4,7 +4,7 @@ import { OWN, type TelemetryRecorder } from '../../ground/telemetry/recorder.ts'
 import type { Track } from '../../ground/telemetry/track.ts';
 import { EarthPlane, type MapPlace } from './map-projection.ts';
 
-/** Beyond this from the origin of the plane, its scale is wrong, m. */
+/** Beyond this from the origin of the plane, its scale is wrong, m: by nearly 1 % at 48° north. */
 const FAR_M = 50_000;
 const RADIANS = Math.PI / 180;
 const ORIGIN: MapPlace = { x: 0, y: 0 };

@@ -11,8 +11,12 @@ import { ageText } from './number-words.ts';
 import { part, setText, type Tile } from './tile.ts';
 import { ownValues, valueTile } from './value-tile.ts';
 
+/** How often the table is written, ms: twice as often as components report. */
 const DIAGNOSTICS_EVERY_MS = 500;
-/** After this long without a report of any component, all are stale, ms. */
+/**
+ * After this long without a report of any component, all are stale, ms: five of the robot's repetitions
+ * (component-board.ts).
+ */
 const SILENT_MS = 10_000;
 const MOST_SHOWN = 100;
 const WORDS = { error: 'error', warn: 'warning', stale: 'stale', ok: 'OK' } as const;
@@ -66,6 +70,7 @@ function row(): HTMLElement {
   return item;
 }
 
+/** How often the table of topics is written, ms: as often as people can read. */
 const TOPICS_EVERY_MS = 250;
 
 /** The tile with the readings of the robot's topics, as they were at the instant that is shown. */

@@ -1,10 +1,13 @@
 /** Images of a map's tiles: fetched when asked for, a few at a time, and kept up to a limit. */
 import { type MapTiles, tileUrl } from '../../ground/telemetry/map-tiles.ts';
 
-/** About 50 MB of pixels. */
+/** About 50 MB of pixels; and as many at once as browsers ask one server for over HTTP/1.1. */
 const MOST_KEPT = 192;
 const MOST_LOADING = 6;
-/** A tile that could not be fetched is not asked for again for this long, ms. */
+/**
+ * A tile that could not be fetched is not asked for again for this long, ms. Chosen: servers of tiles ask for
+ * little traffic.
+ */
 const RETRY_MS = 30_000;
 
 interface Kept {

@@ -14,6 +14,7 @@ interface ShownText {
 
 type Read = (frame: TileFrame) => ShownText;
 
+/** How often the value is written, ms: faster digits cannot be read. */
 const UPDATE_MS = 100;
 const NOTHING: ShownText = { text: '–', below: '', value: null };
 

@@ -10,7 +10,9 @@ import { steady } from '../../state/sampler.ts';
 import { nearDetails, nearWords } from '../../words/near-words.ts';
 import { elements } from './elements.ts';
 
-/** What is farther from the robot's edge is not drawn, metres. */
+/**
+ * What is farther from the robot's edge is not drawn, metres. Chosen: its words begin at 1 m (near-words.ts).
+ */
 const SHOWN_M = 1.5;
 /** Circles for the eye, metres from the robot's edge. */
 const MARKS_M = [0.5, 1];

@@ -1,6 +1,7 @@
 /** The panels with the cameras' pictures and videos: name, age, and buttons that hide the camera or let it fill the screen. */
 import { computed, effect, type ReadonlySignal, signal } from '@preact/signals-core';
 import type { Box } from '../../ground/panels/panel-layout.ts';
+import { MARGIN } from '../../ground/panels/room-above.ts';
 import type { CameraView } from '../../ground/pictures/camera-view.ts';
 import { PRIORITIES, PRIORITY_WORDS } from '../../state/link-priority.ts';
 import type { PageState } from '../../state/page-state.ts';
@@ -101,7 +102,6 @@ function showStagedCamera(
   });
 }
 
-const MARGIN = 8;
 /** On a smaller screen panels stay in their strip: there is no room to move them to, pixels. As in the style sheet. */
 const NARROW = '(max-width: 640px)';
 

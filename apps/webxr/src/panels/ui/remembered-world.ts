@@ -19,9 +19,12 @@ import { drawMinimap } from './minimap-canvas.ts';
 /** A point of the trail each 10 cm: 400 m. */
 const TRAIL_STEP_M = 0.1;
 const TRAIL_POINTS = 4096;
-/** Farther from one report to the next, it is another place: what lies before it does not belong to it, metres. */
+/**
+ * Farther from one report to the next, it is another place: what lies before it does not belong to it,
+ * metres. As for the view (pose-follower.ts).
+ */
 const JUMP_M = 2;
-/** What is remembered is looked at anew after this time, ms. */
+/** What is remembered is looked at anew after this time, ms. Chosen: two key frames (docs/memory.md). */
 const LOOK_MS = 500;
 /** What is higher above the robot's ground is not on the map: ceilings would hide all, metres. */
 const CEILING_M = 2;

@@ -9,6 +9,7 @@ import { elements } from './elements.ts';
 import { type TalkControl, TalkHold } from './operator-inputs.ts';
 import { quietButton, sliderOf } from './panel-parts.ts';
 
+/** How often the meter is drawn, ms: shorter than its window of sound (sound-player.ts). */
 const METER_MS = 100;
 
 export interface SoundUiParts {

@@ -5,6 +5,7 @@ import type { GrabbingHand } from './table-model.ts';
 
 const OPEN = 0x35c9b5;
 const HOLDING = 0xffffff;
+/** Radius of the mark in a hand, metres. Chosen by eye: the tip of a thumb. */
 const MARK_M = 0.012;
 
 class Hand implements GrabbingHand {

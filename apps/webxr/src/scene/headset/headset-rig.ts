@@ -9,12 +9,11 @@ import { OperatorTurn } from './operator-turn.ts';
 import { TableModel } from './table-model.ts';
 import { VignetteAmount } from './vignette-amount.ts';
 
-/** Over the shoulder: behind the robot's camera and above it, m. */
-export const BEHIND_M = 2.4;
 /**
- * Where the operator's origin is in the robot's world, by view: the eyes at rest, which a recentring makes the origin. Pure,
- * allocates nothing.
+ * Over the shoulder: behind the robot's camera and above it, m (docs/headset.md). Chosen by eye: the robot
+ * and the floor before it are in view.
  */
+export const BEHIND_M = 2.4;
 const ABOVE_M = 0.6;
 
 /** A place in the robot's world, REP-103, m. */
@@ -34,6 +33,10 @@ export interface ModelPlace {
   readonly scale: number;
 }
 
+/**
+ * Where the operator's origin is in the robot's world, by view: the eyes at rest, which a recentring makes the origin. Pure,
+ * allocates nothing.
+ */
 class RigPose {
   /** Place of the operator's origin, three.js axes, m. */
   x = 0;
@@ -301,7 +304,10 @@ export class HeadsetRig {
   }
 }
 
-/** A front within this angle of where the face points is in view, radians. */
+/**
+ * A front within this angle of where the face points is in view, radians: a headset shows some 45° to each
+ * side.
+ */
 const IN_VIEW = (40 * Math.PI) / 180;
 
 /**

@@ -3,12 +3,21 @@
 import type { HeadsetSettings } from '../../ground/headset-settings.ts';
 import { DEFAULT_STICK_RESPONSE, shapeAxis } from '../../take/drive/dead-zone.ts';
 
-/** A step is taken at this deflection, and the next one only after the stick has come back to the second. */
+/**
+ * A step is taken at this deflection, and the next one only after the stick has come back to the second.
+ * Chosen: a push that is meant, and a gap that a trembling thumb does not cross.
+ */
 const STEP_AT = 0.7;
 const ARMED_BELOW = 0.4;
-/** Steady turning at full deflection, rad/s. */
+/**
+ * Steady turning at full deflection, rad/s (docs/headset.md). Chosen: faster turning of the view makes more
+ * people sick.
+ */
 export const STEADY_RATE = Math.PI / 3;
-/** The most that one frame may turn for, ms: after a hang the view must not spin. */
+/**
+ * The most that one frame may turn for, ms: after a hang the view must not spin. Chosen: 3° at the full rate;
+ * operator-turn.test.ts holds it.
+ */
 const MOST_FRAME_MS = 50;
 
 export class OperatorTurn {

@@ -2,9 +2,11 @@
 import { CanvasTexture, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace } from 'three';
 import { fitText } from '../fitted-text.ts';
 
+/** The picture's size, pixels, and its width, m. Chosen by eye. */
 const WIDTH = 640;
 const HEIGHT = 144;
 const WIDTH_M = 0.5;
+/** How long the sign is before the eyes, ms. Chosen: three words are read, and the way is free again. */
 const SHOWN_MS = 2500;
 
 export class ViewSign {

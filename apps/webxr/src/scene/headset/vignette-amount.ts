@@ -1,9 +1,16 @@
 /** How dark the edge of the view is while the view is moved by something else than the operator's own body. Pure. */
 
-/** From these on, it is as dark as it is set to become: turning, rad/s, and moving, m/s. */
+/**
+ * From these on, it is as dark as it is set to become: turning, rad/s, and moving, m/s. Chosen: three
+ * quarters of the steady turn (operator-turn.ts), and faster than most robots here. vignette-amount.test.ts
+ * holds the speed and the times.
+ */
 const FULL_TURN = Math.PI / 4;
 const FULL_SPEED = 2;
-/** Time constants, ms: it comes fast and goes gently. */
+/**
+ * Time constants, ms: it comes fast and goes gently. Chosen: it must be there before the motion is felt, and
+ * its end must not be seen.
+ */
 const COMES_MS = 60;
 const GOES_MS = 300;
 /** Less than this is not drawn. */

@@ -15,6 +15,7 @@ import {
 
 /** Flat sides of a round shape: of a usual model, and of one with many shapes. */
 const SIDES = { few: 28, many: 12 };
+/** Models with more shapes have coarser ones. Chosen: round shapes of a whole arm keep all their sides. */
 const MANY_SHAPES = 96;
 
 export interface FigureParts {

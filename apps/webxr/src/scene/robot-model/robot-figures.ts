@@ -83,7 +83,10 @@ const GHOST = {
   polygonOffsetFactor: 2,
   polygonOffsetUnits: 8,
 };
-/** Eyes that are nearer to the model than this see into it, metres. */
+/**
+ * Eyes that are nearer to the model than this see into it, metres. Chosen: twice the nearest that is drawn
+ * (stage.ts).
+ */
 const NEAR_M = 0.1;
 
 export class RobotFigures {

@@ -35,7 +35,7 @@ function level(turn: Quaternion): Vector3 {
   return axis.lengthSq() < 1e-6 ? axis.set(0, 1, 0).applyQuaternion(turn) : axis.normalize();
 }
 
-/** Half of how much of the view's edge is red, radians. */
+/** Half of how much of the view's edge is red, radians. Chosen by eye. */
 const HALF = Math.PI / 7;
 
 /** In the headset: a part of a ring around the middle of the view, before everything else. */

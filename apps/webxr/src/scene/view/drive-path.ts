@@ -13,7 +13,10 @@ import {
 } from 'three';
 import { poseOnArc, type SweptWidth, stoppingDistance, sweptWidth, writeRibbon } from './swept-path.ts';
 
-/** How far ahead the way is shown, s, and metres at least. */
+/**
+ * How far ahead the way is shown, s, and metres at least. Chosen: above the time of a slow loop and the way
+ * to stand; slow driving still shows a direction.
+ */
 const AHEAD_S = 2;
 const LEAST_AHEAD_M = 0.3;
 /** Steps of a ribbon, and pairs of points between them. */
@@ -23,7 +26,10 @@ const PAIRS = STEPS + 1;
 const STRENGTHS = { stop: 0.45, ahead: 0.16, outline: 1, standing: 0.8, stopLine: 1 } as const;
 /** Above the floor, so that its points do not cover it, m. */
 const HEIGHT_M = 0.03;
-/** Until the robot has said how old the driver's view is, ms. */
+/**
+ * Until the robot has said how old the driver's view is, ms. Chosen: as on the link that prediction is
+ * measured with (docs/prediction.md).
+ */
 const USUAL_LOOP_MS = 150;
 
 /** How much of the wish the robot lets through. */

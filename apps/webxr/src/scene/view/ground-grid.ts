@@ -15,7 +15,10 @@ const MIDDLE = 0x2a3a48;
 const OTHERS = 0x1a242e;
 /** Slightly below the floor's own points. */
 const HEIGHT_M = -0.01;
-/** Share of the way to the ground's height that one step goes, until it is as near as this, metres. */
+/**
+ * Share of the way to the ground's height that one step goes, until it is as near as this, metres. Chosen by
+ * eye: it glides, and rests.
+ */
 const APPROACH = 0.5;
 const SETTLED_M = 0.02;
 

@@ -1,6 +1,10 @@
 /** Where the operator looks on a flat screen: along the robot's heading, or from behind the robot. */
 export type ViewMode = 'first-person' | 'third-person';
 
+/**
+ * Fields of view, degrees: the bounds of zooming, and the usual one. Chosen by eye: below, a screen shows a
+ * detail; above, its edges are stretched.
+ */
 export const MIN_FOV = 30;
 export const MAX_FOV = 100;
 export const DEFAULT_FOV = 75;
@@ -9,11 +13,17 @@ const FIT_MARGIN = 1.15;
 const LEAST_FIT_FOV = 35;
 /** The view is not changed while it fits to within this, degrees. */
 const FIT_TOLERANCE = 5;
-/** How far the view from above reaches to the nearest edge of the screen, metres. */
+/**
+ * How far the view from above reaches to the nearest edge of the screen, metres. Chosen: a room, a detail,
+ * and as far as docs/page.md says.
+ */
 export const DEFAULT_REACH = 6;
 export const MIN_REACH = 1;
 export const MAX_REACH = 60;
-/** How far behind the robot the third-person view is, metres. */
+/**
+ * How far behind the robot the third-person view is, metres. Chosen by eye: about as over the shoulder in the
+ * headset (headset-rig.ts).
+ */
 export const DEFAULT_DISTANCE = 2.5;
 const MAX_DISTANCE = 15;
 /**

@@ -12,7 +12,10 @@ import { NEAR_M, VERY_NEAR_M } from '../../words/near-words.ts';
 const HEIGHT_M = 0.035;
 /** How wide a bar is, metres. */
 const BAR_M = 0.08;
-/** How high a curtain is, and before what: how high a thing really is, nobody has said, so it fades upwards. Metres. */
+/**
+ * How high a curtain is, and before what: how high a thing really is, nobody has said, so it fades upwards.
+ * Metres. Chosen by eye: within 1.2 m the floor is out of view (docs/awareness.md).
+ */
 const CURTAIN_M = 1;
 const CURTAIN_WITHIN_M = 1.2;
 const CORNERS = 4;

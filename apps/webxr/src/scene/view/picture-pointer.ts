@@ -10,6 +10,10 @@ import {
   type WebGLRenderer,
 } from 'three';
 
+/**
+ * How far a pointer reaches, and the radius of its mark, m. Chosen: pictures are at the wrist or right before
+ * the operator.
+ */
 const FARTHEST_M = 4;
 const RING_M = 0.008;
 

@@ -14,7 +14,9 @@ import { sequenceDelta32, stampUsOf } from '@farpoint/protocol';
 import { signal } from '@preact/signals-core';
 import type { ViewFigures } from '../../words/view-words.ts';
 
-/** A display frame takes about this long until it is seen, ms. */
+/**
+ * A display frame takes about this long until it is seen, ms: at least as at 200 a second, at most as at 20.
+ */
 const LEAST_FRAME_MS = 5;
 const MOST_FRAME_MS = 50;
 

@@ -9,11 +9,15 @@ const USUAL: RobotBody['footprint'] = [
   { x: -0.25, y: -0.2 },
   { x: 0.25, y: -0.2 },
 ];
+/** Above the floor, over the ring and the ways (near-ring.ts), m. */
 const HEIGHT_M = 0.04;
 /** The box's height, m: it is seen from beside as well. */
 const BOX_M = 0.3;
 const COLOUR = 0xc9b8ff;
-/** Nearer to the report than this, it would only flicker, m and rad. */
+/**
+ * Nearer to the report than this, it would only flicker, m and rad: about as far as the prediction may lead
+ * (motion-predictor.ts).
+ */
 const LEAST_M = 0.015;
 const LEAST_RAD = 0.015;
 

@@ -6,7 +6,10 @@ import { innerRadius } from '../../ground/near-field/around-footprint.ts';
 import type { CloudAppearance } from '../../state/cloud-appearance.ts';
 import type { SensorClouds } from './sensor-clouds.ts';
 
-/** Deeper inside its outline is the robot itself: as its own obstacle guard sees it, metres. */
+/**
+ * Deeper inside its outline is the robot itself, metres: as OWN_BODY_M of its obstacle guard
+ * (packages/safety), which a page does not import.
+ */
 const OWN_BODY_M = 0.05;
 
 export interface HazardParts {

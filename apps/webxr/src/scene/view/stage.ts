@@ -28,7 +28,7 @@ import { bearingOnScreen } from './blocked-edge.ts';
 import { DrivePath } from './drive-path.ts';
 import { FloorMap } from './floor-map.ts';
 import { GroundGrid } from './ground-grid.ts';
-import { Look } from './look.ts';
+import { DEFAULT_FOV, Look } from './look.ts';
 import { NearRing } from './near-ring.ts';
 import { PlannedPathLine } from './planned-path-line.ts';
 import type { PredictedView } from './predicted-view.ts';
@@ -79,9 +79,16 @@ class RobotMarker {
 }
 
 const BACKGROUND = 0x0b0f14;
+/**
+ * The nearest and the farthest that are drawn, m. Chosen: a hand at the eyes, and as far as LiDARs see; a
+ * depth buffer of 24 bits still tells 5 cm apart there.
+ */
 const NEAR_M = 0.05;
 const FAR_M = 200;
-/** Time constant with which the head follows the robot, ms. */
+/**
+ * Time constant with which the head follows the robot, ms. Chosen: some three poses of 30 a second; `pnpm
+ * bench prediction` has how late that is (without, docs/prediction.md).
+ */
 const FOLLOW_MS = 90;
 /** Eye height while there is no pose, m: a standing person's eyes, looking at the origin. */
 const DEFAULT_EYE_M = 1.2;
@@ -98,7 +105,7 @@ export class Stage {
   readonly world = new RobotWorld();
   /** Carries the operator's head; three.js axes. */
   readonly rig = new Group();
-  readonly camera = new PerspectiveCamera(75, 1, NEAR_M, FAR_M);
+  readonly camera = new PerspectiveCamera(DEFAULT_FOV, 1, NEAR_M, FAR_M);
   readonly look = new Look();
   /** Places the operator's head in VR. */
   readonly headset: HeadsetRig;

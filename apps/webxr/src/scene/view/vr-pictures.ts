@@ -17,6 +17,7 @@ import { PictureSheet } from './picture-sheet.ts';
 import type { Stage } from './stage.ts';
 import type { WristPanel } from './wrist-panel.ts';
 
+/** A caption's size, pixels. */
 const WIDTH = 512;
 const HEIGHT = 56;
 
@@ -127,6 +128,7 @@ class FrontPicture {
   }
 }
 
+/** A picture's width on the wrist, and the gap to the next, m. Chosen by eye: about as wide as the panel. */
 const WIDTH_M = 0.2;
 const GAP_M = 0.012;
 /** More pictures would hide the way ahead. */

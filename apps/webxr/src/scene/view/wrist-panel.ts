@@ -16,6 +16,10 @@ import type { Hand } from '../../ground/headset-settings.ts';
 import type { Tone } from '../../words/words.ts';
 import { fitText } from '../fitted-text.ts';
 
+/**
+ * The picture's size, pixels, and its width and distance from the hand, m. Chosen by eye: a tablet's half,
+ * with letters that can be read at arm's length.
+ */
 const WIDTH = 512;
 const HEIGHT = 376;
 const PANEL_M = 0.18;

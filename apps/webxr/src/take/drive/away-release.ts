@@ -1,4 +1,6 @@
-/** Nobody has looked for so long: others may drive, ms. */
+/**
+ * Nobody has looked for so long: others may drive, ms. Chosen: longer than a look at another tab by mistake.
+ */
 const AWAY_MS = 2000;
 
 /** Decides when an operator who has left gives up their turn to drive. Time is an argument. */

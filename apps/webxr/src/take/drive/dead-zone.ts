@@ -9,6 +9,10 @@ export interface StickResponse {
   expo: number;
 }
 
+/**
+ * Chosen: sticks that are worn rest farther from the middle than new ones, and XInput's own dead zone, 0.24, would
+ * take the slow speeds away; the curve makes the middle gentle. drive.test.ts has its shape.
+ */
 export const DEFAULT_STICK_RESPONSE: Readonly<StickResponse> = { deadZone: 0.12, expo: 0.4 };
 
 /** @param deflection −1…1. Anything that is not a finite number counts as 0, because a device may report null axes. */

@@ -1,8 +1,14 @@
 import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
 
-/** How long the release control must be held, ms. */
+/**
+ * How long the release control must be held, ms. Chosen: nobody holds it by mistake (docs/headset.md);
+ * release-hold.test.ts holds it.
+ */
 export const RELEASE_HOLD_MS = 1000;
-/** The most that one `advance` counts for, ms: a page that hung cannot know whether the operator let go. */
+/**
+ * The most that one `advance` counts for, ms: a page that hung cannot know whether the operator let go.
+ * Chosen: as long as a hand counts as read (READING_HOLDS_MS of the operator package).
+ */
 const MOST_COUNTED_MS = 100;
 
 export type ReleaseControl = 'pointer' | 'key' | 'gamepad' | 'headset';

@@ -1,6 +1,9 @@
 import { captureMsOfRtp } from '@farpoint/operator';
 
-/** What is farther from now than this was not captured then: its sender counts time otherwise, ms. */
+/**
+ * What is farther from now than this was not captured then: its sender counts time otherwise, ms. Chosen:
+ * clocks that were compared are never off by so much; older pictures than a minute are nothing to look at.
+ */
 const MOST_AHEAD_MS = 1000;
 const MOST_BEHIND_MS = 60_000;
 

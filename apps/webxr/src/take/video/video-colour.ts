@@ -53,7 +53,10 @@ export interface VideoColourParts {
   readonly wanted: ReadonlySignal<boolean>;
 }
 
-/** Pictures that have not come for so long have stopped, ms. */
+/**
+ * Pictures that have not come for so long have stopped, ms: as those of cameras (camera-view.ts);
+ * video-colour.test.ts holds it.
+ */
 const SILENT_MS = 1000;
 /** Less is no painting. */
 const LEAST_SHARE = 0.05;

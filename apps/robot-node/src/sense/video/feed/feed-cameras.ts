@@ -77,7 +77,10 @@ class FedEncoder implements VideoEncoder {
   }
 }
 
-/** How often silence is looked for, drops are told, and the thread says that it lives, ms. */
+/**
+ * How often silence is looked for, drops are told, and the thread says that it lives, ms. Ten times before
+ * silence counts; the other side looks as often (feed-thread.ts).
+ */
 const CHECK_MS = 500;
 
 /** The cameras of the thread that feeds them: does what the main thread asks for, and reports what comes of it. */

@@ -8,9 +8,14 @@ import type { FeedReport, FeedRequest, RunId } from './feed-messages.ts';
 import type { FeedSource } from './feed-source.ts';
 
 const RETRY = { firstMs: 500, mostMs: 10_000 };
-/** A thread that has lived for so long has succeeded: the next wait is short again, ms. */
+/**
+ * A thread that has lived for so long has succeeded: the next wait is short again, ms. As for programs of
+ * media (packages/media-process/src/kept-child.ts).
+ */
 const SUCCESS_MS = 10_000;
-/** By then, a thread that was told to end has closed everything, ms. */
+/**
+ * By then, a thread that was told to end has closed everything, ms. Chosen: as long as its silence may last.
+ */
 const END_MS = 5000;
 
 /** The thread says twice a second that it lives. It may take long to start: it loads the code of ROS and the simulator. */

@@ -20,6 +20,7 @@ const SAME: ReadonlyMap<string, readonly [RawFormat, number]> = new Map([
   ['yuv422_yuy2', ['yuy2', 2]],
   ['yuyv', ['yuy2', 2]],
 ]);
+/** Of a pixel. */
 const RGBA_BYTES = 4;
 
 /**

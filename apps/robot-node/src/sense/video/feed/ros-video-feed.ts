@@ -16,7 +16,10 @@ import { imageFrame } from './image-frame.ts';
 const COMPRESSED = 'sensor_msgs/msg/CompressedImage';
 /** Messages that may wait in the graph. Where each picture builds on those before it, none may be missing. */
 const QUEUE = { raw: 1, compressed: 8 };
-/** A topic that is silent for so long is told to people, ms. */
+/**
+ * A topic that is silent for so long is told to people, ms. Chosen: longer than publishers that start take;
+ * the page has said that pictures are old since the first second (docs/ros.md).
+ */
 const SILENT_MS = 5000;
 
 /** The pictures of one topic, as they are: nothing is encoded before it is video. */

@@ -11,7 +11,10 @@ declare const MediaStreamTrackProcessor:
     }) => { readonly readable: ReadableStream<VideoFrame> })
   | undefined;
 
-/** Pictures that wait for the page, at most; the oldest make room. */
+/**
+ * Pictures that wait for the page, at most; the oldest make room. Chosen: one is being taken, and one has
+ * just come; more are delay (docs/cameras.md).
+ */
 const MOST_BUFFERED = 2;
 
 /** Whether this browser gives a track's pictures one by one as it decodes them, without an element that plays it. */

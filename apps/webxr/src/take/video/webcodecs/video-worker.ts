@@ -10,6 +10,7 @@ declare const self: DedicatedWorkerGlobalScope & {
   onrtctransform: ((event: RTCTransformEvent) => void) | null;
 };
 
+/** How often the page is told what was dropped, ms: as often as people can read. */
 const TELL_DROPS_EVERY_MS = 250;
 
 /** By receiver: how its frames are to be decoded. Messages may come before the transform does. */
