@@ -1,7 +1,7 @@
 import { signal } from '@preact/signals-core';
 import { expect, test } from 'vitest';
 import type { CameraView } from '../ground/pictures/camera-view.ts';
-import { Staged } from './staged.ts';
+import { Staged } from './page-state.ts';
 
 const camera = (name: string) => ({ camera: { name, on: signal(true) } }) as unknown as CameraView;
 

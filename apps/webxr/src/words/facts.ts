@@ -1,12 +1,58 @@
 /** The contents of the table of figures over the picture. */
+
+import type { PictureUse } from '@farpoint/cloud-view';
 import type { Battery, EstopState, Telemetry } from '@farpoint/operator';
 import { BitRate } from '@farpoint/timing';
+import type { VideoColourFigures } from '../take/video/video-colour.ts';
 import { motionWords, speedLimitWords } from './motion-words.ts';
 import type { PageStats } from './page-stats.ts';
 import type { ShownReading } from './shown-readings.ts';
-import { videoColourWords } from './video-colour-words.ts';
 import { viewWords } from './view-words.ts';
 import { driveStateWords, type Tone } from './words.ts';
+
+const OWN_COLOURS = 'the points’ own';
+
+/**
+ * Says whether the surface has the colours of its camera's video, and if not, why.
+ *
+ * @returns `null` if the robot sends no video of its depth camera
+ */
+export function videoColourWords({ state, share, use }: VideoColourFigures): string | null {
+  switch (state) {
+    case 'not-offered':
+    case 'no-surface':
+    case 'other-colours':
+      return null;
+    case 'painted':
+      return share > 0.95 ? 'from the video' : `from the video for ${Math.round(share * 100)} %`;
+    case 'switched-off':
+      return OWN_COLOURS;
+    case 'not-in-step':
+      return `${OWN_COLOURS}: video and points are not in step`;
+    case 'not-watched':
+      return `${OWN_COLOURS}: the video is off`;
+    case 'no-picture':
+      return `${OWN_COLOURS}: no video comes`;
+    case 'late':
+      return `${OWN_COLOURS}: the video comes too late`;
+    case 'no-match':
+      return `${OWN_COLOURS}: ${misfitWords(use)}`;
+  }
+}
+
+/** Why a picture paints nothing. */
+function misfitWords(use: PictureUse | null): string {
+  switch (use) {
+    case 'other-shape':
+      return 'the video’s shape is another';
+    case 'too-large':
+      return 'the video is too large';
+    case 'unreadable':
+      return 'this browser cannot paint with the video';
+    default:
+      return 'no picture was captured with them';
+  }
+}
 
 /** Whole numbers, as in 12,000. Making a format for each number takes longer than everything else here. */
 const inThousands = new Intl.NumberFormat('en', { maximumFractionDigits: 0 });

@@ -1,7 +1,6 @@
 import { returnEnds } from '@farpoint/protocol';
 import { expect, test } from 'vitest';
-import { motionWords } from './motion-words.ts';
-import { returnWords } from './return-words.ts';
+import { motionWords, returnWords } from './motion-words.ts';
 
 test('every end has words of its own', () => {
   const texts = returnEnds.map((end) => returnWords({ phase: 'ended', metres: 2, end }).text);

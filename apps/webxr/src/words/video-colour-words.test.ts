@@ -1,7 +1,7 @@
 import type { PictureUse } from '@farpoint/cloud-view';
 import { expect, test } from 'vitest';
 import type { VideoColourState } from '../take/video/video-colour.ts';
-import { videoColourWords } from './video-colour-words.ts';
+import { videoColourWords } from './facts.ts';
 
 const words = (state: VideoColourState, share = 0, use: PictureUse | null = null) =>
   videoColourWords({ state, share, use, pictures: {} });

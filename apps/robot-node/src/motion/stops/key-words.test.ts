@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { type KeyWord, KeyWords } from './key-words.ts';
+import { type KeyWord, KeyWords } from './key-stop.ts';
 
 /** Each text by itself, as a terminal sends keys. */
 function said(...texts: string[]): KeyWord[] {

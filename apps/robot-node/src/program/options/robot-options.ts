@@ -2,9 +2,18 @@
 import { randomBytes } from 'node:crypto';
 import { join } from 'node:path';
 import { MOST_RESUME_MS } from '@farpoint/protocol';
-import { RosFault, type TopicEntry, topicAs } from '@farpoint/ros';
+import {
+  modelReading,
+  RosFault,
+  readUrdf,
+  type TopicEntry,
+  type TopicReading,
+  topicAs,
+  UrdfFault,
+} from '@farpoint/ros';
 import { defaultDriveLimits } from '@farpoint/safety';
 import { type OptionMistake, OptionsError, ownNames, publicValues, Secret } from '@farpoint/service';
+import { simUrdf } from '@farpoint/sim';
 import { BitRate } from '@farpoint/timing';
 import type { RobotAuditOptions } from '../../admit/audit/open-robot-audit.ts';
 import { describeTopics, readFrom, sourcedFolders } from '../../ground/ros/message-folders.ts';
@@ -22,15 +31,38 @@ import { checkVideos } from './check-videos.ts';
 import { toObstacleGuard } from './guard.ts';
 import { toGuardTopics } from './guard-topics.ts';
 import { toMotion } from './motion.ts';
-import { readCertificates } from './read-text.ts';
+import { readCertificates, readText } from './read-text.ts';
 import { type RobotOptionKey, type RobotOptionValues, robotProgram } from './robot-program.ts';
 import { rosKindOf } from './sink.ts';
 import { toStateFolder } from './state.ts';
 import { toFence } from './to-fence.ts';
 import { toGraph } from './to-graph.ts';
-import { toModel } from './to-model.ts';
 import { toReturn } from './to-return.ts';
 import { toSensors } from './to-sensors.ts';
+
+/** Names the model in readings if it does not come from a topic. */
+const MODEL_TOPIC = '/robot_description';
+const NO_MODEL = 'none';
+
+/** The model that is known from the start; undefined if there is none. @param refuse takes what is wrong */
+export function toModel(
+  { urdf, source, simLidars, topics, rosBaseFrame }: RobotOptionValues,
+  refuse: (key: RobotOptionKey, detail: string) => void,
+): TopicReading | undefined {
+  if (urdf === NO_MODEL) return undefined;
+  if (urdf !== null && topicAs(topics, 'model') !== undefined)
+    refuse('urdf', 'is given, and a topic with `as: model`, too');
+  if (urdf === null && source !== 'sim') return undefined;
+  const text = urdf === null ? simUrdf(simLidars > 0) : readText(urdf, (detail) => refuse('urdf', detail));
+  if (text === null) return undefined;
+  try {
+    return modelReading(MODEL_TOPIC, undefined, { kind: 'model', model: readUrdf(text, rosBaseFrame) });
+  } catch (error) {
+    if (!(error instanceof UrdfFault)) throw error;
+    refuse('urdf', `${urdf}: ${error.message}`);
+    return undefined;
+  }
+}
 
 /**
  * Who has lost a connection while driving comes back within this time, or has gone, ms. Chosen: a tunnel or a

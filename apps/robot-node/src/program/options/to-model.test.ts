@@ -2,8 +2,8 @@ import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { testFolder } from '@farpoint/service/testing/folder';
 import { expect, test } from 'vitest';
+import { toModel } from './robot-options.ts';
 import type { RobotOptionValues } from './robot-program.ts';
-import { toModel } from './to-model.ts';
 
 const SMALL =
   '<robot name="r"><link name="a"><visual><geometry><sphere radius="1"/></geometry></visual></link></robot>';

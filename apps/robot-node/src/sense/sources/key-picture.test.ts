@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { expect, it } from 'vitest';
-import { isKeyPicture } from './key-picture.ts';
+import { isKeyPicture } from './recorded-videos.ts';
 
 const nal = (type: number, ...rest: number[]) => [0, 0, 0, 1, 0x60 | type, ...rest];
 

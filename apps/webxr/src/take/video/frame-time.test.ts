@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { captureMsOf } from './frame-time.ts';
+import { captureMsOf } from './video-feed.ts';
 
 const rtpOf = (ms: number) => Math.floor(ms * 90) % 2 ** 32;
 

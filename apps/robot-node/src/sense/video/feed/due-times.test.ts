@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { DueTimes } from './due-times.ts';
+import { DueTimes } from './sim-trigger.ts';
 
 describe('DueTimes', () => {
   it('are multiples of the interval, common to all of one interval', () => {

@@ -1,7 +1,7 @@
 import { RosFault } from '@farpoint/ros';
 import { rawFrameBytes } from '@farpoint/video';
 import { describe, expect, it } from 'vitest';
-import { imageFrame } from './image-frame.ts';
+import { imageFrame } from './ros-video-feed.ts';
 
 const header = { stamp: { sec: 0, nanosec: 0 }, frame_id: '' };
 const room = (bytes: number) => new Uint8Array(bytes).fill(0xee);
