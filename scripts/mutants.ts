@@ -131,7 +131,8 @@ async function failuresOf(tests: string, pure: readonly string[] = []): Promise<
 }
 
 function projectOf(file: string): string {
-  return file.endsWith('.scenario.test.ts') ? 'scenario' : 'stack*';
+  if (file.endsWith('.scenario.test.ts')) return 'scenario';
+  return file.endsWith('.stack.test.ts') ? 'stack*' : 'pure';
 }
 
 function failed(outcomes: readonly Outcome[]): string[] {
