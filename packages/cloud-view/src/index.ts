@@ -23,6 +23,7 @@ export { DrawingGovernor, type DrawingStep } from './drawing-governor.ts';
 export type { DrawnPoints, FramePose } from './drawn-points.ts';
 export { GpuCompletion } from './gpu-completion.ts';
 export { DROP_TINT, type Hazards, HIT_TINT } from './hazards.ts';
+export { MEMORY_OLD_S } from './memory-material.ts';
 export { type MemorySource, MemoryView } from './memory-view.ts';
 export { isSoftwareRenderer } from './renderer-facts.ts';
 export { RING_COLOURS, ringColours } from './ring-colours.ts';

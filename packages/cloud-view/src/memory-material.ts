@@ -13,13 +13,14 @@ import { HEIGHT_CUT_FUNCTION, UNLIMITED_M } from './shader-features.ts';
 
 /** Pages in a row of the texture: 2048 texels, which every WebGL 2 has room for. */
 export const PAGES_PER_ROW = 8;
+/** What was seen this long ago, s, is drawn as old as anything. Chosen by eye. */
+export const MEMORY_OLD_S = 300;
 /**
- * Brightness of what was just seen, and what of it is left after {@link OLD_S}: nobody may take it for live.
- * All three and the share below are chosen by eye (docs/memory.md has a picture).
+ * Brightness of what was just seen, and what of it is left after {@link MEMORY_OLD_S}: nobody may take it for live.
+ * Both and the share below are chosen by eye (docs/memory.md has a picture).
  */
 const BRIGHTNESS = 0.6;
 const OLD_BRIGHTNESS = 0.4;
-const OLD_S = 300;
 /** Share of its colour that it loses. */
 const GREYED = 0.4;
 /**
@@ -69,7 +70,7 @@ void main() {
   uint colour = surfel.g & 0xffffu;
   vec3 rgb = vec3(float(colour >> 11) / 31.0, float((colour >> 5) & 63u) / 63.0, float(colour & 31u) / 31.0);
   float age = (nowUnits - float(surfel.g >> 16)) * ${ageUnitS.toFixed(1)};
-  float brightness = ${BRIGHTNESS.toFixed(2)} * mix(1.0, ${OLD_BRIGHTNESS.toFixed(2)}, clamp(age / ${OLD_S.toFixed(1)}, 0.0, 1.0));
+  float brightness = ${BRIGHTNESS.toFixed(2)} * mix(1.0, ${OLD_BRIGHTNESS.toFixed(2)}, clamp(age / ${MEMORY_OLD_S.toFixed(1)}, 0.0, 1.0));
   vec3 greyed = mix(rgb, vec3(dot(rgb, vec3(0.3, 0.59, 0.11))), ${GREYED.toFixed(2)});
   pointColour = brightness * hazardTinted(greyed, world);
 }

@@ -1,16 +1,5 @@
 /** A media program that is started again when it ends. */
-import { Backoff } from '@farpoint/timing';
-
-/**
- * Wait before a program is started again, ms: it doubles. Chosen: a device that was unplugged is back in
- * seconds; a lasting fault costs a start in 10 s (docs/video.md, docs/sound.md).
- */
-const RETRY = { firstMs: 500, mostMs: 10_000 };
-/**
- * A process that has worked for so long has succeeded: the next wait is short again, ms. As long as the
- * longest wait, so that one that fails soon is not started ever faster.
- */
-const SUCCESS_MS = 10_000;
+import { Backoff, MEDIA_RETRY, MEDIA_SUCCESS_MS } from '@farpoint/timing';
 
 export interface Retry {
   readonly firstMs: number;
@@ -34,7 +23,7 @@ export class KeptChild<T extends Child> {
   #startedMs = 0;
   #closed = false;
 
-  constructor(start: () => T, retry: Retry = RETRY, random: () => number = Math.random) {
+  constructor(start: () => T, retry: Retry = MEDIA_RETRY, random: () => number = Math.random) {
     this.#start = start;
     this.#backoff = new Backoff({ ...retry, random });
   }
@@ -56,7 +45,7 @@ export class KeptChild<T extends Child> {
   onEnd(retried: boolean): boolean {
     this.child = null;
     if (this.#closed) return false;
-    if (performance.now() - this.#startedMs > SUCCESS_MS) this.#backoff.reset();
+    if (performance.now() - this.#startedMs > MEDIA_SUCCESS_MS) this.#backoff.reset();
     if (retried) this.#timer = setTimeout(() => this.start(), this.#backoff.nextMs());
     return true;
   }

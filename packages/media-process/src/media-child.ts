@@ -1,18 +1,13 @@
 /** One run of a media program, from its start to its end. */
 import { type ChildProcessWithoutNullStreams, spawn } from 'node:child_process';
 import { createInterface } from 'node:readline';
-import { Heartbeat } from '@farpoint/timing';
+import { Heartbeat, MEDIA_SIGNS_OF_LIFE } from '@farpoint/timing';
 import { WireError } from './wire-error.ts';
 import { type LogLine, parseLogLine } from './wire-json.ts';
 import type { WireMessage, WireMessageParser } from './wire-messages.ts';
 
 /** From the friendly signal to the one that cannot be ignored. */
 const KILL_AFTER_MS = 3000;
-/**
- * When a program that says nothing is given up. Chosen: the first start after an installation looks at each
- * plugin; later, a busy computer delays no message for so long (docs/video.md, docs/sound.md).
- */
-const SIGNS_OF_LIFE = { firstMs: 30_000, silenceMs: 5000, checkMs: 500 };
 
 /** How a program ended that told no reason. */
 export type ChildEnd =
@@ -34,7 +29,7 @@ export class MediaChild {
   readonly #events: MediaChildEvents;
   readonly #parser: WireMessageParser;
   readonly #gone: Promise<void>;
-  readonly #heartbeat = new Heartbeat(SIGNS_OF_LIFE, performance.now());
+  readonly #heartbeat = new Heartbeat(MEDIA_SIGNS_OF_LIFE, performance.now());
   readonly #checking: NodeJS.Timeout;
   #failed: { end: ChildEnd; detail: string } | null = null;
   #closing = false;
@@ -45,7 +40,7 @@ export class MediaChild {
     this.#parser = parser;
     const child = spawn(program, [], { env, stdio: ['pipe', 'pipe', 'pipe'] });
     this.#child = child;
-    this.#checking = setInterval(() => this.#checkLife(), SIGNS_OF_LIFE.checkMs).unref();
+    this.#checking = setInterval(() => this.#checkLife(), MEDIA_SIGNS_OF_LIFE.checkMs).unref();
     this.#gone = new Promise((resolve) => {
       // `close` comes after the last bytes of its output, and after `error` if it could not be started.
       child.once('close', (code, signal) => {

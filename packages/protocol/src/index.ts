@@ -62,7 +62,7 @@ export * from './quantity.ts';
 export * from './reading.ts';
 export * from './reference-bridge.ts';
 export * from './return-state.ts';
-export type { BodyHeights, RobotBody } from './robot-body.ts';
+export { type BodyHeights, OWN_BODY_M, type RobotBody } from './robot-body.ts';
 export {
   type JointPositions,
   MAX_JOINT_POSITION,

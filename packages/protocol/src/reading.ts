@@ -12,6 +12,13 @@ export const readingLevels = ['ok', 'warn', 'error'] as const;
  */
 export type ReadingLevel = (typeof readingLevels)[number];
 
+/**
+ * Shares of a battery's charge below which its level is `warn` and `error`. Chosen: a warning while
+ * the robot can still drive back to its charger, and an error before it stops by itself.
+ */
+export const LOW_CHARGE = 0.2;
+export const EMPTY_CHARGE = 0.1;
+
 /** Lengths in UTF-16 units; together they keep the longest reading within a telemetry message. */
 export const READING_LIMITS = { topic: 255, label: 40, values: 10, name: 36, text: 60 } as const;
 

@@ -1,3 +1,9 @@
+/**
+ * Deeper inside the footprint are parts of the robot itself, metres: a cell of the obstacle guard's map, within which
+ * nobody can tell.
+ */
+export const OWN_BODY_M = 0.05;
+
 /** What a robot takes of the floor, and how it stops. */
 export interface RobotBody {
   /** Corners of the outline around base_link, counter-clockwise, metres: x forward, y to the left. */

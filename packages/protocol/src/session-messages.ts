@@ -86,6 +86,12 @@ export interface Welcome {
     | undefined;
 }
 
+/**
+ * A grant that ends within this time ends soon, s: the robot warns its operator, and the page speaks of it. Chosen: long
+ * enough to stand still and to renew a grant.
+ */
+export const GRANT_ENDS_SOON_S = 60;
+
 /** The operator's grant ends soon, and the session with it. */
 export interface GrantExpires {
   type: 'expires';

@@ -1,5 +1,12 @@
 /** Formats a topic's message as short text for people, with limited length whatever it contains. */
-import { type DiagnosticReport, READING_LIMITS, type Reading, type ReadingLevel } from '@farpoint/protocol';
+import {
+  type DiagnosticReport,
+  EMPTY_CHARGE,
+  LOW_CHARGE,
+  READING_LIMITS,
+  type Reading,
+  type ReadingLevel,
+} from '@farpoint/protocol';
 import { BatteryGauge } from './battery-gauge.ts';
 import { levelOf } from './diagnostic-board.ts';
 import { batteryDetailsSchema, diagnosticArraySchema, navSatFixSchema, stampNs } from './messages.ts';
@@ -43,8 +50,6 @@ const HEALTH = [
   'watchdog expired',
   'safety timer expired',
 ];
-const LOW_CHARGE = 0.2;
-const EMPTY_CHARGE = 0.1;
 /** sensor_msgs/NavSatStatus, from -1. */
 const FIXES = ['no fix', 'fix', 'satellite augmented', 'ground augmented'];
 const LEVELS: readonly ReadingLevel[] = ['ok', 'warn', 'error', 'error'];

@@ -1,4 +1,5 @@
 /** What the simulated robot's components report about themselves, as nodes do on /diagnostics. */
+import { EMPTY_CHARGE, LOW_CHARGE } from '@farpoint/protocol';
 import type { BaseState } from './simulated-base.ts';
 
 /** As in diagnostic_msgs/DiagnosticStatus. */
@@ -11,8 +12,6 @@ export interface ComponentState {
 
 const WARM_CELSIUS = 55;
 const HOT_CELSIUS = 75;
-const LOW_CHARGE = 0.2;
-const EMPTY_CHARGE = 0.1;
 
 export function componentStates({ battery, collision, motorCelsius }: BaseState): ComponentState[] {
   return [

@@ -10,6 +10,7 @@ import {
   WireMessageParser,
   writeMessage,
 } from '@farpoint/media-process';
+import { msOfNs, nsOfMs } from '@farpoint/timing';
 
 export const TO_PROCESS = { ...COMMON_TO_PROCESS, play: 3 } as const;
 export const FROM_PROCESS = { sound: 65, ...COMMON_FROM_PROCESS } as const;
@@ -18,7 +19,6 @@ const SOUND_HEAD_BYTES = 8;
 const PLAY_HEAD_BYTES = 12;
 /** An Opus packet of 20 ms has at most 1,275 bytes, and a state is short. */
 const MOST_MESSAGE_BYTES = 64 * 1024;
-const NS_PER_MS = 1_000_000n;
 
 /** Puts the messages of `farpoint-sound` together. */
 export class MessageParser extends WireMessageParser {
@@ -42,7 +42,7 @@ export function parseSound(payload: Uint8Array): SoundPacket {
   const view = new DataView(payload.buffer, payload.byteOffset, payload.byteLength);
   const captureNs = view.getBigUint64(0, true);
   return {
-    capturedAtMs: Number(captureNs / NS_PER_MS) + Number(captureNs % NS_PER_MS) / 1e6,
+    capturedAtMs: msOfNs(captureNs),
     bytes: payload.subarray(SOUND_HEAD_BYTES),
   };
 }
@@ -65,7 +65,7 @@ export function writePlay(hearAtMs: number, durationMs: number, bytes: Uint8Arra
   const view = new DataView(message.buffer);
   view.setUint32(0, PLAY_HEAD_BYTES + bytes.length, true);
   view.setUint8(4, TO_PROCESS.play);
-  view.setBigUint64(5, BigInt(Math.round(hearAtMs * 1e6)), true);
+  view.setBigUint64(5, nsOfMs(hearAtMs), true);
   view.setUint32(13, Math.round(durationMs * 1000), true);
   message.set(bytes, HEADER_BYTES + PLAY_HEAD_BYTES);
   return message;

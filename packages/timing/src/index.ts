@@ -2,6 +2,8 @@ export * from './backoff.ts';
 export * from './bit-rate.ts';
 export * from './even-pace.ts';
 export * from './heartbeat.ts';
+export * from './media-life.ts';
+export * from './nanoseconds.ts';
 export * from './rate-meter.ts';
 export * from './recent-worst.ts';
 export * from './reconnect.ts';

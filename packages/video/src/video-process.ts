@@ -1,6 +1,6 @@
 /** The encoded pictures of one camera, from a process of its own that is started again when it ends. */
 import { mediaEnvironment } from '@farpoint/media-process';
-import { Backoff } from '@farpoint/timing';
+import { Backoff, MEDIA_RETRY, MEDIA_SUCCESS_MS } from '@farpoint/timing';
 import { ADDON_FILE } from './build.ts';
 import { EncoderChild } from './encoder-child.ts';
 import { ENCODER_PROPERTIES, type VideoEncoder } from './encoders.ts';
@@ -32,12 +32,6 @@ const KEY_FRAME_INTERVAL_MS = 300;
  */
 const MOST_LINES = 40;
 const LINES_MS = 10_000;
-const RETRY = { firstMs: 500, mostMs: 10_000 };
-/**
- * A process that has given pictures for so long has succeeded: the next wait is short again, ms (as
- * kept-child.ts of packages/media-process).
- */
-const SUCCESS_MS = 10_000;
 
 export interface VideoProcessOptions {
   readonly source: VideoSourceOptions;
@@ -87,7 +81,7 @@ export class VideoProcess {
     if (!ENCODER_PROPERTIES.test(extra))
       throw new RangeError('the encoder’s properties must be name=value, separated by spaces');
     this.#open = openMessage(this.#source, options.encoder, extra, options.silenceMs);
-    this.#backoff = new Backoff({ ...(options.retry ?? RETRY), random: options.random ?? Math.random });
+    this.#backoff = new Backoff({ ...(options.retry ?? MEDIA_RETRY), random: options.random ?? Math.random });
     this.#start();
   }
 
@@ -191,7 +185,7 @@ export class VideoProcess {
     this.#child = new EncoderChild(program, env, {
       onFrame: (frame) => {
         this.#firstFrameMs ??= frame.captureMs;
-        if (frame.captureMs - this.#firstFrameMs > SUCCESS_MS) this.#backoff.reset();
+        if (frame.captureMs - this.#firstFrameMs > MEDIA_SUCCESS_MS) this.#backoff.reset();
         onFrame(frame);
       },
       onState: (state) => onState?.(state),

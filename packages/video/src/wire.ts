@@ -3,6 +3,7 @@
  * type, payload; little-endian. `native/main.c` is the other side.
  */
 import { HEADER_BYTES, WireError, WireMessageParser, writeMessage } from '@farpoint/media-process';
+import { msOfNs } from '@farpoint/timing';
 
 export {
   WireError as VideoWireError,
@@ -23,7 +24,6 @@ const CODED_HEAD_BYTES = 10;
 const LOST_FLAG = 1;
 const CONFIGURE_BYTES = 13;
 const KEY_FLAG = 1;
-const NS_PER_MS = 1_000_000n;
 
 /** Puts the messages of `farpoint-video` together. */
 export class MessageParser extends WireMessageParser {
@@ -54,7 +54,7 @@ export function parseEncoded(payload: Uint8Array): EncodedFrame {
   const captureNs = view.getBigUint64(0, true);
   return {
     captureNs,
-    captureMs: Number(captureNs / NS_PER_MS) + Number(captureNs % NS_PER_MS) / 1e6,
+    captureMs: msOfNs(captureNs),
     key: (view.getUint8(8) & KEY_FLAG) !== 0,
     width: view.getUint16(9, true),
     height: view.getUint16(11, true),

@@ -1,6 +1,12 @@
 import type { PacedFrame } from '@farpoint/congestion';
 import type { VideoCodec } from '@farpoint/protocol';
 
+/**
+ * The longest time that a cloud or a video's frame may take from its capture until it is sent, ms; what is older is not
+ * worth its bytes. Chosen: from this age of the view on, the robot is slower unless `motion.viewSlowMs` says otherwise.
+ */
+export const FRESH_FRAME_MS = 250;
+
 /** One frame on its way to several operators, cut into the payloads of RTP packets. */
 export interface OutgoingFrame extends PacedFrame {
   readonly lane: number;

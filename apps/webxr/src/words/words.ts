@@ -8,7 +8,14 @@ import {
   type SignalingState,
   type StopStatus,
 } from '@farpoint/operator';
-import type { CommandRejection, DriveState, LeaseState, Role, Telemetry } from '@farpoint/protocol';
+import {
+  type CommandRejection,
+  type DriveState,
+  GRANT_ENDS_SOON_S,
+  type LeaseState,
+  type Role,
+  type Telemetry,
+} from '@farpoint/protocol';
 
 /** How urgent a text is: its colour. */
 export type Tone = 'good' | 'neutral' | 'warning' | 'bad';
@@ -271,12 +278,9 @@ export function vrUnavailable(facts: {
   return 'No headset found.';
 }
 
-/** Grants that end sooner than this are spoken of, s: from when the robot warns (robot-access.ts). */
-const SOON_S = 60;
-
 /** @returns `null` unless the grant ends soon */
 export function grantEndsWords(leftMs: number | null): Words | null {
-  if (leftMs === null || leftMs > SOON_S * 1000) return null;
+  if (leftMs === null || leftMs > GRANT_ENDS_SOON_S * 1000) return null;
   const seconds = Math.max(0, Math.ceil(leftMs / 1000));
   return {
     text: `Your grant ends in ${seconds} s. Then the robot stops and the session ends.`,

@@ -1,13 +1,12 @@
 /// <reference lib="webworker" />
 /** Reads the capture stamps of encoded video frames on their way to the decoder. */
 import { readCaptureStamp } from '@farpoint/protocol';
+import { msOfNs } from '@farpoint/timing';
 import type { FromStampWorker, StampOptions, ToStampWorker } from './stamp-messages.ts';
 
 declare const self: DedicatedWorkerGlobalScope & {
   onrtctransform: ((event: RTCTransformEvent) => void) | null;
 };
-
-const NS_PER_MS = 1e6;
 
 /** An encoded frame; browsers tell its RTP timestamp in one place or the other. */
 interface Frame {
@@ -27,7 +26,7 @@ function relay(readable: ReadableStream, writable: WritableStream, options: Stam
       const rtpTimestamp = frame.getMetadata().rtpTimestamp ?? frame.timestamp;
       const captureNs = readCaptureStamp(new Uint8Array(frame.data), codec);
       if (rtpTimestamp !== undefined) {
-        const captureMs = captureNs === null ? null : Number(captureNs) / NS_PER_MS;
+        const captureMs = captureNs === null ? null : msOfNs(captureNs);
         self.postMessage({ generation, video, rtpTimestamp, captureMs } satisfies FromStampWorker);
       }
       controller.enqueue(frame);

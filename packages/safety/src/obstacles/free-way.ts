@@ -1,8 +1,7 @@
-import type { Twist } from '@farpoint/protocol';
+import { OWN_BODY_M, type Twist } from '@farpoint/protocol';
 import { FloorAround } from './floor-around.ts';
 import type { FloorMap } from './floor-map.ts';
 import type { Footprint, Nearness, Outline } from './footprint.ts';
-import { OWN_BODY_M } from './obstacle-guard-options.ts';
 import { type FloorPose, floorClasses } from './sensor-grid.ts';
 
 /** How far the robot could go on its arc, at the velocity that is asked for. */

@@ -1,8 +1,7 @@
-import { NEAR_REACH_M, NEAR_SECTORS, NEAR_UNSEEN_M, type NearSector } from '@farpoint/protocol';
+import { NEAR_REACH_M, NEAR_SECTORS, NEAR_UNSEEN_M, type NearSector, OWN_BODY_M } from '@farpoint/protocol';
 import { FloorAround } from './floor-around.ts';
 import type { FloorMap } from './floor-map.ts';
 import type { Footprint, Nearness } from './footprint.ts';
-import { OWN_BODY_M } from './obstacle-guard-options.ts';
 import { type FloorPose, floorClasses } from './sensor-grid.ts';
 
 const SECTOR = (2 * Math.PI) / NEAR_SECTORS;

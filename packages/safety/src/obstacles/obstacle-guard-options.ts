@@ -70,8 +70,3 @@ export const RELEASE_SHARE = 0.7;
  * docs/obstacle-guard.md says it; obstacle-guard.test.ts holds it.
  */
 export const MOST_EXTRAPOLATION_MS = 300;
-/**
- * Deeper inside the footprint are parts of the robot itself, metres: a cell, within which nobody can tell.
- * The page's tint follows it (show-hazards.ts).
- */
-export const OWN_BODY_M = 0.05;

@@ -1,5 +1,5 @@
 import { type Pose, rotationMatrix } from '@farpoint/protocol';
-import { type FloorPose, floorClasses } from './sensor-grid.ts';
+import { FLOOR_SLOPE, type FloorPose, floorClasses } from './sensor-grid.ts';
 
 /** What a planar laser scanner measured in one sweep. Angles in radians, anticlockwise from its x axis; metres. */
 export interface Scan {
@@ -24,12 +24,6 @@ export interface ScanGridOptions {
   clearanceM: number;
   heightM: number;
 }
-
-/**
- * How much wider the floor's band becomes with each metre of distance. As a camera's (blank-floor.ts in the
- * robot): a tilt of half a degree.
- */
-const SLOPE = 0.01;
 
 /**
  * A grid of the floor from one scan: cells in which something stands, and cells that the rays passed through at a height
@@ -102,7 +96,7 @@ export class ScanGrid {
     const at = range === Number.NEGATIVE_INFINITY ? rangeMin : range;
     const { clearanceM, heightM, mount } = this.#options;
     const z = mount.position.z + dz * at;
-    if (z <= clearanceM + SLOPE * at || z > heightM) return;
+    if (z <= clearanceM + FLOOR_SLOPE * at || z > heightM) return;
     const cell = this.#cellOf(x + dx * at, y + dy * at);
     if (cell !== null) this.classes[cell] = floorClasses.occupied;
   }

@@ -10,6 +10,12 @@ export const floorClasses = {
   dropOff: 3,
 } as const;
 
+/**
+ * How much wider the floor's band of heights becomes with each metre of distance. Chosen: a sensor that is mounted with
+ * a tilt of half a degree sees an even floor as floor.
+ */
+export const FLOOR_SLOPE = 0.01;
+
 /** Position and heading on the floor: metres, radians to the left of the x axis. */
 export interface FloorPose {
   x: number;

@@ -3,6 +3,7 @@ import type { AdmissionRequest } from '@farpoint/grants';
 import {
   type EndSession,
   type FaultReason,
+  GRANT_ENDS_SOON_S,
   MAX_REVOCATIONS_LENGTH,
   type RobotSessionMessage,
 } from '@farpoint/protocol';
@@ -16,12 +17,6 @@ import { GrantGate, type GrantGateOptions } from './grant-gate.ts';
 import type { GrantKeysFile } from './grant-keys-file.ts';
 import { OperatorRoster } from './operator-roster.ts';
 import { RobotRevocations, type RobotRevocationsOptions } from './robot-revocations.ts';
-
-/**
- * How long before the end of its grant an operator is warned, s. Chosen: long enough to stand still and to
- * renew a grant; the page speaks of it as long before (words.ts).
- */
-const WARNING_S = 60;
 
 /** The parts of an operator's session that {@link RobotAccess} uses. */
 export interface GuardedOperator {
@@ -127,7 +122,7 @@ export class RobotAccess {
       if (leftS <= 0) peer.close('grant-expired', 'the grant has expired');
       else if (refusal === 'grant-revoked') peer.close('grant-revoked', 'the grant has been revoked');
       else if (refusal !== null) peer.close('ended-by-supervisor', 'a supervisor has blocked the grant');
-      else if (leftS <= WARNING_S && peer.connected && !this.#warned.has(operator)) {
+      else if (leftS <= GRANT_ENDS_SOON_S && peer.connected && !this.#warned.has(operator)) {
         this.#warned.add(operator);
         messages.send({ type: 'expires', inS: Math.floor(leftS) });
       }

@@ -2,6 +2,7 @@
 import { afterGapChoices, MOST_RESUME_MS } from '@farpoint/protocol';
 import { defaultDriveLimits, estopReleasePolicies, Footprint, RESUME_WITHIN_MS } from '@farpoint/safety';
 import { defineOption, type OptionValues, optionGroup, schema } from '@farpoint/service';
+import { FRESH_FRAME_MS } from '../../ground/outgoing-frame.ts';
 import type { MotionLimits } from '../../motion/open-drive.ts';
 import { footprintOf } from './guard.ts';
 
@@ -84,7 +85,7 @@ export const motionOptions = optionGroup('motion', {
   }),
   viewSlowMs: defineOption({
     schema: schema.number({ min: 50, max: 5000 }),
-    default: 250,
+    default: FRESH_FRAME_MS,
     argument: 'MS',
     help: 'the robot is slower when what the driver sees is older than this, from the robot’s capture to its receipt of the command',
   }),

@@ -1,5 +1,5 @@
 import { allocate } from '@farpoint/congestion';
-import { BitRate } from '@farpoint/timing';
+import { LEAST_CLOUD_BITS_PER_SECOND } from '../../sense/encode/capture-budget.ts';
 
 /** A sensor's claim to a share of the link. */
 export interface CloudClaim {
@@ -10,12 +10,6 @@ export interface CloudClaim {
   /** The most that its clouds could use on the wire, bit/s; infinite while unknown. */
   usefulBitsPerSecond: number;
 }
-
-/**
- * Clouds below this rate show nothing useful, so each sensor gets this much first, as far as the link allows.
- * It carries some 3,000 points at 10 frames/s with 16 bits each (plan.ts).
- */
-const LEAST_BITS_PER_SECOND = BitRate.fromMbps(0.5);
 
 /**
  * The sensor whose frames are enlarged for a path's probes: the most important one that sends anything.
@@ -58,7 +52,7 @@ export function cloudShare(
       name: String(number),
       priority,
       weight,
-      leastBitsPerSecond: Math.min(LEAST_BITS_PER_SECOND, usefulBitsPerSecond),
+      leastBitsPerSecond: Math.min(LEAST_CLOUD_BITS_PER_SECOND, usefulBitsPerSecond),
       mostBitsPerSecond: usefulBitsPerSecond,
     })),
   );

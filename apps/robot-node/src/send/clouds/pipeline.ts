@@ -8,6 +8,7 @@
  *
  * On the operator's side, packages/operator/src/cloud/pipeline.ts goes on.
  */
+import { FRESH_FRAME_MS } from '../../ground/outgoing-frame.ts';
 import type { RobotCounters } from '../../ground/robot-counters.ts';
 import type { StageTimer } from '../../ground/stage-timer.ts';
 import type { Capture } from '../../sense/capture/capture.ts';
@@ -18,12 +19,6 @@ import type { BudgetTarget } from '../budgets/sensor-budget.ts';
 import type { SendLoop } from '../transport/send-loop.ts';
 import { SharedFrame } from '../transport/shared-frame.ts';
 import type { FrameLog } from './frame-log.ts';
-
-/**
- * A frame older than this when it leaves the worker is not sent, ms: as a video's frame (video-frame.ts).
- * From the same age of the view on, the robot is slower (`motion.viewSlowMs`).
- */
-const MAX_FRAME_AGE_MS = 250;
 
 /** A receiver of frames, of either protocol. */
 export interface FrameTarget extends BudgetTarget {
@@ -84,7 +79,7 @@ export class SendPipeline {
       (buffer) => capture.recycle(buffer),
       lane,
     );
-    if (now() - frame.capturedAtMs > MAX_FRAME_AGE_MS) {
+    if (now() - frame.capturedAtMs > FRESH_FRAME_MS) {
       counters.framesStale++;
       if (frame.latencyTest) capture.requestLatencyTest();
     } else {

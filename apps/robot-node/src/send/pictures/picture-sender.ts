@@ -1,5 +1,6 @@
 import { BitRate } from '@farpoint/timing';
 import type { ReadyPicture } from '../../sense/pictures/picture-messages.ts';
+import { LEAST_PICTURES_PER_SECOND } from '../../sense/pictures/picture-plan.ts';
 
 /** Why this operator did not get a picture, or not all of it. */
 export type PictureDropReason =
@@ -16,7 +17,7 @@ export interface PictureLink {
 }
 
 /**
- * * No chunk is sent while more than this is queued, bytes. Messages share the association and would have to
+ * No chunk is sent while more than this is queued, bytes. Messages share the association and would have to
  * wait for it. Two chunks of 1,160 bytes fit. Chosen: one is not enough to keep the channel busy between two
  * calls.
  */
@@ -30,7 +31,7 @@ const BURST_MS = 100;
  * The rest of a picture that has taken this long to send is dropped, ms. Chosen: three of the longest
  * intervals that are planned (picture-plan.ts); picture-sender.test.ts holds it.
  */
-const OVERDUE_MS = 1500;
+const OVERDUE_MS = (3 * 1000) / LEAST_PICTURES_PER_SECOND;
 
 interface Sending {
   picture: ReadyPicture;

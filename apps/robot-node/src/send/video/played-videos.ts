@@ -1,6 +1,7 @@
 import type { PlayedPicture } from '@farpoint/cloud-source';
 import { MAX_VIDEOS } from '@farpoint/protocol';
 import type { Logger } from '@farpoint/service';
+import { nsOfMs } from '@farpoint/timing';
 import { availableEncoders, chooseEncoders, VideoError } from '@farpoint/video';
 import { monotonicMs } from '../../ground/clock.ts';
 import type { Capture } from '../../sense/capture/capture.ts';
@@ -10,7 +11,6 @@ import type { VideoCamera } from '../../sense/video/video-encoder.ts';
 
 /** A played video is never enlarged: one that is smaller keeps its size. */
 const MOST = { width: 1024, height: 768, framesPerSecond: 30 };
-const NS_PER_MS = 1e6;
 
 export interface PlayedVideosOptions {
   /** Maximum rate of each. */
@@ -48,7 +48,7 @@ export async function openPlayedVideos(
         const openedMs = monotonicMs();
         let isLive = false;
         const take = ({ coding, bytes, capturedAtMs }: PlayedPicture) => {
-          const captureNs = BigInt(Math.round(capturedAtMs * NS_PER_MS));
+          const captureNs = nsOfMs(capturedAtMs);
           if (!isLive && capturedAtMs > openedMs) {
             isLive = true;
             // What led up to it is older than what some may have seen before.

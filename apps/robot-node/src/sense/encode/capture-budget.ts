@@ -1,4 +1,12 @@
+import { BitRate } from '@farpoint/timing';
 import type { CodedFormat, DrawnMost } from './plan.ts';
+
+/**
+ * Clouds below this rate show nothing useful, so each sensor gets this much first, as far as the link allows, and
+ * pictures get nothing on a path that has no more. It carries some 3,000 points at 10 frames/s with 16 bits each
+ * (plan.ts).
+ */
+export const LEAST_CLOUD_BITS_PER_SECOND = BitRate.fromMbps(0.5);
 
 /** The share of the path that the stream may use. */
 export interface CaptureBudget {

@@ -3,9 +3,6 @@ import { type Pose, rotationMatrix } from '@farpoint/protocol';
 import { type FloorPose, floorClasses } from '@farpoint/safety';
 import type { GridShape } from './shared-grid.ts';
 
-/** How much wider the floor's band of heights becomes with each metre of distance: a tilt of half a degree. */
-export const FLOOR_SLOPE = 0.01;
-
 export interface BlankFloorCamera {
   width: number;
   height: number;

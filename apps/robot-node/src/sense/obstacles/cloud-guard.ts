@@ -2,10 +2,11 @@
 
 import type { SourceDescription, SourceFrame } from '@farpoint/cloud-source';
 import { compose, inverse, type Pose, rotationMatrix } from '@farpoint/protocol';
+import { FLOOR_SLOPE } from '@farpoint/safety';
 import { type Codec, CodecError, ObstacleGrid } from '@farpoint/wasm-codec';
 import { monotonicMs } from '../../ground/clock.ts';
 import { STATIC_CAMERA_POSE } from '../sources/playback-source.ts';
-import { BlankFloor, FLOOR_SLOPE } from './blank-floor.ts';
+import { BlankFloor } from './blank-floor.ts';
 import { type GridShape, SharedGridWriter } from './shared-grid.ts';
 
 /** Plain data, so that it can be passed to the capture thread. Lengths in metres. */

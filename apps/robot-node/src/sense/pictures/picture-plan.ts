@@ -2,6 +2,7 @@
 
 import { MAX_PICTURE_BYTES } from '@farpoint/protocol';
 import { BitRate } from '@farpoint/timing';
+import { LEAST_CLOUD_BITS_PER_SECOND } from '../encode/capture-budget.ts';
 import type { CameraPlan } from './picture-messages.ts';
 
 export interface PicturePolicy {
@@ -16,11 +17,6 @@ export interface PicturePolicy {
 }
 
 /**
- * Below this rate, pictures get nothing, because clouds and commands need all of it, bit/s: what clouds get
- * first (cloud-shares.ts).
- */
-const LEAST_TARGET = 0.5e6;
-/**
  * From this rate on, pictures may use their whole share. Chosen: 15 % are 600 kbit/s there, two pictures of
  * 37 kB a second. picture-plan.test.ts holds it and those that follow.
  */
@@ -34,7 +30,7 @@ const MOST_PICTURES = 3e6;
  * At fewer pictures per second there is no impression of motion. Pictures become smaller instead. Chosen by
  * eye.
  */
-const LEAST_PER_SECOND = 2;
+export const LEAST_PICTURES_PER_SECOND = 2;
 /**
  * Margin by which pictures must fit before they become larger again. As for videos (video-plan.ts);
  * picture-plan.test.ts shows that sizes do not alternate.
@@ -60,7 +56,8 @@ const OVERHEAD = 1.1;
 
 /** The bit rate that pictures may use on a path with this rate, bit/s on the wire. */
 export function pictureAllowance(targetBitsPerSecond: number, share: number): number {
-  const ramp = (targetBitsPerSecond - LEAST_TARGET) / (FULL_SHARE_TARGET - LEAST_TARGET);
+  const beyondClouds = targetBitsPerSecond - LEAST_CLOUD_BITS_PER_SECOND;
+  const ramp = beyondClouds / (FULL_SHARE_TARGET - LEAST_CLOUD_BITS_PER_SECOND);
   const allowed = targetBitsPerSecond * share * Math.min(Math.max(ramp, 0), 1);
   return Math.min(allowed, MOST_PICTURES);
 }
@@ -88,7 +85,7 @@ export class PicturePlanner {
     const bytesPerSecond = BitRate.toBytesPerSecond(bitsPerSecond) / OVERHEAD;
     const rateAt = (scale: number) =>
       bytesPerSecond / (this.#fullBytes * (SCALES[scale] as number) ** BYTES_BY_SIDE);
-    const least = Math.min(LEAST_PER_SECOND, most);
+    const least = Math.min(LEAST_PICTURES_PER_SECOND, most);
     while (this.#scale < SCALES.length - 1 && rateAt(this.#scale) < least) this.#scale++;
     while (this.#scale > 0 && rateAt(this.#scale - 1) > least * LARGER_MARGIN) this.#scale--;
     return {

@@ -13,11 +13,11 @@ import {
   sincesOf,
 } from '@farpoint/recording';
 import { DIAGNOSTIC_TYPES, DiagnosticBoard, stampNs } from '@farpoint/ros';
+import { msOfNs, nsOfMs } from '@farpoint/timing';
 import * as z from 'zod';
 
 /** As many as a page keeps. */
 const MOST_COMPONENT_TOPICS = 8;
-const NS_PER_MS = 1e6;
 
 export class RecordedTelemetry {
   readonly description: PlayedTelemetry;
@@ -72,7 +72,7 @@ export class RecordedTelemetry {
     if (quantity < 0 && alarm < 0 && board === undefined) return false;
     const message = topic.decode(data);
     /** @param ns since 1970 */
-    const onClock = (ns: bigint) => Math.max(0, dueMs - Math.max(0, Number(logNs - ns) / NS_PER_MS));
+    const onClock = (ns: bigint) => Math.max(0, dueMs - Math.max(0, msOfNs(logNs - ns)));
     if (quantity >= 0) {
       const { value } = checked(sampleRecordSchema, message);
       this.onMessage?.({ kind: 'sample', quantity, value, timeMs: dueMs });
@@ -87,7 +87,7 @@ export class RecordedTelemetry {
         const ms = sinces.get(report.name);
         return ms === undefined || report.level === 'stale'
           ? report
-          : { ...report, sinceMs: onClock(BigInt(ms) * BigInt(NS_PER_MS)) };
+          : { ...report, sinceMs: onClock(nsOfMs(ms)) };
       });
       this.onMessage?.({ kind: 'diagnostics', topic: topic.name, reports, timeMs: dueMs });
     }

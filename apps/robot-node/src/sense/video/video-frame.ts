@@ -1,21 +1,16 @@
 import { VIDEO_CLOCK_RATE, type VideoCodec } from '@farpoint/protocol';
 import { packetiseH264, packetiseVp8, rtpTimestamp } from '@farpoint/rtp';
-import type { OutgoingFrame } from '../../ground/outgoing-frame.ts';
+import { FRESH_FRAME_MS, type OutgoingFrame } from '../../ground/outgoing-frame.ts';
 
 /** The payload of a packet, at most, bytes: with all headers, 1,280 bytes fit every path (RFC 8200 §5). */
 const MAX_PAYLOAD_BYTES = 1180;
 /** What RTP, its extensions, SRTP, UDP and IP add to each packet, bytes. */
 export const VIDEO_OVERHEAD_BYTES = 76;
 /**
- * The longest time that a frame waits for its turn or takes to be sent; older pictures are not worth it, ms.
- * Chosen: from this age of the view on, the robot is slower (`motion.viewSlowMs`).
- */
-const MAX_AGE_MS = 250;
-/**
  * How long a browser can still use a late packet, ms: it waits for it with the picture on hold. As long as it
  * may wait for its turn.
  */
-const USEFUL_MS = 250;
+const USEFUL_MS = FRESH_FRAME_MS;
 /** Videos leave before clouds: their frames are small, and a decoder waits for each of them. */
 const FIRST_LANE = -64;
 
@@ -52,7 +47,7 @@ export class VideoFrame implements OutgoingFrame {
   readonly rtpTimestamp: number;
   readonly capturedAtMs: number;
   readonly usefulMs = USEFUL_MS;
-  readonly maxSpanMs = MAX_AGE_MS;
+  readonly maxSpanMs = FRESH_FRAME_MS;
   readonly maxWaitingFrames: number;
   readonly needsPrevious: boolean;
   readonly #payloads: readonly Uint8Array[];
@@ -77,7 +72,7 @@ export class VideoFrame implements OutgoingFrame {
     );
     this.rtpTimestamp = rtpTimestamp(capturedAtMs, VIDEO_CLOCK_RATE);
     this.capturedAtMs = capturedAtMs;
-    this.maxWaitingFrames = Math.max(2, Math.ceil((MAX_AGE_MS * framesPerSecond) / 1000));
+    this.maxWaitingFrames = Math.max(2, Math.ceil((FRESH_FRAME_MS * framesPerSecond) / 1000));
   }
 
   payload(index: number): Uint8Array {

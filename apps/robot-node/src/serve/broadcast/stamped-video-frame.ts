@@ -1,8 +1,7 @@
 import { CAPTURE_STAMP_BYTES, captureStampNal, writeCaptureStamp } from '@farpoint/protocol';
+import { nsOfMs } from '@farpoint/timing';
 import type { OutgoingFrame } from '../../ground/outgoing-frame.ts';
 import { VIDEO_OVERHEAD_BYTES, type VideoFrame } from '../../sense/video/video-frame.ts';
-
-const NS_PER_MS = 1e6;
 
 /**
  * A video's frame with its capture time inside the bitstream, because a relay rewrites timestamps and header extensions.
@@ -39,7 +38,7 @@ export class StampedVideoFrame implements OutgoingFrame {
     this.maxWaitingFrames = frame.maxWaitingFrames;
     this.needsPrevious = frame.needsPrevious;
     this.#frame = frame;
-    const captureNs = BigInt(Math.round(frame.capturedAtMs * NS_PER_MS));
+    const captureNs = nsOfMs(frame.capturedAtMs);
     if (frame.codec === 'H264') {
       this.#first = captureStampNal(captureNs);
       this.#last = null;

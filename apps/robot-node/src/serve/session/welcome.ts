@@ -6,12 +6,12 @@ import {
   type Quantity,
   type RobotBody,
 } from '@farpoint/protocol';
+import { FLOOR_SLOPE } from '@farpoint/safety';
 import type { ObstacleGuardConfiguration } from '../../motion/obstacles/guarded-sensors.ts';
 import type { MotionLimits } from '../../motion/open-drive.ts';
 import type { CloudSensor, CloudSensorOptions } from '../../send/clouds/cloud-sensor.ts';
 import type { CloudSensors } from '../../send/clouds/cloud-sensors.ts';
 import { codecFault } from '../../send/video/codec-fault.ts';
-import { FLOOR_SLOPE } from '../../sense/obstacles/blank-floor.ts';
 import type { VideoHub } from '../../sense/video/video-hub.ts';
 import type { OperatorSession } from './operator-session.ts';
 

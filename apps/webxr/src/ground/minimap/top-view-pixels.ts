@@ -1,5 +1,5 @@
 /** The remembered world from above as pixels: coloured by height, darker the longer ago it was seen. Allocates nothing. */
-import { colourAt } from '@farpoint/cloud-view';
+import { colourAt, MEMORY_OLD_S } from '@farpoint/cloud-view';
 import { TOP_VIEW, type TopView } from '@farpoint/operator';
 
 /**
@@ -13,11 +13,10 @@ const DROP = [214, 72, 62] as const;
 /** The height with the last colour, metres: what is higher is not on the map (remembered-world.ts). */
 const TALL_M = 2;
 /**
- * What of its brightness is left after this time, s. Chosen by eye: as long as for the remembered world
- * (memory-material.ts in cloud-view), a little brighter on a small map.
+ * What of its brightness is left after {@link MEMORY_OLD_S}. Chosen by eye: a little brighter than in the cloud, because
+ * the map is small.
  */
 const OLD_BRIGHTNESS = 0.45;
-const OLD_S = 300;
 
 /** Red, green and blue by height. */
 const COLOURS = new Uint8Array(256 * 3);
@@ -28,7 +27,7 @@ for (let step = 1; step < 256; step++) {
 }
 /** By age. */
 const BRIGHTNESS = Float32Array.from({ length: 256 }, (_, age) => {
-  const share = Math.min((age * TOP_VIEW.ageUnitS) / OLD_S, 1);
+  const share = Math.min((age * TOP_VIEW.ageUnitS) / MEMORY_OLD_S, 1);
   return 1 - (1 - OLD_BRIGHTNESS) * share;
 });
 

@@ -15,8 +15,8 @@ const HEIGHT_M = 0.04;
 const BOX_M = 0.3;
 const COLOUR = 0xc9b8ff;
 /**
- * Nearer to the report than this, it would only flicker, m and rad: about as far as the prediction may lead
- * (motion-predictor.ts).
+ * Nearer to the report than this, it would only flicker, m and rad. Chosen: not less than what the prediction may lead
+ * by (LEAD_M and LEAD_RAD of motion-predictor.ts), so that the lead alone shows no second outline.
  */
 const LEAST_M = 0.015;
 const LEAST_RAD = 0.015;

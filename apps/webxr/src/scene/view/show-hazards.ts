@@ -1,16 +1,11 @@
 /** Tints in all clouds what the robot would hit and where its floor is missing, by what the robot says of itself. */
 import type { Hazards } from '@farpoint/cloud-view';
 import type { RobotClient } from '@farpoint/operator';
+import { OWN_BODY_M } from '@farpoint/protocol';
 import { effect } from '@preact/signals-core';
 import { innerRadius } from '../../ground/near-field/around-footprint.ts';
 import type { CloudAppearance } from '../../state/cloud-appearance.ts';
 import type { SensorClouds } from './sensor-clouds.ts';
-
-/**
- * Deeper inside its outline is the robot itself, metres: as OWN_BODY_M of its obstacle guard
- * (packages/safety), which a page does not import.
- */
-const OWN_BODY_M = 0.05;
 
 export interface HazardParts {
   readonly client: Pick<RobotClient, 'on' | 'link'>;

@@ -1,5 +1,5 @@
 import type { RosGraph } from '@farpoint/ros';
-import { Backoff } from '@farpoint/timing';
+import { Backoff, MEDIA_RETRY } from '@farpoint/timing';
 import type { VideoEncoder as EncoderElement } from '@farpoint/video';
 import { monotonicMs } from '../../../ground/clock.ts';
 import { type GraphOptions, openGraph } from '../../../ground/ros/open-graph.ts';
@@ -13,8 +13,6 @@ import type { FeedSource } from './feed-source.ts';
 import { RosVideoFeed } from './ros-video-feed.ts';
 import { SimVideoCameras } from './sim-video-feed.ts';
 
-const RETRY = { firstMs: 500, mostMs: 10_000 };
-
 /** Opens what feeds the target. What it throws is the camera's fault, and tried again. */
 export type OpenFeed = (target: FeedTarget, events: FeedEvents) => Promise<Feed>;
 
@@ -23,7 +21,7 @@ class FedEncoder implements VideoEncoder {
   readonly #encoder: ProcessEncoder;
   readonly #openFeed: OpenFeed;
   readonly #events: VideoEncoderEvents;
-  readonly #backoff = new Backoff({ ...RETRY, random: Math.random });
+  readonly #backoff = new Backoff({ ...MEDIA_RETRY, random: Math.random });
   #feed: Feed | null = null;
   #retry: NodeJS.Timeout | null = null;
   #closed = false;

@@ -1,25 +1,16 @@
 import { Worker } from 'node:worker_threads';
 import type { Logger } from '@farpoint/service';
-import { Backoff, Heartbeat } from '@farpoint/timing';
+import { Backoff, Heartbeat, MEDIA_RETRY, MEDIA_SIGNS_OF_LIFE, MEDIA_SUCCESS_MS } from '@farpoint/timing';
 import type { VideoEncoder as EncoderElement } from '@farpoint/video';
 import type { VideoEncoder, VideoEncoderEvents, VideoFaultReason } from '../video-encoder.ts';
 import type { EncodedFormat } from '../video-plan.ts';
 import type { FeedReport, FeedRequest, RunId } from './feed-messages.ts';
 import type { FeedSource } from './feed-source.ts';
 
-const RETRY = { firstMs: 500, mostMs: 10_000 };
-/**
- * A thread that has lived for so long has succeeded: the next wait is short again, ms. As for programs of
- * media (packages/media-process/src/kept-child.ts).
- */
-const SUCCESS_MS = 10_000;
 /**
  * By then, a thread that was told to end has closed everything, ms. Chosen: as long as its silence may last.
  */
-const END_MS = 5000;
-
-/** The thread says twice a second that it lives. It may take long to start: it loads the code of ROS and the simulator. */
-const SIGNS_OF_LIFE = { firstMs: 30_000, silenceMs: 5000, checkMs: 500 };
+const END_MS = MEDIA_SIGNS_OF_LIFE.silenceMs;
 
 export interface FedCamera {
   name: string;
@@ -50,13 +41,17 @@ export class FeedThread {
   #heartbeat: Heartbeat | null = null;
   #checking: NodeJS.Timeout | null = null;
   #restart: NodeJS.Timeout | null = null;
-  readonly #life: typeof SIGNS_OF_LIFE;
+  readonly #life: typeof MEDIA_SIGNS_OF_LIFE;
   #nextRun: RunId = 0;
   #restarts = 0;
 
   constructor(
     log: Logger,
-    { script = new URL('./feed-worker.ts', import.meta.url), retry = RETRY, life = SIGNS_OF_LIFE } = {},
+    {
+      script = new URL('./feed-worker.ts', import.meta.url),
+      retry = MEDIA_RETRY,
+      life = MEDIA_SIGNS_OF_LIFE,
+    } = {},
   ) {
     this.#life = life;
     this.#log = log;
@@ -168,7 +163,7 @@ export class FeedThread {
 
   #onDeath(reason: VideoFaultReason, what: string, startedMs: number): void {
     this.#forgetWorker();
-    if (performance.now() - startedMs > SUCCESS_MS) this.#backoff.reset();
+    if (performance.now() - startedMs > MEDIA_SUCCESS_MS) this.#backoff.reset();
     for (const [id, run] of this.#runs) if (run.closing) this.#closed(id);
     if (this.#runs.size === 0) return;
     this.#restarts++;
