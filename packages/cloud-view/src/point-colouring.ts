@@ -1,5 +1,7 @@
 /** Sets the shader's uniforms for a cloud's colours, and follows the range of values in view from a few samples. */
+
 import type { Quaternion } from '@farpoint/operator';
+import { MAX_RINGS } from '@farpoint/protocol';
 import { AutoRange } from './auto-range.ts';
 import {
   type CloudColouring,
@@ -12,7 +14,7 @@ import {
 import { type Hazards, setHazards } from './hazards.ts';
 import type { PointUniforms } from './point-material.ts';
 import { elevationOf, intensityOf, turnedZ } from './point-values.ts';
-import { MOST_RINGS, RingEstimator } from './ring-estimate.ts';
+import { RingEstimator } from './ring-estimate.ts';
 import { fillRingTable, ringScale } from './ring-table.ts';
 import { SceneEstimate } from './scene-estimate.ts';
 import { UNLIMITED_M } from './shader-features.ts';
@@ -93,7 +95,7 @@ export class PointColouring implements CloudColouring {
     return this.#knownRings;
   }
   set knownRings(elevations: readonly number[] | null) {
-    const usable = elevations !== null && elevations.length >= 2 && elevations.length <= MOST_RINGS;
+    const usable = elevations !== null && elevations.length >= 2 && elevations.length <= MAX_RINGS;
     this.#knownRings = usable ? elevations : null;
     this.#useRings();
   }

@@ -3,6 +3,7 @@
  * memory, no clock. Clouds without rings, and rings closer together than the points' coordinates resolve, have no
  * estimate: better none than a wrong one.
  */
+import { MAX_RINGS } from '@farpoint/protocol';
 
 /** Bins of 0.05° over all elevations. */
 const BINS = 3600;
@@ -13,7 +14,6 @@ const EVERY_SAMPLES = 2000;
 const MOST_SAMPLES = 100_000;
 /** Fewer rings are none: floor and ceiling of a room crowd, too. */
 const LEAST_RINGS = 4;
-export const MOST_RINGS = 256;
 /** A ring with fewer points is not told from chance. */
 const LEAST_SAMPLES = 8;
 /** Between rings there are fewer points than this share of the lower ring's. */
@@ -68,7 +68,7 @@ export class RingEstimator {
       }
       if (count >= LEAST_SAMPLES) found.push((sum / count) * BIN_RAD - Math.PI / 2);
     });
-    if (found.length < LEAST_RINGS || found.length > MOST_RINGS) return null;
+    if (found.length < LEAST_RINGS || found.length > MAX_RINGS) return null;
     return this.#spread(found) <= MOST_SPREAD ? found : null;
   }
 

@@ -24,7 +24,7 @@ export interface FixedRateOptions {
  * Loss below this fraction counts as none: radio links lose a little without being full. As in
  * draft-ietf-rmcat-gcc-02, 6.
  */
-const CLEAN_LOSS = 0.02;
+export const CLEAN_LOSS = 0.02;
 /** With fewer packets than this, a loss fraction means nothing. */
 const MIN_PACKETS = 20;
 

@@ -25,7 +25,7 @@ export interface PathObservation {
 // What these numbers give together with the others: see adaptive-rate-controller.ts.
 
 /** Base delay and base round trip are minima over this window. Clocks differ by up to 100 ppm: 3 ms in 30 s. */
-const BASE_WINDOW_MS = 30_000;
+export const BASE_WINDOW_MS = 30_000;
 /** If the one-way delay grew by this much more than the round trip did, a clock has jumped, ms. */
 const CLOCK_JUMP_MS = 60;
 /**

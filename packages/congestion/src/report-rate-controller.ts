@@ -1,6 +1,9 @@
 import type { PacketResult } from '@farpoint/rtp';
 import { BitRate, WindowedMinimum } from '@farpoint/timing';
+import { PACING } from './adaptive-rate-controller.ts';
+import { CLEAN_LOSS } from './fixed-rate-controller.ts';
 import { LossJudge } from './loss-judge.ts';
+import { BASE_WINDOW_MS } from './path-observer.ts';
 import {
   emptyDecision,
   type RateController,
@@ -38,13 +41,9 @@ const LEAST_MS = 200;
 const LEAST_PACKETS = 20;
 /** After this time fewer packets suffice, ms: a slow link has no more. */
 const PATIENCE_MS = 1000;
-/** While the delay is unknown, loss above this prevents growth. */
-const CLEAN_LOSS = 0.02;
 /** Above the least round trip, ms: a queue that has to be drained, and one that does not prevent growth. */
 const LONG_QUEUE_MS = 60;
 const SHORT_QUEUE_MS = 30;
-/** The base of the round trip is its minimum over this time, ms, as in path-observer.ts. */
-const BASE_WINDOW_MS = 30_000;
 /** After a cut, the rate is this fraction of what arrived. */
 const KEEP = 0.85;
 /** Growth per second: until the path has shown its limit, after that, and near the last limit. */
@@ -55,8 +54,6 @@ const CREEP = 1.04;
 const NEAR = 0.9;
 /** If less than this fraction of the rate is used, nothing is known about higher rates. */
 const USED = 0.7;
-/** As in adaptive-rate-controller.ts. */
-const PACING = 1.1;
 /** Weight of the newest interval between two reports. */
 const SMOOTHING = 0.2;
 /** Weight of the newest change in the noise of the round trip; and the largest change that counts, ms. */

@@ -2,9 +2,7 @@
  * The four bytes before each serialised message: the kind of CDR, and the number of padding bytes at the end. Source:
  * DDSI-RTPS 2.5, 10.5 (SerializedPayload) and DDS-XTypes 1.3, 7.6.3.1.2.
  */
-import { RosFault } from '@farpoint/ros';
-
-export const ENCAPSULATION_BYTES = 4;
+import { ENCAPSULATION_BYTES, RosFault } from '@farpoint/ros';
 
 /** Final types in either version of CDR and either byte order, as ROS messages are sent. */
 const READABLE: ReadonlySet<number> = new Set([0x0000, 0x0001, 0x0006, 0x0007]);

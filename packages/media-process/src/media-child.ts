@@ -16,6 +16,14 @@ export type ChildEnd =
   | 'hung' // it said nothing any more, or did nothing, and was killed
   | 'ended'; // it ended, crashed or was killed
 
+/** The reason of a failure for each of these ends. */
+export const REASON_OF_END = {
+  'not-started': 'not-built',
+  'bad-output': 'bad-output',
+  hung: 'process-hung',
+  ended: 'process-lost',
+} as const satisfies Record<ChildEnd, string>;
+
 export interface MediaChildEvents {
   /** @throws {WireError} if the message is not valid: the program is ended */
   readonly onMessage: (message: WireMessage) => void;

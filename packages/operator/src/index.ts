@@ -139,6 +139,7 @@ export type { MapPlace, NavigatorMap } from './session/navigator-map.ts';
 export type { NavigatorPath } from './session/navigator-path.ts';
 export type { NearSurroundings } from './session/near-surroundings.ts';
 export { type AgedReading, Readings } from './session/readings.ts';
+export { LOST_AFTER_MS } from './session/resume-policy.ts';
 export { RobotModel } from './session/robot-model.ts';
 export type { RobotSession } from './session/robot-session.ts';
 export type { SessionPhase } from './session/session-keeper.ts';

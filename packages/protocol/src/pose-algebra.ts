@@ -4,6 +4,12 @@
  */
 import type { Pose, Quaternion, Vector3 } from './geometry.ts';
 
+/**
+ * Optical axes (z forward, x right, y down) in a body whose axes are x forward, y left, z up (REP-103): a quarter turn
+ * each.
+ */
+export const OPTICAL_IN_BODY: Readonly<Quaternion> = { x: -0.5, y: 0.5, z: -0.5, w: 0.5 };
+
 /** The rotation that applies `b` first, then `a`. */
 export function multiply(a: Quaternion, b: Quaternion): Quaternion {
   return {

@@ -1,6 +1,6 @@
 /** ROS 2 messages in CDR, as our recordings contain them. */
 import type { Pose, Twist } from '@farpoint/protocol';
-import { velocityWriter } from '@farpoint/ros';
+import { FLOAT32, velocityWriter } from '@farpoint/ros';
 import { parse } from '@foxglove/rosmsg';
 import { MessageWriter } from '@foxglove/rosmsg2-serialization';
 import { RECORDED_POINT_BYTES } from './captured-cloud.ts';
@@ -25,7 +25,6 @@ const odometry = writerOf(ODOMETRY_SCHEMA);
 const pictures = writerOf(FOXGLOVE_COMPRESSED_IMAGE_SCHEMA);
 const videos = writerOf(FOXGLOVE_COMPRESSED_VIDEO_SCHEMA);
 
-const FLOAT32 = 7;
 const FIELDS = ['x', 'y', 'z', 'rgb'].map((name, i) => ({
   name,
   offset: i * 4,

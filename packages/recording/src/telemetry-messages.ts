@@ -1,12 +1,12 @@
 /** Quantities, alarms and reports of components as ROS 2 messages in CDR. */
-import type { Alarm, DiagnosticLevel, DiagnosticReport } from '@farpoint/protocol';
+import type { Alarm, DiagnosticReport } from '@farpoint/protocol';
+import { DIAGNOSTIC_LEVELS } from '@farpoint/ros';
 import { ALARM_SCHEMA, DIAGNOSTIC_ARRAY_SCHEMA, SAMPLE_SCHEMA } from './ros-schemas.ts';
 import { cdrText, headerOf, writerOf } from './ros-writer.ts';
 
 /** The key under which a component's report says since when it has had its level. */
 export const SINCE_KEY = 'since';
 
-const LEVELS: readonly DiagnosticLevel[] = ['ok', 'warn', 'error', 'stale'];
 const NS_PER_MS = 1_000_000n;
 
 const samples = writerOf(SAMPLE_SCHEMA);
@@ -34,7 +34,7 @@ export function diagnosticArray(
   nsOf: (ms: number) => bigint,
 ): Uint8Array {
   const status = reports.map(({ name, level, message, sinceMs }) => ({
-    level: LEVELS.indexOf(level),
+    level: DIAGNOSTIC_LEVELS.indexOf(level),
     name: cdrText(name),
     message: cdrText(message),
     hardware_id: '',

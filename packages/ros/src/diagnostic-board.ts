@@ -7,7 +7,8 @@ import { diagnosticArraySchema } from './messages.ts';
 const STALE_MS = 10_000;
 const MOST_NAMES = 1024;
 const STALE = 3;
-const LEVELS: readonly DiagnosticLevel[] = ['ok', 'warn', 'error', 'stale'];
+/** By the numbers of diagnostic_msgs/DiagnosticStatus. */
+export const DIAGNOSTIC_LEVELS: readonly DiagnosticLevel[] = ['ok', 'warn', 'error', 'stale'];
 
 type Status = z.infer<typeof diagnosticArraySchema>['status'][number];
 
@@ -50,7 +51,7 @@ export class DiagnosticBoard {
       name,
       message,
       sinceMs,
-      level: LEVELS[level] ?? 'error',
+      level: DIAGNOSTIC_LEVELS[level] ?? 'error',
     }));
   }
 

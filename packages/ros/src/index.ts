@@ -1,7 +1,7 @@
 export { BatteryGauge, type GaugeReading } from './battery-gauge.ts';
 export { compressedPicture } from './compressed-picture.ts';
 export { definitionsOf } from './definitions.ts';
-export { DiagnosticBoard } from './diagnostic-board.ts';
+export { DIAGNOSTIC_LEVELS, DiagnosticBoard } from './diagnostic-board.ts';
 export { messageFault, RosFault, type RosFaultCode } from './fault.ts';
 export {
   type AdvertiseAs,
@@ -56,11 +56,13 @@ export {
 export { type FramePose, NavigationTopic } from './navigation-topic.ts';
 export { type ImageRows, MOST_PICTURE_PIXELS, pictureRows } from './picture-rows.ts';
 export { axesOf, checkedCount, PointCloud2Decoder } from './point-cloud2.ts';
+export { FLOAT32 } from './point-field.ts';
 export type { CloudAxes } from './point-words.ts';
 export { RateLimit } from './rate-limit.ts';
 export { fixStampNs, readingOf, shortened, type TopicReading } from './reading.ts';
 export { numbersOf, quantitiesOf, type TopicQuantity } from './topic-quantities.ts';
 export {
+  MOST_TOPICS,
   qosOf,
   ros1TypeOf,
   ros2TypeOf,
@@ -78,6 +80,7 @@ export { ModelTopic, modelReading, newsOf } from './urdf/model-topic.ts';
 export { type JointNews, type ModelNews, type RobotModel, readUrdf } from './urdf/read-urdf.ts';
 export { UrdfFault, type UrdfFaultCode, urdfFaultCodes } from './urdf/urdf-fault.ts';
 export { type VelocityWriter, velocityWriter } from './velocity.ts';
+export { ENCAPSULATION_BYTES } from './wire-check.ts';
 export {
   type BaseMotion,
   type PlacedSensor,

@@ -1,5 +1,5 @@
 /** A navigator's topic: paths or maps, placed in the robot's world as far as it is known where their frames are. */
-import type { Pose } from '@farpoint/protocol';
+import { type Pose, READING_LIMITS } from '@farpoint/protocol';
 import type { NavigationNews, NavigationRefusal } from './navigation-news.ts';
 import { type FramedMap, placeMap, readMap } from './occupancy-map.ts';
 import { type FramedPath, placePath, readPath } from './planned-path.ts';
@@ -10,8 +10,6 @@ import type { TopicEntry } from './topic-table.ts';
 export type FramePose = (frameId: string, stampNs: bigint) => Pose | null;
 
 const LABELS = { path: 'Path', map: 'Map' } as const;
-/** As {@link shortened} cuts a label. */
-const MOST_LABEL = 40;
 const MOST_FRAME = 20;
 
 interface Unplaced {
@@ -64,7 +62,7 @@ export class NavigationTopic {
     const { topic, label } = this.#entry;
     return {
       topic,
-      label: shortened(label ?? LABELS[this.#kind], MOST_LABEL),
+      label: shortened(label ?? LABELS[this.#kind], READING_LIMITS.label),
       level: news.kind === 'refused' ? 'warn' : 'ok',
       values: [['', wordsOf(news)]],
       navigation: news,

@@ -2,14 +2,13 @@
  * Finds the elevations of a LiDAR's rings from clouds that say which ring measured a point: by a field `ring` (as of
  * Velodyne's and Ouster's drivers), or by rows. A few clouds are enough, and then no more are looked at.
  */
+import { MAX_RINGS } from '@farpoint/protocol';
 import type { PointCloud2 } from './messages.ts';
 import { fieldReader, readableField } from './point-field.ts';
 
 /** Clouds that are looked at, and points of each. */
 const MOST_CLOUDS = 20;
 const MOST_POINTS = 8192;
-/** Drivers have no more, and receivers take no more. */
-const MOST_RINGS = 256;
 const LEAST_RINGS = 2;
 /** A ring's elevation is the mean of at least so many points. */
 const LEAST_POINTS = 8;
@@ -27,9 +26,9 @@ const MOST_DEVIATION = 0.4;
 const RING_FIELDS = ['ring', 'channel'];
 
 export class RingFinder {
-  readonly #count = new Uint32Array(MOST_RINGS);
-  readonly #sum = new Float64Array(MOST_RINGS);
-  readonly #squares = new Float64Array(MOST_RINGS);
+  readonly #count = new Uint32Array(MAX_RINGS);
+  readonly #sum = new Float64Array(MAX_RINGS);
+  readonly #squares = new Float64Array(MAX_RINGS);
   #clouds = 0;
   #elevations: readonly number[] | null = null;
 
@@ -51,7 +50,7 @@ export class RingFinder {
       const [x, y, z] = [points[i * 4]!, points[i * 4 + 1]!, points[i * 4 + 2]!];
       const ring = ringOf(i);
       // NaN fails the comparison.
-      if (!(Math.hypot(x, y, z) >= LEAST_RANGE_M) || !(ring >= 0 && ring < MOST_RINGS)) continue;
+      if (!(Math.hypot(x, y, z) >= LEAST_RANGE_M) || !(ring >= 0 && ring < MAX_RINGS)) continue;
       const elevation = Math.atan2(-y, Math.hypot(x, z));
       this.#count[ring]!++;
       this.#sum[ring]! += elevation;
@@ -65,7 +64,7 @@ export class RingFinder {
   #find(): number[] | null {
     const means: number[] = [];
     let [deviations, points] = [0, 0];
-    for (let ring = 0; ring < MOST_RINGS; ring++) {
+    for (let ring = 0; ring < MAX_RINGS; ring++) {
       const count = this.#count[ring]!;
       if (count < LEAST_POINTS) continue;
       const mean = this.#sum[ring]! / count;
@@ -86,5 +85,5 @@ function ringReader(cloud: PointCloud2): ((point: number) => number) | null {
   const { width, height } = cloud;
   const field = readableField(cloud, ...RING_FIELDS);
   if (field !== undefined) return fieldReader(cloud, field);
-  return height >= LEAST_RINGS && height <= MOST_RINGS ? (point) => Math.floor(point / width) : null;
+  return height >= LEAST_RINGS && height <= MAX_RINGS ? (point) => Math.floor(point / width) : null;
 }

@@ -56,7 +56,8 @@ const MOST_TOLD: Partial<Record<TopicRole, number>> = {
   model: 1,
   joints: 20,
 };
-const MOST_TOPICS = 64;
+/** Topics of a table. Chosen: more than any robot here has; a page keeps readings of as many. */
+export const MOST_TOPICS = 64;
 /** Suffix of image_transport's topics, and their type. */
 const COMPRESSED_SUFFIX = '/compressed';
 const COMPRESSED_IMAGE = 'sensor_msgs/msg/CompressedImage';

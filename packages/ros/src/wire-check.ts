@@ -8,7 +8,8 @@
 import type { MessageDefinition, MessageDefinitionField } from '@foxglove/message-definition';
 import { RosFault } from './fault.ts';
 
-const HEADER_BYTES = 4;
+/** The kind of CDR, and the number of padding bytes at the end, before each ROS 2 message. */
+export const ENCAPSULATION_BYTES = 4;
 const FIRST_OF_VERSION_2 = 6;
 /** Final types in either version of CDR and either byte order, as ROS messages are written. */
 const READABLE: ReadonlySet<number> = new Set([0, 1, 6, 7]);
@@ -103,7 +104,7 @@ class Cursor {
   readonly #mostAligned: number;
 
   constructor(bytes: Uint8Array, layout: WireLayout) {
-    this.#begin = this.offset = layout === 'cdr' ? HEADER_BYTES : 0;
+    this.#begin = this.offset = layout === 'cdr' ? ENCAPSULATION_BYTES : 0;
     this.emptyBytes = layout === 'cdr' ? 1 : 0;
     if (layout === 'ros1') {
       this.#view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
@@ -111,7 +112,8 @@ class Cursor {
       this.#mostAligned = 1;
       return;
     }
-    if (bytes.length < HEADER_BYTES) throw ended(bytes.length, 'its header', HEADER_BYTES, bytes.length);
+    if (bytes.length < ENCAPSULATION_BYTES)
+      throw ended(bytes.length, 'its header', ENCAPSULATION_BYTES, bytes.length);
     this.#view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const representation = this.#view.getUint16(0);
     // The library would take some of the others for another version of CDR than is checked here.

@@ -1,4 +1,12 @@
-import { type Battery, compose, inverse, type Pose, type Quaternion, type Twist } from '@farpoint/protocol';
+import {
+  type Battery,
+  compose,
+  inverse,
+  OPTICAL_IN_BODY,
+  type Pose,
+  type Quaternion,
+  type Twist,
+} from '@farpoint/protocol';
 import { BatteryGauge } from './battery-gauge.ts';
 import {
   BATTERY_TYPES,
@@ -16,8 +24,6 @@ import type { CloudAxes } from './point-words.ts';
 import { STATIC_SUFFIX } from './topic-table.ts';
 import { isLocalised, TransformTree } from './transform-tree.ts';
 
-/** Optical axes (z forward, x right, y down) in a body whose axes are x forward, y left, z up. */
-const OPTICAL_IN_BODY: Quaternion = { x: -0.5, y: 0.5, z: -0.5, w: 0.5 };
 const NO_TURN: Quaternion = { x: 0, y: 0, z: 0, w: 1 };
 const ORIGIN: Pose = { position: { x: 0, y: 0, z: 0 }, orientation: NO_TURN };
 /** Assumed pose of a camera of which nobody says where it sits: 1 m above the ground, looking ahead. For the picture only. */

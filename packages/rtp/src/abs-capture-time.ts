@@ -5,7 +5,7 @@
  *     0  u64 capture time, NTP, UQ32.32 s
  *     8  i64 estimated capture clock offset, Q32.32 s; only in the form of 16 bytes
  */
-import { type NtpTime, readNtp, writeNtp } from './ntp-time.ts';
+import { NTP_UNIT, type NtpTime, readNtp, writeNtp } from './ntp-time.ts';
 
 export const ABS_CAPTURE_TIME_URI = 'http://www.webrtc.org/experiments/rtp-hdrext/abs-capture-time';
 export const ABS_CAPTURE_TIME_BYTES = 8;
@@ -23,7 +23,6 @@ export interface AbsCaptureTime {
 
 /** Of the seconds of an offset, which are signed. */
 const MAX_OFFSET_SECONDS = 0x8000_0000;
-const UNIT = 0x1_0000_0000;
 
 /**
  * Writes the data of the extension element, without its header (RFC 8285).
@@ -41,7 +40,7 @@ export function writeAbsCaptureTime(time: AbsCaptureTime, into: Uint8Array, at: 
   if (!(seconds >= -MAX_OFFSET_SECONDS && seconds < MAX_OFFSET_SECONDS))
     throw new RangeError(`a clock offset of ${clockOffsetMs} ms does not fit`);
   // The fraction counts upwards from the seconds, also below zero. Rounding must not make it a whole second.
-  const fraction = Math.min(UNIT - 1, Math.floor((clockOffsetMs / 1000 - seconds) * UNIT));
+  const fraction = Math.min(NTP_UNIT - 1, Math.floor((clockOffsetMs / 1000 - seconds) * NTP_UNIT));
   writeNtp(view, at + ABS_CAPTURE_TIME_BYTES, { seconds, fraction });
   return ABS_CAPTURE_TIME_WITH_OFFSET_BYTES;
 }
@@ -57,7 +56,7 @@ export function readAbsCaptureTime(data: Uint8Array): AbsCaptureTime | null {
   const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
   const clockOffsetMs = hasOffset
     ? view.getInt32(ABS_CAPTURE_TIME_BYTES) * 1000 +
-      (view.getUint32(ABS_CAPTURE_TIME_BYTES + 4) / UNIT) * 1000
+      (view.getUint32(ABS_CAPTURE_TIME_BYTES + 4) / NTP_UNIT) * 1000
     : null;
   return { captured: readNtp(view, 0), clockOffsetMs };
 }

@@ -1,8 +1,7 @@
+import { FEEDBACK_HEADER_BYTES } from './feedback-header.ts';
 import { FMT_GENERIC_NACK } from './nack.ts';
 import { SequenceNumber } from './sequence-number.ts';
 import { RTCP_TRANSPORT_FEEDBACK } from './transport-feedback.ts';
-
-const HEADER_BYTES = 12;
 
 /**
  * Writes a generic NACK (nack.ts).
@@ -17,7 +16,7 @@ export function writeNack(senderSsrc: number, mediaSsrc: number, missing: readon
     if (last !== undefined && ahead >= 1 && ahead <= 16) last.more |= 1 << (ahead - 1);
     else entries.push({ first: SequenceNumber.of(sequence), more: 0 });
   }
-  const bytes = new Uint8Array(HEADER_BYTES + entries.length * 4);
+  const bytes = new Uint8Array(FEEDBACK_HEADER_BYTES + entries.length * 4);
   const view = new DataView(bytes.buffer);
   view.setUint8(0, 0x80 | FMT_GENERIC_NACK);
   view.setUint8(1, RTCP_TRANSPORT_FEEDBACK);
@@ -25,8 +24,8 @@ export function writeNack(senderSsrc: number, mediaSsrc: number, missing: readon
   view.setUint32(4, senderSsrc);
   view.setUint32(8, mediaSsrc);
   for (const [i, { first, more }] of entries.entries()) {
-    view.setUint16(HEADER_BYTES + i * 4, first);
-    view.setUint16(HEADER_BYTES + i * 4 + 2, more);
+    view.setUint16(FEEDBACK_HEADER_BYTES + i * 4, first);
+    view.setUint16(FEEDBACK_HEADER_BYTES + i * 4 + 2, more);
   }
   return bytes;
 }

@@ -6,7 +6,8 @@ export interface NtpTime {
   fraction: number;
 }
 
-const UNIT = 0x1_0000_0000;
+/** Parts of a second in an NTP fraction. */
+export const NTP_UNIT = 0x1_0000_0000;
 /** From 1900 to the Unix epoch, s. */
 const UNIX_EPOCH = 2_208_988_800;
 
@@ -20,8 +21,8 @@ export function ntpOfUnixMs(unixMs: number): NtpTime {
   const seconds = Math.floor(wholeMs / 1000);
   const ms = wholeMs - seconds * 1000 + (unixMs - wholeMs);
   // Only a rounded product can reach a whole second.
-  const fraction = Math.min(UNIT - 1, Math.floor((ms / 1000) * UNIT));
-  return { seconds: (seconds + UNIX_EPOCH) % UNIT, fraction };
+  const fraction = Math.min(NTP_UNIT - 1, Math.floor((ms / 1000) * NTP_UNIT));
+  return { seconds: (seconds + UNIX_EPOCH) % NTP_UNIT, fraction };
 }
 
 /**
@@ -31,7 +32,10 @@ export function ntpOfUnixMs(unixMs: number): NtpTime {
  * @param nanoseconds 0–999,999,999
  */
 export function ntpOfUnixNanoseconds(unixSeconds: number, nanoseconds: number): NtpTime {
-  return { seconds: (unixSeconds + UNIX_EPOCH) % UNIT, fraction: Math.floor((nanoseconds / 1e9) * UNIT) };
+  return {
+    seconds: (unixSeconds + UNIX_EPOCH) % NTP_UNIT,
+    fraction: Math.floor((nanoseconds / 1e9) * NTP_UNIT),
+  };
 }
 
 /**
@@ -39,8 +43,8 @@ export function ntpOfUnixNanoseconds(unixSeconds: number, nanoseconds: number): 
  * is not set have wrapped (RFC 4330 §3).
  */
 export function unixMsOfNtp({ seconds, fraction }: NtpTime): number {
-  const wrapped = seconds < UNIT / 2 ? UNIT : 0;
-  return (seconds + wrapped - UNIX_EPOCH) * 1000 + (fraction / UNIT) * 1000;
+  const wrapped = seconds < NTP_UNIT / 2 ? NTP_UNIT : 0;
+  return (seconds + wrapped - UNIX_EPOCH) * 1000 + (fraction / NTP_UNIT) * 1000;
 }
 
 /** Reads 8 bytes, big-endian. */

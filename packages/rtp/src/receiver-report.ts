@@ -3,9 +3,10 @@
 export const RTCP_SENDER_REPORT = 200;
 export const RTCP_RECEIVER_REPORT = 201;
 
+/** RTCP's header and the SSRC of the sender; what a sender report has in addition; a report block: bytes. */
 const HEADER_BYTES = 8;
 const SENDER_INFO_BYTES = 20;
-const BLOCK_BYTES = 24;
+export const REPORT_BLOCK_BYTES = 24;
 
 export interface ReportBlock {
   /** Of the stream that the block reports on. */
@@ -32,10 +33,10 @@ export function readReportBlocks(
 ): boolean {
   const begin = HEADER_BYTES + (packetType === RTCP_SENDER_REPORT ? SENDER_INFO_BYTES : 0);
   const count = (bytes[0] ?? 0) & 0x1f;
-  if (bytes.byteLength < begin + count * BLOCK_BYTES) return false;
+  if (bytes.byteLength < begin + count * REPORT_BLOCK_BYTES) return false;
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const block: ReportBlock = { ssrc: 0, packetsLost: 0, highestSequence: 0, jitter: 0 };
-  for (let at = begin; at < begin + count * BLOCK_BYTES; at += BLOCK_BYTES) {
+  for (let at = begin; at < begin + count * REPORT_BLOCK_BYTES; at += REPORT_BLOCK_BYTES) {
     block.ssrc = view.getUint32(at);
     // Signed, 24 bits.
     block.packetsLost = (view.getInt32(at + 4) << 8) >> 8;

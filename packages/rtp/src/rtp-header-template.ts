@@ -4,9 +4,7 @@
  * change from packet to packet, so the header is written once and then patched.
  */
 import { type NtpTime, writeNtp } from './ntp-time.ts';
-
-const FIXED_BYTES = 12;
-const EXTENSION_PROFILE_ONE_BYTE = 0xbede;
+import { ONE_BYTE_PROFILE, RTP_FIXED_BYTES } from './rtp-header.ts';
 
 export interface RtpHeaderParameters {
   /** 0–127. */
@@ -39,11 +37,11 @@ export class RtpHeaderTemplate {
       (midExtensionId === undefined ? 0 : 1 + mid.length) +
       (captureTimeExtensionId === undefined ? 0 : 9);
     const words = Math.ceil(elements / 4);
-    const bytes = new Uint8Array(FIXED_BYTES + 4 + words * 4);
+    const bytes = new Uint8Array(RTP_FIXED_BYTES + 4 + words * 4);
     const view = new DataView(bytes.buffer);
     bytes[0] = 0x90; // version 2, extension
     view.setUint32(8, ssrc);
-    view.setUint16(12, EXTENSION_PROFILE_ONE_BYTE);
+    view.setUint16(12, ONE_BYTE_PROFILE);
     view.setUint16(14, words);
     let at = 16;
     if (transportSequenceExtensionId === undefined) {

@@ -10,8 +10,10 @@ export interface RtpHeaderView {
   transportSequence: number;
 }
 
-const FIXED_BYTES = 12;
-const ONE_BYTE_PROFILE = 0xbede;
+/** Without CSRCs and extension (RFC 3550 §5.1), bytes. */
+export const RTP_FIXED_BYTES = 12;
+/** Says that one-byte extension elements follow (RFC 8285 §4.2). */
+export const ONE_BYTE_PROFILE = 0xbede;
 
 export function emptyRtpHeader(): RtpHeaderView {
   return { bytes: 0, payloadType: 0, sequence: 0, ssrc: 0, transportSequence: -1 };
@@ -23,14 +25,14 @@ export function emptyRtpHeader(): RtpHeaderView {
  * @returns false if it is no RTP packet
  */
 export function readRtpHeader(packet: Uint8Array, extensionId: number, into: RtpHeaderView): boolean {
-  if (packet.length < FIXED_BYTES) return false;
+  if (packet.length < RTP_FIXED_BYTES) return false;
   const first = packet[0] as number;
   if (first >> 6 !== 2) return false;
   into.payloadType = (packet[1] as number) & 0x7f;
   into.sequence = u16(packet, 2);
   into.ssrc = u16(packet, 8) * 0x1_0000 + u16(packet, 10);
   into.transportSequence = -1;
-  let at = FIXED_BYTES + (first & 0x0f) * 4;
+  let at = RTP_FIXED_BYTES + (first & 0x0f) * 4;
   if ((first & 0x10) !== 0) {
     if (packet.length < at + 4) return false;
     const end = at + 4 + u16(packet, at + 2) * 4;

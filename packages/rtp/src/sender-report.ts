@@ -8,10 +8,9 @@
  *    20  u32 packets sent             24  u32 octets of payload sent
  */
 import { type NtpTime, readNtp, writeNtp } from './ntp-time.ts';
-import { RTCP_SENDER_REPORT } from './receiver-report.ts';
+import { REPORT_BLOCK_BYTES, RTCP_SENDER_REPORT } from './receiver-report.ts';
 
 const BYTES = 28;
-const BLOCK_BYTES = 24;
 
 export interface SenderReport {
   ssrc: number;
@@ -58,7 +57,7 @@ export function readSenderReport(
   const first = view.getUint8(0);
   if (first >> 6 !== 2 || view.getUint8(1) !== RTCP_SENDER_REPORT) return 'not-sender-report';
   if ((view.getUint16(2) + 1) * 4 !== bytes.byteLength) return 'bad-length';
-  if (bytes.byteLength < BYTES + (first & 0x1f) * BLOCK_BYTES) return 'truncated';
+  if (bytes.byteLength < BYTES + (first & 0x1f) * REPORT_BLOCK_BYTES) return 'truncated';
   onReport({
     ssrc: view.getUint32(4),
     ntp: readNtp(view, 8),

@@ -1,13 +1,16 @@
 /** Counterpart of transport-feedback.ts: what a receiver reports about the packets that arrived. */
 import { SequenceNumber } from './sequence-number.ts';
-import { FMT_TRANSPORT_WIDE, RTCP_TRANSPORT_FEEDBACK } from './transport-feedback.ts';
+import {
+  FMT_TRANSPORT_WIDE,
+  LARGE_DELTA,
+  NOT_RECEIVED,
+  RTCP_TRANSPORT_FEEDBACK,
+  SMALL_DELTA,
+  TRANSPORT_FEEDBACK,
+} from './transport-feedback.ts';
 
-const HEADER_BYTES = 20;
-const DELTA_US = 250;
-const REFERENCE_US = 64_000;
-const NOT_RECEIVED = 0;
-const SMALL_DELTA = 1;
-const LARGE_DELTA = 2;
+const { headerBytes: HEADER_BYTES, deltaUs: DELTA_US, referenceUs: REFERENCE_US } = TRANSPORT_FEEDBACK;
+/** A run length chunk counts in 13 bits (§3.1.3 of the draft). */
 const MAX_RUN = 0x1fff;
 /** Two-bit symbols in a status vector chunk. */
 const VECTOR_SYMBOLS = 7;

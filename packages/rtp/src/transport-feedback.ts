@@ -57,14 +57,14 @@ export interface TransportFeedback {
   packets: PacketStatus[];
 }
 
-const HEADER_BYTES = 20;
-const DELTA_US = 250;
+/** The layout above as numbers, for the writer, too; bytes and µs. */
+export const TRANSPORT_FEEDBACK = { headerBytes: 20, deltaUs: 250, referenceUs: 64_000 } as const;
 /** Forty bytes can name 65,535 packets. A sender remembers fewer (`SentPacketHistory`): 1.6 s of 10,000 a second. */
 const MAX_STATUSES = 16_384;
 /** Status symbols; 3 is reserved. */
-const NOT_RECEIVED = 0;
-const SMALL_DELTA = 1;
-const LARGE_DELTA = 2;
+export const NOT_RECEIVED = 0;
+export const SMALL_DELTA = 1;
+export const LARGE_DELTA = 2;
 
 /**
  * Parses one RTCP packet, which must fill `bytes` exactly.
@@ -96,7 +96,7 @@ export function parseTransportFeedback(bytes: Uint8Array): TransportFeedback {
     if (offset + size > end) {
       throw new TransportFeedbackError('truncated', offset, `no receive delta for packet ${sequence}`);
     }
-    timeUs += (size === 1 ? view.getUint8(offset) : view.getInt16(offset)) * DELTA_US;
+    timeUs += (size === 1 ? view.getUint8(offset) : view.getInt16(offset)) * TRANSPORT_FEEDBACK.deltaUs;
     offset += size;
     packets[i] = { sequence, received: true, arrivalUs: timeUs };
   }
@@ -112,8 +112,12 @@ export function parseTransportFeedback(bytes: Uint8Array): TransportFeedback {
 
 /** Checks the RTCP header. @returns where chunks and deltas end, before the padding */
 function contentEnd(view: DataView): number {
-  if (view.byteLength < HEADER_BYTES) {
-    throw new TransportFeedbackError('truncated', 0, `${view.byteLength} bytes, ${HEADER_BYTES} needed`);
+  if (view.byteLength < TRANSPORT_FEEDBACK.headerBytes) {
+    throw new TransportFeedbackError(
+      'truncated',
+      0,
+      `${view.byteLength} bytes, ${TRANSPORT_FEEDBACK.headerBytes} needed`,
+    );
   }
   const first = view.getUint8(0);
   if (
@@ -129,7 +133,7 @@ function contentEnd(view: DataView): number {
   }
   if ((first & 0x20) === 0) return length;
   const padding = view.getUint8(length - 1);
-  if (padding === 0 || padding > length - HEADER_BYTES) {
+  if (padding === 0 || padding > length - TRANSPORT_FEEDBACK.headerBytes) {
     throw new TransportFeedbackError('bad-padding', length - 1, `${padding} bytes of padding`);
   }
   return length - padding;
@@ -137,7 +141,7 @@ function contentEnd(view: DataView): number {
 
 /** Expands the chunks into one symbol per packet. @returns where the deltas begin */
 function readChunks(view: DataView, end: number, symbols: Uint8Array): number {
-  let offset = HEADER_BYTES;
+  let offset = TRANSPORT_FEEDBACK.headerBytes;
   let at = 0;
   while (at < symbols.length) {
     if (offset + 2 > end) {

@@ -1,9 +1,9 @@
-import { type CameraIntrinsics, compose, multiply, type Pose } from '@farpoint/protocol';
+import { type CameraIntrinsics, compose, multiply, OPTICAL_IN_BODY, type Pose } from '@farpoint/protocol';
 import { type CameraOptions, type Images, StereoCamera, type WasmSource } from './camera.ts';
 import { SimulationError } from './errors.ts';
 import { type Part, STRIDE } from './figures.ts';
 import { compileScene } from './scene.ts';
-import { BODY_TO_OPTICAL, cos, fromYaw, sin } from './trigonometry.ts';
+import { cos, fromYaw, sin } from './trigonometry.ts';
 import type { WorldDescription } from './world.ts';
 import { type BodyPlace, basePose, type WorldSnapshot } from './world-snapshot.ts';
 
@@ -49,7 +49,7 @@ export class SimulatedCamera {
     this.intrinsics = camera.intrinsics;
     const { forward, left, up, pitch, yaw } = camera.options;
     const down = { x: 0, y: sin(pitch / 2), z: 0, w: cos(pitch / 2) };
-    const level = multiply(down, BODY_TO_OPTICAL);
+    const level = multiply(down, OPTICAL_IN_BODY);
     const orientation = yaw === 0 ? level : multiply(fromYaw(yaw), level);
     this.#mount = { position: { x: forward, y: left, z: up }, orientation };
   }

@@ -1,7 +1,6 @@
-import { compose, type Pose } from '@farpoint/protocol';
+import { compose, OPTICAL_IN_BODY, type Pose } from '@farpoint/protocol';
 import type { WasmSource } from './camera.ts';
 import { SimulatedCamera } from './simulated-camera.ts';
-import { BODY_TO_OPTICAL } from './trigonometry.ts';
 import type { WorldDescription } from './world.ts';
 import { basePose, type WorldSnapshot } from './world-snapshot.ts';
 
@@ -78,7 +77,7 @@ export class SimulatedLidar {
     this.#beams = beamsOf(options, views);
     this.#points = new Float32Array(this.#beams.length * 4);
     this.#words = new Uint32Array(this.#points.buffer);
-    this.#mount = { position: { x: 0, y: 0, z: options.up }, orientation: BODY_TO_OPTICAL };
+    this.#mount = { position: { x: 0, y: 0, z: options.up }, orientation: OPTICAL_IN_BODY };
     this.#noiseState = (seed ^ 0x9e3779b9) >>> 0 || 1;
   }
 

@@ -1,17 +1,17 @@
 /** The program `farpoint-sound`, started again when it ends. */
 import {
-  type ChildEnd,
   KeptChild,
   type LogLine,
   MediaChild,
   mediaEnvironment,
+  REASON_OF_END,
   type Retry,
   type WireMessage,
   writeOpen,
 } from '@farpoint/media-process';
 import { ADDON_FILE } from './build.ts';
 import { parseError, parseState } from './process-messages.ts';
-import { type SoundFailure, type SoundFailureReason, type SoundRole, soundFailure } from './sound-failure.ts';
+import { type SoundFailure, type SoundRole, soundFailure } from './sound-failure.ts';
 import { FROM_PROCESS, MessageParser, parseSound, type SoundPacket, writeConfigure } from './wire.ts';
 
 export interface SoundProcessEvents {
@@ -36,13 +36,6 @@ export interface SoundProcessOptions extends SoundProcessEvents {
   readonly program?: string | undefined;
   readonly env?: NodeJS.ProcessEnv | undefined;
 }
-
-const REASON_OF_END: Record<ChildEnd, SoundFailureReason> = {
-  'not-started': 'not-built',
-  'bad-output': 'bad-output',
-  hung: 'process-hung',
-  ended: 'process-lost',
-};
 
 export class SoundProcess {
   readonly #options: SoundProcessOptions;

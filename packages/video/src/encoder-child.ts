@@ -1,8 +1,8 @@
 /** One run of the program `farpoint-video`, from its start to its end. */
-import { type ChildEnd, MediaChild, type WireMessage } from '@farpoint/media-process';
+import { MediaChild, REASON_OF_END, type WireMessage } from '@farpoint/media-process';
 import { EncoderProgress } from './encoder-progress.ts';
 import { type LogLine, parseError, parseState, type VideoState } from './process-messages.ts';
-import { type VideoFailure, type VideoFailureReason, videoFailure } from './video-failure.ts';
+import { type VideoFailure, videoFailure } from './video-failure.ts';
 import {
   type CodedPicture,
   type EncodedFrame,
@@ -28,13 +28,6 @@ export interface EncoderChildEvents {
   /** Once, unless it was closed. The process is gone by then. */
   readonly onEnd: (failure: VideoFailure) => void;
 }
-
-const REASON_OF_END: Record<ChildEnd, VideoFailureReason> = {
-  'not-started': 'not-built',
-  'bad-output': 'bad-output',
-  hung: 'process-hung',
-  ended: 'process-lost',
-};
 
 export class EncoderChild {
   readonly #child: MediaChild;

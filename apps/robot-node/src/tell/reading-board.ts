@@ -1,8 +1,6 @@
 import type { Reading } from '@farpoint/protocol';
-import type { TopicReading } from '@farpoint/ros';
+import { MOST_TOPICS, type TopicReading } from '@farpoint/ros';
 
-/** More than the topics of any table. */
-const MOST_TOPICS = 64;
 /**
  * A reading without an update is sent again after this long: it may have been lost, or a new operator may have
  * connected, ms.

@@ -58,4 +58,4 @@ export class PoseFollower {
  * Farther from one pose to the next, the robot is at another place, and nothing is blended, m. Chosen: no
  * robot here drives so far between two poses.
  */
-const JUMP_M = 2;
+export const JUMP_M = 2;

@@ -1,17 +1,11 @@
 /** The texts with which the page tells of alarms. */
-import type { Alarm } from '@farpoint/operator';
+import { type Alarm, LOST_AFTER_MS } from '@farpoint/operator';
 import type { Words } from './words.ts';
-
-/**
- * Without a word from the robot for so long, an alarm may have ended or become worse, ms: as its path is
- * called lost (resume-policy.ts of the operator package).
- */
-const STALE_MS = 1000;
 
 /** @param silentMs how long nothing has been heard of the robot, ms */
 export function alarmWords({ level, text, value, limit, unit, recorded }: Alarm, silentMs: number): Words {
   const withUnit = (number: number) => `${shortNumber(number)}${unit === '' ? '' : ` ${unit}`}`;
-  const stale = silentMs >= STALE_MS ? `, ${Math.round(silentMs / 1000)} s ago` : '';
+  const stale = silentMs >= LOST_AFTER_MS ? `, ${Math.round(silentMs / 1000)} s ago` : '';
   return {
     text: `${recorded === true ? 'Recorded: ' : ''}${text} (${withUnit(value)}, limit ${withUnit(limit)})${stale}`,
     tone: level === 'error' ? 'bad' : 'warning',

@@ -1,6 +1,6 @@
 /** What the compositor did with the videos, for people. */
 import type { ItemDropReason, SourceState } from '@farpoint/operator';
-import type { VideoStats } from '../take/video/video-figures.ts';
+import { CLOUD, type VideoStats } from '../take/video/video-figures.ts';
 import type { Tone } from './words.ts';
 
 export interface VideoReportLine {
@@ -27,8 +27,6 @@ const dropWords: Record<ItemDropReason, string> = {
   overflow: 'too many waiting',
   removed: 'switched off',
 };
-/** The name under which the compositor is offered clouds. */
-const CLOUD = 'cloud';
 /** Videos that differ by no more look as if they moved together, ms: half a frame at 30 a second. */
 const IN_STEP_MS = 17;
 

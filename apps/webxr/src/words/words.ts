@@ -3,6 +3,7 @@
 import {
   finalLosses,
   type GripLoss,
+  LOST_AFTER_MS,
   type SessionLoss,
   type SessionPhase,
   type SignalingState,
@@ -184,11 +185,9 @@ export interface LinkFacts {
 }
 
 /**
- * Without a word from the robot, and without points, for so long, the link's line says so, ms. Chosen: the
- * first as its path is called lost; points may be missing while a sensor starts or a link is narrow.
- * status.test.ts holds the second.
+ * Without points for so long, the link's line says so, ms. Chosen: points may be missing while a sensor starts or a link
+ * is narrow. status.test.ts holds it.
  */
-const SILENT_MS = 1000;
 const NO_POINTS_MS = 3000;
 
 /** The state of the link in one line. */
@@ -210,7 +209,7 @@ export function linkWords(facts: LinkFacts): Words {
       return { text: 'Connecting to the robot…', tone: 'neutral' };
     case 'live': {
       const grantEnds = grantEndsWords(facts.grantLeftMs);
-      if (facts.silentMs >= SILENT_MS) {
+      if (facts.silentMs >= LOST_AFTER_MS) {
         return {
           text: `Connection lost for ${Math.round(facts.silentMs / 1000)} s. The robot stops automatically. Trying to reach it…`,
           tone: 'bad',

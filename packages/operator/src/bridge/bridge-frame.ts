@@ -3,6 +3,7 @@ import {
   bytesOfPoints,
   LATENCY_TEST_COLOUR,
   MAX_POINT_DATA_BYTES,
+  OPTICAL_IN_BODY,
   type Placement,
   POINTS_PER_PACKET,
   type PointPacketHeader,
@@ -13,11 +14,11 @@ import type { ImageExtent } from '../cloud/image-extent.ts';
 
 /**
  * The reference stream has no camera pose. This assumes a level camera at the height of a person's chest that looks
- * along x. (From the body's axes to the optical ones it is a quarter turn each, REP-103.)
+ * along x.
  */
 export const DEFAULT_CAMERA_POSE = {
   position: { x: 0, y: 0, z: 1 },
-  orientation: { x: -0.5, y: 0.5, z: -0.5, w: 0.5 },
+  orientation: OPTICAL_IN_BODY,
 };
 
 const HOST_IS_LITTLE_ENDIAN = new Uint8Array(new Uint16Array([1]).buffer)[0] === 1;

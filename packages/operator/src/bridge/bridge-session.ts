@@ -3,6 +3,7 @@
  * stop, no limits and no telemetry. This class emulates them as far as the page's interface needs them. They hold for
  * this page only, and in case of doubt the robot stands still.
  */
+
 import {
   type Command,
   decodeJson,
@@ -22,6 +23,7 @@ import {
   robotSessionCodec,
   zeroTwist,
 } from '@farpoint/protocol';
+import { STOP_REPEATS } from '../drive/command-stream.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 
 export interface BridgeSessionActions {
@@ -49,8 +51,6 @@ const BLIND_AFTER_MS = 1000;
  * trip of any link that can be driven by.
  */
 const GREEN_AGAIN_MS = 500;
-/** Number of zero commands after the grip is released, as over a link of our own (command-stream.ts). */
-const STOP_REPEATS = 4;
 
 export class BridgeSession {
   readonly #actions: BridgeSessionActions;

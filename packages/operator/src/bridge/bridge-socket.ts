@@ -11,11 +11,17 @@ export interface BridgeSocketEvents {
  */
 const MAX_BACKLOG = 4096;
 
+/**
+ * Wait before the bridge is asked again, ms: it doubles. Chosen: it runs on this machine, so asking costs little, and it
+ * is back soon after it is started.
+ */
+export const BRIDGE_RETRY = { firstMs: 250, mostMs: 2000 };
+
 /** One of the bridge's local WebSockets. Reconnects without end. */
 export class BridgeSocket {
   readonly #url: string;
   readonly #events: BridgeSocketEvents;
-  readonly #backoff = new Backoff({ firstMs: 250, mostMs: 2000, random: Math.random });
+  readonly #backoff = new Backoff({ ...BRIDGE_RETRY, random: Math.random });
   #socket: WebSocket | null = null;
   #closed = false;
 

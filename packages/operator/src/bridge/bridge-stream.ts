@@ -1,4 +1,5 @@
 /** The bridge's streaming socket, in the cloud worker. Reconnects without end, and hands each frame on in batches. */
+
 import { packetCountOf } from '@farpoint/protocol';
 import { Backoff } from '@farpoint/timing';
 import type { Batch } from '../cloud/batch.ts';
@@ -6,6 +7,7 @@ import type { BatchPool } from '../cloud/batch-pool.ts';
 import { ImageExtent } from '../cloud/image-extent.ts';
 import { countDrop, PacketIntake } from '../cloud/packet-intake.ts';
 import { splitFrame } from './bridge-frame.ts';
+import { BRIDGE_RETRY } from './bridge-socket.ts';
 
 export interface BridgeStreamPort {
   /** Hands a filled batch to the page. */
@@ -18,7 +20,7 @@ export class BridgeStream {
   readonly #url: string;
   readonly #pool: BatchPool;
   readonly #port: BridgeStreamPort;
-  readonly #backoff = new Backoff({ firstMs: 250, mostMs: 2000, random: Math.random });
+  readonly #backoff = new Backoff({ ...BRIDGE_RETRY, random: Math.random });
   #extent = new ImageExtent();
   #frame = 0;
   #batch: Batch | null = null;

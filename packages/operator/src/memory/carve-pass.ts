@@ -20,8 +20,11 @@ const LOST_SIGHTINGS = 3;
 const UNCONFIRMED_TICKS = 10 * TICKS_PER_S;
 /** Standard deviation of places along the line of sight, metres at a distance of 1 m; grows with the square. */
 const NOISE_PER_M2 = 0.002;
-/** Behind a surface that is measured from less than this share of an earlier distance, what is left of the earlier noise goes. */
-const BETTER = 0.7;
+/**
+ * What is measured from less than this share of an earlier distance is better: it replaces the place, and behind it, what
+ * is left of the earlier noise goes. Chosen: the error grows with the square of the distance, so it has halved.
+ */
+export const BETTER = 0.7;
 
 export class CarvePass {
   readonly #store: SurfelStore;

@@ -2,7 +2,9 @@
  * Picks key frames out of what is decoded, of one sensor: every so often the packets of one frame, thinned. Time is an
  * argument; copies what it keeps.
  */
+
 import { sequenceDelta32 } from '@farpoint/protocol';
+import { TILE } from '@farpoint/wasm-codec';
 import { type Batch, TILE_ROOM, type TileGrid } from '../cloud/batch.ts';
 import { KEY_FRAME_SAMPLES, type KeyFrame } from './key-frame.ts';
 
@@ -11,7 +13,6 @@ import { KEY_FRAME_SAMPLES, type KeyFrame } from './key-frame.ts';
  * the worker and how much is remembered with four a second (docs/memory.md).
  */
 const INTERVAL_MS = 250;
-const TILE = 16;
 
 export interface KeyFrameSink {
   /** An empty key frame; `null` while none is free. */

@@ -6,7 +6,7 @@
  * that what moves through is not. It is *carved* away where the robot now sees through it. When there is no room, the
  * chunk that is oldest and farthest away is forgotten.
  */
-import { CarvePass } from './carve-pass.ts';
+import { BETTER, CarvePass } from './carve-pass.ts';
 import { FrameSamples } from './frame-samples.ts';
 import type { KeyFrame } from './key-frame.ts';
 import {
@@ -34,8 +34,6 @@ export const MOST_SIGHTINGS = 8;
 export const MAX_RANGE_M = 6;
 /** Steps of the distance from which a surfel was measured, metres. */
 export const DISTANCE_STEP_M = 0.05;
-/** A measurement from less than this share of the earlier distance replaces the place; others are averaged. */
-const BETTER = 0.7;
 /** When something must be forgotten, a metre counts as much as so many seconds. */
 const SECONDS_PER_METRE = 10;
 

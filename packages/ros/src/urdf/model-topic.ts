@@ -1,4 +1,5 @@
 /** Topics about the robot's body: its description as text (std_msgs/String), and the states of its joints. */
+import { READING_LIMITS } from '@farpoint/protocol';
 import { jointStateSchema, MOST_JOINTS, stringSchema } from '../messages.ts';
 import { RateLimit } from '../rate-limit.ts';
 import { shortened, type TopicReading } from '../reading.ts';
@@ -8,9 +9,6 @@ import { UrdfFault } from './urdf-fault.ts';
 
 const NO_WORDS = { level: 'ok', values: [] as TopicReading['values'] } as const;
 const LABEL = 'Model';
-/** As {@link shortened} cuts a label and a text. */
-const MOST_LABEL = 40;
-const MOST_TEXT = 60;
 
 export class ModelTopic {
   readonly #entry: TopicEntry;
@@ -46,7 +44,12 @@ export class ModelTopic {
       if (at !== undefined && Number.isFinite(at) && hasRoom) this.#joints.set(each, at);
     });
     if (!this.#limit.admits(nowMs)) return null;
-    return { topic, label: shortened(label ?? 'Joints', MOST_LABEL), ...NO_WORDS, joints: [...this.#joints] };
+    return {
+      topic,
+      label: shortened(label ?? 'Joints', READING_LIMITS.label),
+      ...NO_WORDS,
+      joints: [...this.#joints],
+    };
   }
 }
 
@@ -65,9 +68,9 @@ export function modelReading(topic: string, label: string | undefined, news: Mod
   const words = notDrawn(news);
   return {
     topic,
-    label: shortened(label ?? LABEL, MOST_LABEL),
+    label: shortened(label ?? LABEL, READING_LIMITS.label),
     level: words === '' ? 'ok' : 'warn',
-    values: words === '' ? [] : [['', shortened(words, MOST_TEXT)]],
+    values: words === '' ? [] : [['', shortened(words, READING_LIMITS.text)]],
     model: news,
   };
 }

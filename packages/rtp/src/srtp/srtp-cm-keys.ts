@@ -1,6 +1,7 @@
 /** Session keys of SRTP with AES in counter mode and HMAC-SHA1, derived once from the master key (RFC 3711 §4.3). */
 import { createCipheriv } from 'node:crypto';
 
+/** Session key, salt and authentication key (RFC 3711 §8.2), bytes. */
 const KEY_BYTES = 16;
 const SALT_BYTES = 14;
 const AUTHENTICATION_KEY_BYTES = 20;

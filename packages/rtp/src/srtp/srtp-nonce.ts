@@ -1,5 +1,6 @@
 import { createSecretKey, type KeyObject } from 'node:crypto';
 
+/** Of AES-128, and of its nonces in GCM (RFC 7714 §8.1, §12), bytes. */
 const KEY_BYTES = 16;
 const NONCE_BYTES = 12;
 /** Length of the authentication tag (RFC 7714 §13.2). */

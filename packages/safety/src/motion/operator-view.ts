@@ -4,7 +4,7 @@ import { RecentWorst } from '@farpoint/timing';
  * A stamp may be this far ahead of the robot's clock: it is rounded on its way. Chosen: a whole millisecond
  * at either end.
  */
-const ROUNDING_MS = 2;
+export const ROUNDING_MS = 2;
 /**
  * From one picture to the next, before that is known, ms. The robot plans no fewer than ten clouds a second.
  */

@@ -1,4 +1,5 @@
 import { ageOfStampMs } from '@farpoint/protocol';
+import { ROUNDING_MS } from './operator-view.ts';
 
 /**
  * How many pictures and clouds are remembered. Chosen: 2 s of eight videos at 30/s, above the age at which
@@ -7,8 +8,6 @@ import { ageOfStampMs } from '@farpoint/protocol';
 const KEPT = 512;
 /** More than a robot takes operators. */
 const MOST_OPERATORS = 64;
-/** A stamp is rounded on its way, ms. */
-const ROUNDING_MS = 2;
 
 /**
  * When the pictures and clouds that each operator was sent lately were captured. A command may name any of them as what its

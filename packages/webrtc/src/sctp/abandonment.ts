@@ -2,10 +2,7 @@
  * Which chunks go when a message is given up (partial reliability, RFC 3758 §3.5). werift gives up the oldest chunk that
  * it has sent, whichever it was: beside a channel that may lose messages, one that may not loses some, too.
  */
-
-const LAST_FRAGMENT = 1;
-const FIRST_FRAGMENT = 2;
-const UNORDERED = 4;
+import { FIRST_FRAGMENT, LAST_FRAGMENT, UNORDERED } from './layout.ts';
 
 /** A DATA chunk (RFC 9260 §3.3.1) at its sender. */
 export interface OutboundChunk {

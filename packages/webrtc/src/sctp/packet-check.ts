@@ -3,13 +3,12 @@
  * chunk or parameter of length 0 would make it loop for ever, an overlapping list of gaps would keep it busy for
  * seconds, and so would the answer to a heartbeat of thousands of parameters, which it puts together one by one.
  */
+import { CHUNK_HEADER_BYTES, COMMON_HEADER_BYTES, SACK_CHUNK } from './layout.ts';
 
 /** Ours are at most 1,191 bytes, and no peer's path takes much more (RFC 8831 §5). */
 const MAX_PACKET_BYTES = 2048;
-const COMMON_HEADER_BYTES = 12;
-const CHUNK_HEADER_BYTES = 4;
+/** Type and length (§3.2.1). */
 const PARAMETER_HEADER_BYTES = 4;
-const SACK_CHUNK = 3;
 
 interface ChunkRule {
   min: number;

@@ -2,8 +2,8 @@
  * How much work an SCTP packet makes, so that a peer's budget counts what it costs, and not what it weighs. The unit is
  * a chunk.
  */
-const COMMON_HEADER_BYTES = 12;
-const CHUNK_HEADER_BYTES = 4;
+import { CHUNK_HEADER_BYTES, COMMON_HEADER_BYTES } from './layout.ts';
+
 /** Bytes of an acknowledgement, of a list of streams or of parameters that cost as much as a chunk. */
 const BYTES_PER_UNIT = 64;
 

@@ -2,6 +2,7 @@
  * Bounds what an SCTP association holds of messages that are not complete. werift assembles whatever arrives, of any
  * length, and looks through all fragments at each new one: a message of 4 MB keeps it busy for a fifth of a second.
  */
+import { FIRST_FRAGMENT, LAST_FRAGMENT } from './layout.ts';
 import { MAX_AHEAD } from './tsn-window.ts';
 
 /** As our descriptions announce (`a=max-message-size`): no peer may send a longer message (RFC 8841 §6.1), bytes. */
@@ -14,9 +15,6 @@ const MAX_HELD_FRAGMENTS = 1024;
 export const MAX_STREAMS = 64;
 /** How often an operator may open a channel; a session needs it twice. */
 export const MAX_OPENINGS = 256;
-
-const LAST_FRAGMENT = 1;
-const FIRST_FRAGMENT = 2;
 
 /** A DATA chunk (RFC 9260 §3.3.1). */
 export interface Fragment {

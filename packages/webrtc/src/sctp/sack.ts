@@ -1,7 +1,8 @@
 /** Acknowledgements (SACK, RFC 9260 §3.3.4): ours as bytes, and what of a peer's is worth reading. */
 import { Buffer } from 'node:buffer';
+import { SACK_CHUNK } from './layout.ts';
 
-const SACK_CHUNK = 3;
+/** A SACK without blocks (RFC 9260 §3.3.4). */
 const CHUNK_BYTES = 16;
 /** With {@link MAX_REPEATED}, what fits into a packet of werift's MTU (1,191 bytes). */
 export const MAX_BLOCKS = 256;

@@ -1,3 +1,4 @@
+import { SRTP_AEAD_AES_128_GCM } from '@farpoint/rtp/srtp';
 import type { RTCDtlsTransport } from 'werift';
 import type { PeerBudget } from '../peer-budget.ts';
 import type { Refusals } from '../refusal.ts';
@@ -11,7 +12,6 @@ const MAX_SOURCES = 64;
 /** What SRTCP adds: tag, index (RFC 7714 §9.2, RFC 3711 §3.4). */
 const SRTCP_BYTES = 20;
 const SSRC_AT = 8;
-const SRTP_AEAD_AES_128_GCM = 7;
 
 /**
  * Bounds the RTP and RTCP of a peer as soon as there are keys for it. What is dropped was authentic, so that nobody

@@ -100,9 +100,9 @@ export interface SignalingOptions {
 export type SignalingRefusal = Extract<ServiceToRobot, { type: 'error' }>;
 
 /**
- * With more unsent bytes than this, the service counts as gone. Chosen: 16 of its largest messages (64 KiB).
+ * With more unsent bytes than this, the service counts as gone. Chosen: 16 of its largest messages.
  */
-const MAX_BACKLOG_BYTES = 1_048_576;
+const MAX_BACKLOG_BYTES = 16 * MAX_SIGNALING_BYTES;
 
 /**
  * The robot's connection to the signaling service. It reconnects forever, and introduces the robot again each time.

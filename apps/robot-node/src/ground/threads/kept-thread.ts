@@ -9,6 +9,13 @@ import { monotonicMs } from '../clock.ts';
 export const FIRST_RETRY_MS = 250;
 export const MOST_RETRY_MS = 10_000;
 /**
+ * A thread of the ROS graph that hangs for longer is replaced, ms. Chosen: motion is refused or bounded long before; to
+ * replace a thread that is only slow would cost the graph's discovery, seconds.
+ */
+export const REPLACE_MS = 1000;
+/** How often hanging is looked for, ms: a tenth of it. */
+export const CHECK_MS = REPLACE_MS / 10;
+/**
  * The time that a thread has to end by itself, ms. Chosen: its last messages leave within milliseconds, and
  * service managers wait longer for the program.
  */

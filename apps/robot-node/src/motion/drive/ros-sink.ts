@@ -4,7 +4,13 @@ import type { TopicReading } from '@farpoint/ros';
 import type { Logger } from '@farpoint/service';
 import { Backoff } from '@farpoint/timing';
 import { monotonicMs } from '../../ground/clock.ts';
-import { CLOSE_MS, FIRST_RETRY_MS, MOST_RETRY_MS } from '../../ground/threads/kept-thread.ts';
+import {
+  CHECK_MS,
+  CLOSE_MS,
+  FIRST_RETRY_MS,
+  MOST_RETRY_MS,
+  REPLACE_MS,
+} from '../../ground/threads/kept-thread.ts';
 import type { SinkFault, VelocitySink } from '../../ground/velocity-sink.ts';
 import type {
   RosDriveOptions,
@@ -22,13 +28,6 @@ const THREAD = new URL('./ros-drive-worker.ts', import.meta.url);
  * garbage and a busy computer stay below; the thread's own watchdog has stopped the wheels before.
  */
 const HUNG_MS = 250;
-/**
- * A thread that hangs for longer is replaced, ms. Chosen: motion is refused after a quarter of it; to replace
- * a thread that is only slow would cost the graph's discovery, seconds.
- */
-const REPLACE_MS = 1000;
-/** How often hanging is looked for, ms: a tenth of the time after which a thread is replaced. */
-const CHECK_MS = REPLACE_MS / 10;
 /**
  * A thread that has lived this long was well: the next wait is short again, ms. As long as the longest wait.
  */

@@ -1,11 +1,13 @@
 /** What the guard's topics are, and the messages between the main thread and the thread that hears them. */
+
 import type { Twist } from '@farpoint/protocol';
+import { ENCAPSULATION_BYTES } from '@farpoint/ros';
 import type { FloorPose } from '@farpoint/safety';
 import type { GraphOptions } from '../../ground/ros/open-graph.ts';
 import type { ScanGuardOptions } from '../../sense/obstacles/scan-guard.ts';
 import type { FrameTopics } from '../../sense/obstacles/sensor-frames.ts';
 import type { SensorMount } from '../../sense/sources/sensor-mount.ts';
-import { ENCAPSULATION_BYTES, saysStop } from '../stops/bool-message.ts';
+import { saysStop } from '../stops/bool-message.ts';
 
 /** A laser scanner's topic, and where the scanner's frame sits in base_link. */
 export interface GuardScan {

@@ -2,7 +2,7 @@ import type { Twist } from '@farpoint/protocol';
 import { CollisionDemand, type CollisionState, type FloorPose, type MotionGuard } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import { monotonicMs } from '../../ground/clock.ts';
-import { KeptThread } from '../../ground/threads/kept-thread.ts';
+import { CHECK_MS, KeptThread, REPLACE_MS } from '../../ground/threads/kept-thread.ts';
 import { type GridShape, makeSharedGrid, SharedGridReader } from '../../sense/obstacles/shared-grid.ts';
 import { SinkBeat } from '../drive/sink-beat.ts';
 import { CollisionCells } from './collision-cells.ts';
@@ -24,13 +24,6 @@ const MOST_RETRY_MS = 5000;
  * first messages come within seconds, so that a thread that fails at them is not called well.
  */
 const WELL_MS = 10_000;
-/**
- * A thread that gives no sign of life for longer is replaced, ms. Chosen as in ros-sink.ts: the motion is
- * bounded by silence long before.
- */
-const REPLACE_MS = 1000;
-/** How often that is looked for, ms: a tenth of it. */
-const CHECK_MS = REPLACE_MS / 10;
 
 export interface GuardTopicsPlan extends GuardTopicsOptions {
   shape: GridShape;

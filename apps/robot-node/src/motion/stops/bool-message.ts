@@ -1,5 +1,4 @@
-/** Bytes of CDR's encapsulation before a ROS 2 message. */
-export const ENCAPSULATION_BYTES = 4;
+import { ENCAPSULATION_BYTES } from '@farpoint/ros';
 
 /** What a serialised std_msgs/Bool says. Everything but a well-formed false is a stop. */
 export function saysStop(version: 1 | 2, bytes: Uint8Array): boolean {

@@ -10,13 +10,9 @@ import type { PathBudget } from '../budgets/path-budget.ts';
 import type { SoundLine } from '../transport/peer-events.ts';
 import type { StreamSender } from '../transport/stream-sender.ts';
 import type { VoicePacket } from '../transport/voice-packet.ts';
+import { REPORT_MS } from '../video/operator-videos.ts';
 import { VoiceGate } from './voice-gate.ts';
 
-/**
- * A receiver uses the reports to relate timestamps to time of day, ms: as videos' (operator-videos.ts), more
- * often than RFC 3550's 5 s, so that a new listener need not wait.
- */
-const REPORT_MS = 1000;
 /**
  * Sound that was switched off for want of room comes back with so much more room than it needs. It returns
  * with room for 20 kbit/s instead of 16.

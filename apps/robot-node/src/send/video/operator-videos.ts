@@ -6,10 +6,11 @@ import type { StreamSender } from '../transport/stream-sender.ts';
 import { VideoSender } from './video-sender.ts';
 
 /**
- * A receiver uses the reports to relate a video's timestamps to time of day, ms. Chosen: more often than RFC
- * 3550's 5 s, so that the page knows capture times a second after a video begins.
+ * A receiver uses the reports to relate a stream's timestamps to time of day, ms. Chosen: more often than RFC
+ * 3550's 5 s, so that the page knows capture times a second after a video begins, and a new
+ * listener to sound need not wait.
  */
-const REPORT_MS = 1000;
+export const REPORT_MS = 1000;
 const NONE: ReadonlySet<VideoCodec> = new Set();
 
 /** One operator's videos, from its wishes to its m-lines. Before it has connected, nothing is sent. */

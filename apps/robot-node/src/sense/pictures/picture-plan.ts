@@ -3,6 +3,7 @@
 import { MAX_PICTURE_BYTES } from '@farpoint/protocol';
 import { BitRate } from '@farpoint/timing';
 import { LEAST_CLOUD_BITS_PER_SECOND } from '../encode/capture-budget.ts';
+import { LARGER_MARGIN } from '../video/video-plan.ts';
 import type { CameraPlan } from './picture-messages.ts';
 
 export interface PicturePolicy {
@@ -31,11 +32,6 @@ const MOST_PICTURES = 3e6;
  * eye.
  */
 export const LEAST_PICTURES_PER_SECOND = 2;
-/**
- * Margin by which pictures must fit before they become larger again. As for videos (video-plan.ts);
- * picture-plan.test.ts shows that sizes do not alternate.
- */
-const LARGER_MARGIN = 1.4;
 /** Factors of the configured side. */
 const SCALES = [1, 1 / 2, 1 / 4];
 /**

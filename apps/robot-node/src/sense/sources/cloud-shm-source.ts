@@ -32,7 +32,7 @@ export interface CloudShmOptions {
  * How often the source looks for its producer while no frame comes, ms. Chosen: a producer that ended is
  * noticed before the sensor counts as silent (400 ms).
  */
-const WATCH_TIMEOUT_MS = 100;
+export const WATCH_TIMEOUT_MS = 100;
 
 /** Farpoint's own layout in shared memory: the newest frame with its grid, pose and capture time. */
 export class CloudShmSource implements FrameSource {

@@ -6,7 +6,7 @@ import type {
   SourceDescription,
   SourceFrame,
 } from '@farpoint/cloud-source';
-import { type Pose, zeroTwist } from '@farpoint/protocol';
+import { OPTICAL_IN_BODY, type Pose, zeroTwist } from '@farpoint/protocol';
 
 /** A decoded cloud: points or images, as the source's description says. */
 export type RecordedCloud =
@@ -28,13 +28,10 @@ export interface RecordedFrame {
  */
 const CACHE_BYTES = 512 * 1024 * 1024;
 
-/** Optical axes as in REP-103 (z forward, x right, y down), looking along +x of a world with z up. */
-const LOOKING_AHEAD = { x: -0.5, y: 0.5, z: -0.5, w: 0.5 };
-
 /** Pose of a camera without poses: 1 m above the world's origin, looking along +x. */
 export const STATIC_CAMERA_POSE: Pose = {
   position: { x: 0, y: 0, z: 1 },
-  orientation: LOOKING_AHEAD,
+  orientation: OPTICAL_IN_BODY,
 };
 
 /** The state of a source that has no wheels and no pose. */

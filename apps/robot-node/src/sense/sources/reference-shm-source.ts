@@ -12,6 +12,7 @@ import {
   type TrustedOwner,
   type WatchOrder,
 } from '@farpoint/shared-memory';
+import { WATCH_TIMEOUT_MS } from './cloud-shm-source.ts';
 import { STANDING, STATIC_CAMERA_POSE } from './playback-source.ts';
 import { openWhenThere, ProducerLink } from './producer-link.ts';
 
@@ -33,8 +34,6 @@ const IDLE_LOOKS: readonly (readonly [number, number])[] = [
   [10_000, 20],
   [1000, 5],
 ];
-/** How often the source looks for its producer while no frame comes, ms: as in cloud-shm-source.ts. */
-const WATCH_TIMEOUT_MS = 100;
 /**
  * Share of the usual frame interval during which there is no polling. Chosen: intervals vary by some tenths;
  * a frame that comes sooner waits until then.

@@ -1,5 +1,5 @@
 /** Where a sensor sits on the robot. */
-import { compose, inverse, multiply, type Pose, type Quaternion } from '@farpoint/protocol';
+import { compose, inverse, multiply, OPTICAL_IN_BODY, type Pose, type Quaternion } from '@farpoint/protocol';
 
 /** The pose of a sensor's body frame (x forward, y left, z up) in base_link: metres and radians, fixed axes. */
 export interface SensorMount {
@@ -11,9 +11,6 @@ export interface SensorMount {
   pitch: number;
   yaw: number;
 }
-
-/** From the optical axes (z forward, x right, y down) to the body's. */
-const OPTICAL_IN_BODY: Quaternion = { x: -0.5, y: 0.5, z: -0.5, w: 0.5 };
 
 /** The pose of its body frame in base_link. */
 export function bodyMount({ x, y, z, roll, pitch, yaw }: SensorMount): Pose {

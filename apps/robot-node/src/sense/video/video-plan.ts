@@ -26,7 +26,7 @@ const LEAST_BITS_PER_PIXEL = 0.014;
  * Margin before the picture becomes larger again, so that a changing rate does not change it all the time.
  * Chosen: above the 25 % that an encoder stays below its rate (docs/video.md); video-plan.test.ts holds it.
  */
-const LARGER_MARGIN = 1.4;
+export const LARGER_MARGIN = 1.4;
 /** Steps from best to worst: factors of the sides and of the frame rate. */
 const STEPS = [
   { side: 1, rate: 1 },

@@ -8,6 +8,7 @@
  * socket would be listed beside the first, and answers to the first, dead offer would arrive as if they were for the
  * second.
  */
+
 import type { RateController } from '@farpoint/congestion';
 import {
   type IceServer,
@@ -18,6 +19,7 @@ import {
 } from '@farpoint/protocol';
 import { answerMisfit, MessageLine } from '@farpoint/reference-profile';
 import type { Logger } from '@farpoint/service';
+import { FIRST_RETRY_MS } from '@farpoint/timing';
 import type { SignalingOptions } from '../../admit/signaling/signaling-client.ts';
 import type { Budgets } from '../../send/budgets/budgets.ts';
 import type { FrameTarget } from '../../send/clouds/pipeline.ts';
@@ -71,10 +73,9 @@ export interface ReferenceProfileOptions {
 }
 
 /**
- * Delay of the first attempt after a failed connection, and longest delay between two attempts, ms. Chosen:
- * as for signaling of our own at first, and a service that is down is asked seldom.
+ * The longest delay between two attempts, ms; the first is that of our own signaling. Chosen: a service that is down is
+ * asked seldom.
  */
-const FIRST_RETRY_MS = 250;
 const MOST_RETRY_MS = 5000;
 /**
  * After this long without hearing from an operator, another one may replace it, ms. As long as it may hold

@@ -10,7 +10,7 @@ import {
   watcherHold,
 } from '@farpoint/operator';
 import { computed, effect, type ReadonlySignal, signal } from '@preact/signals-core';
-import type { CameraView } from '../../ground/pictures/camera-view.ts';
+import { type CameraView, STALE_MS } from '../../ground/pictures/camera-view.ts';
 import { Switches } from '../../ground/switches.ts';
 import { startLook } from '../../panels/ui/look-controls.ts';
 import { SensorClouds } from '../../scene/view/sensor-clouds.ts';
@@ -32,11 +32,6 @@ export interface WatchPanelsParts {
   /** Page's clock, ms, a few times a second. */
   readonly sampledAtMs: ReadonlySignal<number>;
 }
-
-/**
- * A picture that was drawn longer ago than this is not live, ms: as on the operator's page (camera-view.ts).
- */
-const STALE_MS = 1000;
 
 /** The cameras beside the scene: name, whether it is live, and a button that shows or hides the camera. */
 function showWatchPanels({ container, views, enlarged, live, sampledAtMs }: WatchPanelsParts): void {

@@ -1,7 +1,7 @@
 /** The dashboard beside the picture: tiles with the robot's telemetry, arranged by the operator. Loaded when opened. */
 import './dashboard.css';
 import 'uplot/dist/uPlot.min.css';
-import type { RobotSession } from '@farpoint/operator';
+import { LOST_AFTER_MS, type RobotSession } from '@farpoint/operator';
 import { effect, type ReadonlySignal, signal } from '@preact/signals-core';
 import type { MapTiles } from '../../ground/telemetry/map-tiles.ts';
 import type { Moment } from '../../ground/telemetry/moment.ts';
@@ -121,11 +121,7 @@ export interface DashboardParts {
   close(): void;
 }
 
-/**
- * Without telemetry for this long, the robot is silent, ms: as its path is called lost (resume-policy.ts of
- * the operator package). And how often the header is written, ms.
- */
-const SILENT_MS = 1000;
+/** How often the header is written, ms. Chosen: four times a second reads as at once. */
 const HEADER_MS = 250;
 
 export class Dashboard {
@@ -172,7 +168,7 @@ export class Dashboard {
     if (nowMs < this.#headerDueMs) return;
     this.#headerDueMs = nowMs + HEADER_MS;
     const silentMs = nowMs - recorder.heardMs;
-    const isSilent = !(silentMs < SILENT_MS);
+    const isSilent = !(silentMs < LOST_AFTER_MS);
     setText(this.#state, stateWords(silentMs, moment));
     this.#state.dataset.tone = isSilent ? 'bad' : 'neutral';
   }
@@ -282,7 +278,7 @@ export class Dashboard {
 
 function stateWords(silentMs: number, { instantMs, robotNowMs }: Moment): string {
   if (silentMs === Number.POSITIVE_INFINITY) return 'No data from the robot yet';
-  if (!(silentMs < SILENT_MS)) return `No data from the robot for ${ageText(silentMs)}`;
+  if (!(silentMs < LOST_AFTER_MS)) return `No data from the robot for ${ageText(silentMs)}`;
   if (instantMs === null) return 'Newest values';
   return `In step with the picture, ${ageText(Math.max(0, robotNowMs - instantMs))} old`;
 }

@@ -1,4 +1,5 @@
 /** The remembered world of the page: remembers what comes, draws it, also as a small map, and saves and loads it. */
+
 import { bodyYaw, MemoryView } from '@farpoint/cloud-view';
 import {
   type HeldClouds,
@@ -11,6 +12,7 @@ import {
 import type { Camera, Object3D, WebGLRenderer } from 'three';
 import { writeTopView } from '../../ground/minimap/top-view-pixels.ts';
 import { Track } from '../../ground/telemetry/track.ts';
+import { JUMP_M } from '../../scene/pose-follower.ts';
 import { rememberedAge } from '../../words/facts.ts';
 import type { RememberedFigures } from '../../words/page-stats.ts';
 import { elements } from './elements.ts';
@@ -19,11 +21,6 @@ import { drawMinimap } from './minimap-canvas.ts';
 /** A point of the trail each 10 cm: 400 m. */
 const TRAIL_STEP_M = 0.1;
 const TRAIL_POINTS = 4096;
-/**
- * Farther from one report to the next, it is another place: what lies before it does not belong to it,
- * metres. As for the view (pose-follower.ts).
- */
-const JUMP_M = 2;
 /** What is remembered is looked at anew after this time, ms. Chosen: two key frames (docs/memory.md). */
 const LOOK_MS = 500;
 /** What is higher above the robot's ground is not on the map: ceilings would hide all, metres. */

@@ -2,9 +2,11 @@
  * Paints clouds with the video of the camera that they come from, where the robot sends one: each frame of the cloud with
  * the video's picture of the same capture instant, and with the packets' own colours where there is none.
  */
+
 import type { CloudView, PictureUse } from '@farpoint/cloud-view';
 import type { Batch, CloudHold, RobotClient, VideoDescription } from '@farpoint/operator';
 import { effect, type ReadonlySignal } from '@preact/signals-core';
+import { STALE_MS } from '../../ground/pictures/camera-view.ts';
 import type { VideoImage } from './readers/video-image.ts';
 import type { VideoFeed } from './video-feed.ts';
 import type { VideoViews } from './video-views.ts';
@@ -53,11 +55,6 @@ export interface VideoColourParts {
   readonly wanted: ReadonlySignal<boolean>;
 }
 
-/**
- * Pictures that have not come for so long have stopped, ms: as those of cameras (camera-view.ts);
- * video-colour.test.ts holds it.
- */
-const SILENT_MS = 1000;
 /** Less is no painting. */
 const LEAST_SHARE = 0.05;
 
@@ -96,7 +93,7 @@ export class VideoColour {
    */
   update(nowMs: number): void {
     this.#nowMs = nowMs;
-    this.#parts.hold.exact = nowMs - this.#matchedMs < SILENT_MS && this.#share !== null;
+    this.#parts.hold.exact = nowMs - this.#matchedMs < STALE_MS && this.#share !== null;
   }
 
   get figures(): VideoColourFigures {
@@ -129,7 +126,7 @@ export class VideoColour {
     if (!views.switches.wanted.peek().includes(this.#videoOf(sensor))) return 'not-watched';
     if (!view.isSurface) return 'no-surface';
     if (view.colouring.mode !== 'captured') return 'other-colours';
-    if (this.#nowMs - this.#cameMs > SILENT_MS) return 'no-picture';
+    if (this.#nowMs - this.#cameMs > STALE_MS) return 'no-picture';
     return this.#use === 'matched' ? 'late' : 'no-match';
   }
 

@@ -16,7 +16,7 @@ import { effect, signal, untracked } from '@preact/signals-core';
 import type { PresentedInstant } from '../../ground/telemetry/presented-instant.ts';
 import type { Reader, ReadFrame } from './readers/open-reader.ts';
 import type { VideoImage } from './readers/video-image.ts';
-import { VideoFigures, type VideoStats } from './video-figures.ts';
+import { CLOUD, VideoFigures, type VideoStats } from './video-figures.ts';
 import type { VideoReceiver } from './video-receiver.ts';
 import type { VideoViews } from './video-views.ts';
 
@@ -53,7 +53,6 @@ export function captureMsOf(
 }
 
 const VIDEO = 'video:';
-const CLOUD = 'cloud';
 
 /** Where the videos come from: a {@link RobotClient}, or an object with the same interface. */
 export interface VideoSource {

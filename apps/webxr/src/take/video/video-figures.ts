@@ -3,6 +3,9 @@ import { type CompositorStats, type Distribution, SampleWindow } from '@farpoint
 import { RateMeter } from '@farpoint/timing';
 import type { VideoReceiverName } from '../../ground/settings.ts';
 
+/** The name under which the compositor is offered clouds. */
+export const CLOUD = 'cloud';
+
 /** What was shown of one video. */
 export interface ShownVideoStats {
   /** Index in the robot's list. */
