@@ -12,8 +12,8 @@ const MAX_LINES = 400;
 const NAMES_WHAT_IS_NOT = /^scripts\/lib\/(?:file-imports|import-graph)\.test\.ts$/;
 /** What is shorter stands beside its user. */
 const LEAST_LINES = 15;
-/** Sources whose numbers decide how the robot drives, what is sent, and what is seen. */
-const TUNED = /^(?:apps\/(?:robot-node|webxr)|packages\/(?:safety|operator|congestion|cloud-view))\/src\//;
+/** Sources of what is installed, or runs in a page. */
+const PRODUCTION = /^(?:(?:apps|packages)\/[^/]+|wasm-codec)\/src\//;
 /** A constant of a file that is a number, or numbers. What follows from other constants needs no word. */
 const NUMBER = /^(?:export )?const (\[[A-Z\d_, ]+\]|[A-Z][A-Z\d_]*)(?:: [\w ]+)? = [-([]*\d/;
 /** Units of docs/style.md and quantities without any; `NS_PER_MS` and `TICKS_PER_MS` convert, and `PER_SECOND` is a rate. */
@@ -191,7 +191,7 @@ describe('sources', () => {
 
   test('a number with a unit says what it is for and where it comes from: a comment stands before it, before its neighbours, or beside it', () => {
     const silent = [...sources]
-      .filter(([file]) => TUNED.test(file) && !DEVELOPERS.test(file))
+      .filter(([file]) => PRODUCTION.test(file) && !DEVELOPERS.test(file))
       .flatMap(([file, text]) => {
         let isSaid = false;
         return text.split('\n').flatMap((line, i) => {

@@ -50,10 +50,16 @@ export interface FrameRecord {
 
 type SignalingLine = MessageLine<ReferenceServiceToClient, ReferenceClientToService>;
 
+/** How often silent orphans are looked for, ms. Chosen: late by a twelfth of the 3 s after which one goes. */
 const EXPIRE_EVERY_MS = 250;
+/** Each refused origin is told once in the log. Chosen: a page with ever new ones fills no disk. */
 const MAX_REFUSED_ORIGINS = 100;
+/**
+ * A page with more unread bytes than this on its control socket is told nothing more until it reads. Chosen: a page that
+ * lives never leaves so much.
+ */
 const CONTROL_BACKLOG_BYTES = 1_048_576;
-/** A page with more unread bytes than this is not sent another frame. */
+/** A page with more unread bytes than this is not sent another frame. Chosen: the newest frame never waits behind many old ones. */
 const STREAMING_BACKLOG_BYTES = 65_536;
 
 export class Bridge {

@@ -23,7 +23,9 @@ export interface LocalSocketEvents {
   onRefused?: (origin: string) => void;
 }
 
+/** Chosen: five pages, with three sockets each. */
 const MAX_SOCKETS = 16;
+/** Characters of a refused origin that are shown. Chosen: it fits a line of the log. */
 const MAX_SHOWN_ORIGIN = 200;
 const LOCAL_HOSTS = new Set(['localhost', '127.0.0.1', '[::1]']);
 

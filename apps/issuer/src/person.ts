@@ -10,6 +10,7 @@ export interface Person {
   name: string;
 }
 
+/** UTF-16 units of a name. */
 const MAX_NAME = 64;
 
 /**

@@ -3,6 +3,7 @@ import { MAX_ROBOTS, matchesPattern, robotPatternSchema } from '@farpoint/grants
 import { roles } from '@farpoint/protocol';
 import * as z from 'zod';
 
+/** Rules of one file. Chosen: more than any organisation has groups of operators; each sign-in tries them in turn. */
 export const MAX_RULES = 256;
 
 export const ruleSchema = z.strictObject({

@@ -19,7 +19,9 @@ export interface ServerOptions {
   readonly onError: (error: unknown) => void;
 }
 
+/** Chosen: people sign in a few times a day, and a flood gets no more sockets than these. */
 const MOST_CONNECTIONS = 1024;
+/** Of a consent's form. Chosen: it has one token. */
 const MOST_FORM_BYTES = 1024;
 const METHODS = { '/sign-in': 'GET', '/callback': 'GET', '/consent': 'POST' } as const;
 const NOTHING = { status: 404, text: 'Nothing here. Sign-ins begin on the operators’ page.' };

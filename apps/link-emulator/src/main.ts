@@ -12,6 +12,7 @@ import { directionOf } from './directions.ts';
 import { registerLinkMetrics } from './metrics.ts';
 import { program } from './options.ts';
 
+/** How often the statistics say what the emulator itself did, ms: docs/bad-network.md says so. */
 const RIM_INTERVAL_MS = 1000;
 
 type Context = ProgramContext<typeof program.options>;

@@ -6,6 +6,7 @@ export interface Pulse {
   dead(): void;
 }
 
+/** Parts of the interval. Chosen: of a thousand members, 50 are pinged at once. */
 const SLOTS = 20;
 
 /**

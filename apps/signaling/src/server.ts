@@ -55,6 +55,7 @@ export interface RunningSignaling {
   close(): Promise<void>;
 }
 
+/** ICE candidates that are kept for those who connect later. Chosen: several times what a host with many addresses has. */
 const CANDIDATES_PER_REFERENCE_ROBOT = 128;
 /** Beside an address's WebSockets: requests for the page's files, and WebSockets that are being opened or refused. */
 const SPARE_SOCKETS = 64;

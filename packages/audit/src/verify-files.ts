@@ -8,6 +8,7 @@ import {
   type VerifiedChain,
 } from './chain-verifier.ts';
 
+/** What is read of a file at once. Chosen: a few thousand entries; more would only take memory. */
 const CHUNK_BYTES = 1 << 20;
 
 /**

@@ -63,8 +63,10 @@ const KEYWORDS = [
   'POINTS',
   'DATA',
 ];
+/** Chosen: a header of ten lines with this many fields fits with room to spare, and a file that is none is given up soon. */
 const MAX_HEADER_BYTES = 16_384;
 const MAX_FIELDS = 64;
+/** Values of one field. Chosen: above the 308 of the longest usual descriptor (VFH). */
 const MAX_COUNT = 4096;
 const DATA_KINDS = ['ascii', 'binary', 'binary_compressed'] as const;
 const SIZES: Readonly<Record<string, readonly number[]>> = { F: [4, 8], I: [1, 2, 4, 8], U: [1, 2, 4, 8] };

@@ -6,6 +6,7 @@
  */
 export const SUBPROTOCOLS: readonly string[] = ['foxglove.sdk.v1', 'foxglove.websocket.v1'];
 
+/** Opcode of a channel's message; and opcode, u32 subscription, u64 time before its bytes. */
 const MESSAGE_DATA = 1;
 export const MESSAGE_HEAD_BYTES = 1 + 4 + 8;
 

@@ -17,6 +17,7 @@ export class GrantKeysError extends Error {
   override readonly name = 'GrantKeysError';
 }
 
+/** Keys of a set. Chosen: an old and a new one of several issuers. */
 export const MAX_KEYS = 16;
 
 const coordinate = z.string().check(z.regex(/^[A-Za-z0-9_-]{43}$/));

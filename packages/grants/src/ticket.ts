@@ -5,6 +5,7 @@ import { MAX_GRANT_LENGTH } from './grant-claims.ts';
 import { type OperatorSecretJwk, operatorSecretJwkSchema } from './operator-key.ts';
 
 const PREFIX = 'farpoint-ticket.';
+/** Characters. Chosen: above the longest grant with its key in base64url. */
 const MAX_TICKET_LENGTH = 8192;
 
 export interface Ticket {

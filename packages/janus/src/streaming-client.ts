@@ -41,6 +41,7 @@ export interface StreamingClientEvents {
   onClosed(failure: JanusFailure): void;
 }
 
+/** Janus has this long to answer, ms. Chosen: below the 5 s of {@link KEEP_ALIVE_MS}, so that a request fails before the next beat. */
 const TIMEOUT_MS = 4000;
 /** Janus ends sessions that say nothing; and a dead connection is noticed by this, ms. */
 const KEEP_ALIVE_MS = 5000;

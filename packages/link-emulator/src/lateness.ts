@@ -1,3 +1,4 @@
+/** Width of a bin, ms, and their number. Chosen: finer than any timer, up to 100 ms, in 8 kB. */
 const STEP_MS = 0.05;
 const BINS = 2000;
 

@@ -30,6 +30,7 @@ export interface UdpLinkOptions {
   readonly maxPorts?: number;
 }
 
+/** How often idle stand-ins are looked for, ms. Chosen: a twelfth of the minute for which one may be idle. */
 const SWEEP_MS = 5000;
 /** Longest interval between two updates of the models, so that their statistics are on time. */
 const LONGEST_SLEEP_MS = 50;

@@ -4,6 +4,7 @@
  */
 import { WireError } from './wire-error.ts';
 
+/** Length and type. */
 export const HEADER_BYTES = 5;
 /** Messages that every such program has. */
 export const COMMON_TO_PROCESS = { open: 1, configure: 2 } as const;

@@ -4,6 +4,7 @@ import { BitRate } from '@farpoint/timing';
 export const dropReasons = ['loss', 'burst-loss', 'queue-full', 'blackhole'] as const;
 export type DropReason = (typeof dropReasons)[number];
 
+/** Width of a bin of the statistics, ms. Chosen: queues that matter to a driver last longer. */
 export const BIN_MS = 100;
 
 /** What happened in one direction during {@link BIN_MS}. Bytes are bytes on the wire. */

@@ -39,6 +39,7 @@ export interface LinkProfile extends LossModel {
   readonly queue: QueueLimit;
 }
 
+/** For how long the delay of a radio stays the same, ms. Chosen: as long as a radio frame of LTE and 5G NR (3GPP TS 36.211, 38.211). */
 export const JITTER_SLOT_MS = 10;
 
 /** No limits but a queue of 1 MiB. */

@@ -31,6 +31,7 @@ interface Waiting {
   copies: number;
 }
 
+/** Two times nearer than this are the same. Chosen: above what sums of milliseconds lose in a double, below any link's packet. */
 const ROUNDING_MS = 1e-6;
 
 /** A {@link LinkModel} driven by an {@link EventQueue}: for flows that share one link in virtual time. */

@@ -15,9 +15,11 @@
  * A chunk is one SCTP packet: usual stacks keep those to 1,191 bytes, and a message of 1,161 would go as two.
  */
 
+/** The layout above, bytes. */
 export const PICTURE_CHUNK_HEADER_BYTES = 20;
 export const MAX_PICTURE_CHUNK_BYTES = 1160;
 export const PICTURE_CHUNK_DATA_BYTES = MAX_PICTURE_CHUNK_BYTES - PICTURE_CHUNK_HEADER_BYTES;
+/** Chunks of a picture. Chosen: a receiver keeps less than 600 kB for each camera. */
 export const MAX_PICTURE_CHUNKS = 512;
 /** 583,680 bytes. */
 export const MAX_PICTURE_BYTES = MAX_PICTURE_CHUNKS * PICTURE_CHUNK_DATA_BYTES;

@@ -13,12 +13,14 @@
 import { type CloudFormat, cloudFormatNumber, cloudFormatOf } from './cloud-format.ts';
 import type { Pose } from './geometry.ts';
 
+/** The layout above, bytes. */
 export const PLACEMENT_BYTES = 28;
 /** No robot announces more cloud sensors than this. */
 export const MAX_SENSORS = 8;
 export const FLAG_LATENCY_TEST = 1;
 export const FLAG_SATURATED = 2;
 
+/** The largest i16: a quaternion's component of 1. */
 const QUATERNION_SCALE = 32767;
 
 export interface Placement {

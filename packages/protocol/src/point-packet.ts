@@ -26,6 +26,7 @@ export const REFERENCE_MEDIA = {
   extensionId: 1,
 } as const;
 
+/** Four fields, bytes. */
 export const POINT_PACKET_HEADER_BYTES = 16;
 /** int16 x, y, z and 16 bits of colour. */
 export const BYTES_PER_POINT = 8;

@@ -5,6 +5,7 @@ import { type FileBytes, MAX_RECORD_BYTES } from './file-bytes.ts';
 import { topicsOf } from './mcap-topics.ts';
 import type { RecordedMessage, RecordedTopic, Recording } from './recording.ts';
 
+/** What is read of the file at once. Chosen: about a chunk of usual recorders. */
 const PIECE_BYTES = 1024 * 1024;
 /** Positions at which reading may begin; if there are more chunks, every second one is dropped. */
 const MOST_PLACES = 4096;

@@ -18,6 +18,7 @@ import {
 import { RecordingWriter } from './recording-writer.ts';
 import { SentCloudDecoder } from './sent-cloud.ts';
 
+/** How often what is written goes to the file, ms. Chosen: a crash costs half a second of a recording. */
 const FLUSH_MS = 500;
 /** How long the capture thread has for its last clouds after all others have closed, ms. */
 const LINGER_MS = 2000;

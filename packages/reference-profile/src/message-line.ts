@@ -16,6 +16,7 @@ export const referenceChannels = {
   words: { label: 'controltrack', ordered: true, maxRetransmits: 30 },
 } as const;
 
+/** With more unsent bytes than this, the service counts as gone. Chosen: as for our own signaling. */
 const MAX_BACKLOG_BYTES = 1_048_576;
 /** A connection on which nothing is heard for this long despite a ping is dead, ms. */
 const HEARTBEAT_MS = 5000;

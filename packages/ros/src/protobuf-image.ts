@@ -12,6 +12,7 @@ type Value = string | number | Uint8Array | Message;
 type Message = { [field: string]: Value };
 type Fields = ReadonlyMap<number, readonly [name: string, kind: Kind]>;
 
+/** Wire types (protobuf’s encoding, “Message Structure”). */
 const VARINT = 0;
 const EIGHT_BYTES = 1;
 const LENGTH = 2;

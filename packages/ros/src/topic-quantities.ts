@@ -22,6 +22,7 @@ interface QuantityTopic {
   readonly quantities?: z.output<typeof topicQuantitiesSchema> | undefined;
 }
 
+/** Quantities of a topic. Chosen: enough for what one sensor measures, six axes and two more. */
 const MOST_OF_TOPIC = 8;
 const FIELD = /^[A-Za-z_][A-Za-z0-9_]*(\[\d{1,6}\])?(\.[A-Za-z_][A-Za-z0-9_]*(\[\d{1,6}\])?)*$/;
 

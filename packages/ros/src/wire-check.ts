@@ -10,6 +10,7 @@ import { RosFault } from './fault.ts';
 
 /** The kind of CDR, and the number of padding bytes at the end, before each ROS 2 message. */
 export const ENCAPSULATION_BYTES = 4;
+/** The first kind of version 2 of CDR (DDS-XTypes 1.3, 7.6.3.1.2). */
 const FIRST_OF_VERSION_2 = 6;
 /** Final types in either version of CDR and either byte order, as ROS messages are written. */
 const READABLE: ReadonlySet<number> = new Set([0, 1, 6, 7]);

@@ -8,6 +8,7 @@
 import { NTP_UNIT, type NtpTime, readNtp, writeNtp } from './ntp-time.ts';
 
 export const ABS_CAPTURE_TIME_URI = 'http://www.webrtc.org/experiments/rtp-hdrext/abs-capture-time';
+/** The layout above, in its two forms, bytes. */
 export const ABS_CAPTURE_TIME_BYTES = 8;
 export const ABS_CAPTURE_TIME_WITH_OFFSET_BYTES = 16;
 

@@ -5,6 +5,7 @@
 import { SequenceNumber, SequenceUnwrapper } from './sequence-number.ts';
 import { writeTransportFeedback } from './transport-feedback-writer.ts';
 
+/** Packets that are remembered until they are reported: a power of two. Chosen: 0.8 s of 10,000 a second. */
 const CAPACITY = 8192;
 /** One message fits into a datagram, whatever the arrivals. */
 const MAX_PACKETS = 400;

@@ -3,6 +3,7 @@
 export const RTCP_PAYLOAD_FEEDBACK = 206;
 export const FMT_APPLICATION = 15;
 
+/** The feedback header, identifier, count and rate, bytes. */
 const FIXED_BYTES = 20;
 const IDENTIFIER = 0x52454d42; // "REMB"
 

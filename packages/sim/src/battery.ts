@@ -7,6 +7,7 @@ export interface BatteryState {
   charging: boolean;
 }
 
+// Chosen: a base of 32 kg with a pack of 10 Ah, which drives for some hours.
 const CAPACITY_WATT_HOURS = 240;
 const EMPTY_VOLTS = 21.6;
 const FULL_VOLTS = 25.4;

@@ -96,6 +96,7 @@ function sign(value: number): number {
   return value < 0 ? -1 : 1;
 }
 
+/** How often a disc is pushed out of what it overlaps in one step. Chosen: a corner takes two; the rest is for narrow places. */
 const MAX_PUSHES = 8;
 /** A contact leaves this gap, so that rounding cannot turn it into an overlap. */
 const SKIN = 1e-6;

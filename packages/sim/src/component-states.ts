@@ -10,6 +10,7 @@ export interface ComponentState {
   message: string;
 }
 
+/** A motor is warm, and hot, above these. Chosen: hard driving warms it within minutes (motor.ts). */
 const WARM_CELSIUS = 55;
 const HOT_CELSIUS = 75;
 

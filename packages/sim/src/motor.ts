@@ -1,3 +1,4 @@
+/** The room’s air. */
 const AMBIENT_CELSIUS = 22;
 /** Heat capacity of the windings, J/K, and how well they give heat to the air, W/K. Time constant: 200 s. */
 const HEAT_CAPACITY = 120;

@@ -15,6 +15,7 @@ import { msOfNs, nsOfMs } from '@farpoint/timing';
 export const TO_PROCESS = { ...COMMON_TO_PROCESS, play: 3 } as const;
 export const FROM_PROCESS = { sound: 65, ...COMMON_FROM_PROCESS } as const;
 
+/** What is before the packet: u64 time; and u64 time, u32 duration. */
 const SOUND_HEAD_BYTES = 8;
 const PLAY_HEAD_BYTES = 12;
 /** An Opus packet of 20 ms has at most 1,275 bytes, and a state is short. */

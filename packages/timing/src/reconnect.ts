@@ -7,9 +7,11 @@ export const FIRST_RETRY_MS = 250;
  * usually down, later longer to spare the service.
  */
 const MOST_RETRY_MS = 800;
+/** The longest wait of the patient, ms. Chosen: a service that is back is found within ten seconds. */
 const PATIENT_RETRY_MS = 10_000;
 /** About three minutes of failures. */
 const PATIENT_AFTER = 60;
+/** How long an attempt may take, and every fourth, ms: see below. */
 const SHORT_MS = 2500;
 const LONG_MS = 5000;
 

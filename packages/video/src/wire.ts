@@ -18,10 +18,12 @@ export const MOST_MESSAGE_BYTES = 32 * 1024 * 1024;
 export const TO_PROCESS = { open: 1, configure: 2, keyFrame: 3, frame: 4, coded: 5 } as const;
 export const FROM_PROCESS = { encoded: 65, state: 66, error: 67 } as const;
 
+/** What is before a picture's bytes, as it is written and read below. */
 const ENCODED_HEAD_BYTES = 17;
 const FRAME_HEAD_BYTES = 17;
 const CODED_HEAD_BYTES = 10;
 const LOST_FLAG = 1;
+/** The whole message. */
 const CONFIGURE_BYTES = 13;
 const KEY_FLAG = 1;
 

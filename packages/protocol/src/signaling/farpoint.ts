@@ -9,6 +9,7 @@ import { displayNameSchema, handleSchema, robotIdSchema, tokenSchema } from '../
 import type { JsonCodec } from '../json.ts';
 import { signInUrlSchema } from '../sign-in.ts';
 
+/** A message to the service is at most this long, bytes (docs/protocol.md). Chosen: an SDP of 60,000 characters fits. */
 export const MAX_SIGNALING_BYTES = 65_536;
 /** Characters of a list of revoked grants: it fits a message with room to spare. */
 export const MAX_REVOCATIONS_LENGTH = 60_000;

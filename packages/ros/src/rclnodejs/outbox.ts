@@ -1,5 +1,7 @@
-/** How many messages may be in transit to the robot: few, so that the newest waits here and not behind old ones. */
-
+/**
+ * How many messages may be in transit to the robot: few, so that the newest waits here and not behind old ones. Chosen:
+ * one is read while the next is on its way.
+ */
 const AT_ONCE = 2;
 
 export class Outbox<T> {

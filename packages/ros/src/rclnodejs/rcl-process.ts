@@ -20,7 +20,9 @@ import {
 } from './rclnodejs-api.ts';
 import { othersOf } from './topics.ts';
 
+/** How long the node waits for work at a time, ms. Chosen: what this process is told waits no longer. */
 const SPIN_MS = 10;
+/** How often publishers and subscribers are counted, and topics listed, ms. Chosen: a gone publisher is soon known; listing costs more. */
 const COUNTS_MS = 100;
 const TOPICS_MS = 500;
 /** How long the last message may take to be acknowledged, ns. */

@@ -32,6 +32,7 @@ export interface Ros1Options {
   hostname: string;
 }
 
+/** How often the master is asked for the graph, ms. Chosen: one XML-RPC call a second; a master that restarts is known as soon. */
 const WATCH_MS = 1000;
 const LOOPBACK = ['localhost', '127.0.0.1', '::1'];
 

@@ -4,6 +4,7 @@ import { UrdfFault } from './urdf-fault.ts';
 import { attribute, axisOf, childOf, faultAt, numbers, originOf } from './urdf-values.ts';
 import type { XmlElement } from './xml.ts';
 
+/** Links of a description. Chosen: many have no shape, and only those with one are drawn; above any robot’s. */
 const MAX_LINKS = 2048;
 
 /** URDF's types of joints. Those that move in several ways are drawn where they begin, and have no axis that counts. */

@@ -1,5 +1,6 @@
 /** What the beginning of an encoded VP8 frame says (RFC 6386 §9.1). */
 
+/** The frame tag; with start code and size in a key frame: bytes. */
 const TAG_BYTES = 3;
 const KEY_FRAME_BYTES = 10;
 

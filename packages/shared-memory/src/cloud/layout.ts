@@ -9,6 +9,7 @@ import { SharedMemoryError, type SharedMemoryErrorCode } from '../errors.ts';
 export const CLOUD_FILE = 'farpoint_cloud';
 export const MAGIC = 'FARPOINT';
 export const VERSION = 1;
+/** A page; two cache lines; and what docs/shared-memory.md allows a frame. */
 export const HEADER_BYTES = 4096;
 export const SLOT_HEADER_BYTES = 128;
 export const MAX_POINTS = 4_194_304;

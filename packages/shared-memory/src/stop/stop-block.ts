@@ -2,6 +2,7 @@
 import { SharedMemoryError } from '../errors.ts';
 import { MappedFile, type TrustedOwner } from '../mapped-file.ts';
 
+/** The block’s length, and where its fields are, bytes. */
 export const STOP_BYTES = 16;
 const MAGIC = 'FARPSTOP';
 const COUNTER_OFFSET = 8;

@@ -1,6 +1,7 @@
 import type { Box, Panel } from '../world.ts';
 import { box } from './furniture.ts';
 
+/** Chosen: as in offices, metres. */
 export const WALL_THICKNESS = 0.12;
 export const ROOM_HEIGHT = 2.6;
 const DOOR_HEIGHT = 2.05;

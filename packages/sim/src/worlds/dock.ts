@@ -32,6 +32,7 @@ const HOLES: Hole[] = [
   { fromX: 9, toX: 9.8, fromY: 8.6, toY: 9.4, depth: 2 },
   { fromX: 3, toX: 3.5, fromY: 1.8, toY: 3.6, depth: 0.6 },
 ];
+/** The stair: steps, and the height of each, a usual one, metres. */
 const STEPS = 3;
 const RISE = 0.18;
 

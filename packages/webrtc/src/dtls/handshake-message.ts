@@ -13,6 +13,7 @@ export const HandshakeType = {
   finished: 20,
 } as const;
 
+/** Type, length, sequence number, and the fragment’s place and length (RFC 6347 §4.2.2). */
 export const HANDSHAKE_HEADER_BYTES = 12;
 /** Certificates are the longest messages. A peer's certificate is self-signed and shorter than 1 KB. */
 export const MAX_MESSAGE_BYTES = 16_384;

@@ -3,6 +3,7 @@ import { Buffer } from 'node:buffer';
 import { type CipherGCMTypes, createDecipheriv, type KeyObject } from 'node:crypto';
 import type { DtlsRecord } from './record.ts';
 
+/** The part of the nonce that a record carries, and its tag (RFC 5288 §3). */
 const EXPLICIT_NONCE_BYTES = 8;
 const TAG_BYTES = 16;
 /** Before the explicit part, which each record carries. */

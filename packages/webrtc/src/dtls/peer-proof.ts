@@ -45,8 +45,11 @@ const SIGNATURE_HASHES: ReadonlyMap<number, { hash: string; key: 'ec' | 'rsa' }>
   [0x0403, { hash: 'sha256', key: 'ec' }],
   [0x0401, { hash: 'sha256', key: 'rsa' }],
 ]);
+/** The type of curve (RFC 8422 §5.4). */
 const NAMED_CURVE = 3;
+/** Of a Finished message (RFC 5246 §7.4.9). */
 const VERIFY_DATA_BYTES = 12;
+/** Chosen: NIST SP 800-131A disallows shorter keys. */
 const MIN_RSA_BITS = 2048;
 
 /**

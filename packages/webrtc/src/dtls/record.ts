@@ -2,6 +2,7 @@
 
 export const ContentType = { changeCipherSpec: 20, alert: 21, handshake: 22, applicationData: 23 } as const;
 
+/** Type, version, epoch, sequence number and length. */
 export const RECORD_HEADER_BYTES = 13;
 /** 2^14 bytes of plaintext, plus what a cipher may add (RFC 5246 §6.2.3). */
 const MAX_FRAGMENT_BYTES = 16_384 + 2048;

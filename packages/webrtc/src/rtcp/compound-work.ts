@@ -9,9 +9,11 @@ import {
   RTCP_TRANSPORT_FEEDBACK,
 } from '@farpoint/rtp';
 
+/** The first word of each packet: format, type and length (RFC 3550 §6.4.1). */
 const HEADER_BYTES = 4;
 /** Where transport-wide feedback says on how many packets it reports. */
 const STATUS_COUNT_AT = 14;
+/** What costs as much as a packet. Chosen: a packet with more is counted as several. */
 const STATUSES_PER_UNIT = 256;
 const BYTES_PER_UNIT = 64;
 

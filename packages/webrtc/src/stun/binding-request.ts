@@ -1,6 +1,7 @@
 /** Checks that a connectivity check belongs to our session (RFC 8489 §9.1, §14.5; RFC 8445 §7.3). */
 import { createHmac, timingSafeEqual } from 'node:crypto';
 
+/** Header and cookie (RFC 8489 §5), types of attributes (§18.3), a SHA-1, and the longest username (RFC 5389 §15.3). */
 const HEADER_BYTES = 20;
 const MAGIC_COOKIE = 0x2112a442;
 const USERNAME = 0x0006;

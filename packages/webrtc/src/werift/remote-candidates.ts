@@ -4,6 +4,7 @@ import type { RTCPeerConnection } from 'werift';
 import { CandidateGate, type CandidateRefusal, takeCandidates } from '../ice/candidate-gate.ts';
 import { guardLookups } from './ice-sockets.ts';
 
+/** Characters of a refusal’s detail in the log. Chosen: a candidate’s line fits. */
 const MAX_DETAIL = 300;
 
 /**
