@@ -30,6 +30,18 @@ test('loss that stays is the link’s own, and no longer a reason to cut', () =>
   until(judge, 0.3, end, 'excess');
 });
 
+test.each([
+  { base: 0, loss: 0.02, verdict: 'none' },
+  { base: 0, loss: 0.04, verdict: 'excess' },
+  { base: 0.01, loss: 0.03, verdict: 'none' },
+  { base: 0.01, loss: 0.05, verdict: 'excess' },
+])('loss of $loss over a base of $base: $verdict', ({ base, loss, verdict }) => {
+  const judge = new LossJudge();
+  judge.base = base;
+  expect(judge.onFeedback(1000 * (1 - loss), 1000 * loss, 0, 0)).toBe('none');
+  expect(judge.onFeedback(1000 * (1 - loss), 1000 * loss, 0, 1000)).toBe(verdict);
+});
+
 test('packets sent before the cut do not count as evidence', () => {
   const judge = new LossJudge();
   judge.cutAt(until(judge, 0.1, 1000, 'excess') + 10_000);

@@ -85,6 +85,24 @@ describe('ReportRateController', () => {
     expect(controller.snapshot(9000)).toMatchObject({ state: 'reports', estimateBitsPerSecond: 250_000 });
   });
 
+  test('grows by 40 % a second until the path has shown its limit, then by 12 %, and by 4 % near the limit', () => {
+    const controller = new ReportRateController();
+    const estimate = () => controller.snapshot(0).estimateBitsPerSecond;
+    let [ms, packetsReceived] = [0, 0];
+    send(controller, ms);
+    /** All that was sent in the last second has arrived. @returns the factor by which the rate has changed */
+    const second = (rttMs: number) => {
+      const before = estimate();
+      packetsReceived += before / (8 * 1200);
+      ms += 1000;
+      controller.onReceiverReport({ packetsReceived, packetsLost: 0, rttMs }, ms);
+      return estimate() / before;
+    };
+    second(40);
+    const factors = [40, 40, 40, 140, 40, 40, 40].map(second);
+    expect(factors).toEqual([1.4, 1.4, 1.4, 0.85, 1.12, 1.04, 1.04].map((each) => expect.closeTo(each, 6)));
+  });
+
   test('does not take a pause of its own for silence of the receiver', () => {
     const controller = new ReportRateController();
     send(controller, 0);

@@ -95,6 +95,22 @@ describe('PictureSender', () => {
     expect(channel.chunks.length).toBeGreaterThan(begun);
   });
 
+  it('keeps two chunks of 1,160 bytes queued, and waits while there are more', () => {
+    const { channel, sender } = setUp([0]);
+    sender.sendDue(0, 1e6);
+    sender.offer(picture(0, 1, 10));
+    const sendChunk = channel.sendPicture.bind(channel);
+    channel.sendPicture = (chunk) => {
+      channel.picturesBuffered += chunk.length;
+      return sendChunk(chunk);
+    };
+    sender.sendDue(100, 1e6);
+    expect(channel.chunks).toHaveLength(3);
+    channel.picturesBuffered -= 1160;
+    sender.sendDue(100, 1e6);
+    expect(channel.chunks).toHaveLength(4);
+  });
+
   it('gives up a picture that takes too long, and one that is refused', () => {
     const { channel, sender } = setUp();
     sender.sendDue(0, 50_000);

@@ -22,6 +22,17 @@ describe('FrameFit', () => {
     expect(fit.share).toBe(0.8);
   });
 
+  it.each([
+    [14, 'within half a second', 0.8],
+    [15, 'later', 1],
+  ])('counts two cut frames with %i whole ones between them: the second came %s', (whole, _, share) => {
+    const fit = new FrameFit();
+    fit.onCut();
+    for (let i = 0; i < whole; i++) fit.onSent();
+    fit.onCut();
+    expect(fit.share).toBe(share);
+  });
+
   it('settles near what can be sent', () => {
     const fit = new FrameFit();
     const shares: number[] = [];

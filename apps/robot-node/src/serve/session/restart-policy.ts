@@ -2,12 +2,12 @@
  * An offer that has no answer after this time counts as lost, ms. Chosen: three of the page's requests
  * (resume-policy.ts).
  */
-export const ANSWER_WAIT_MS = 3000;
+const ANSWER_WAIT_MS = 3000;
 /**
  * Minimum time between an answered offer and the next, ms: ICE needs a moment to find a path. Chosen: several
  * round trips, and below the second in which the page asks again.
  */
-export const RESTART_SPACING_MS = 400;
+const RESTART_SPACING_MS = 400;
 
 /**
  * Decides when a request for an ICE restart gets an offer. Each offer gives up the path of the offer before it, so

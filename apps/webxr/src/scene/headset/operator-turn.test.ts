@@ -17,6 +17,19 @@ describe('in steps', () => {
     expect(degrees(turn.by(-1, 11))).toBeCloseTo(30, 9);
   });
 
+  test.each([
+    { back: 0, to: 0.69, turns: 0 },
+    { back: 0, to: 0.71, turns: 1 },
+    { back: 0.39, to: 0.71, turns: 1 },
+    { back: 0.41, to: 1, turns: 0 },
+  ])('after the stick came back to $back, a push to $to turns $turns times', ({ back, to, turns }) => {
+    const turn = new OperatorTurn({ turn: 'snap', snapDegrees: 30 });
+    turn.by(0, 11);
+    turn.by(1, 11);
+    turn.by(back, 11);
+    expect(degrees(turn.by(to, 11))).toBeCloseTo(-30 * turns, 9);
+  });
+
   test('a stick that is deflected from the beginning turns nothing until it is centred', () => {
     const turn = new OperatorTurn({ turn: 'snap', snapDegrees: 30 });
     expect(turn.by(1, 11)).toBe(0);
