@@ -35,6 +35,16 @@ describe('a position', () => {
     expect(judge.judge({ x: 11, y: -4 }, at, 3020)).toBe(false);
   });
 
+  it.each([
+    [4980, true],
+    [5000, false],
+  ])('is tried again after the robot has stood for five seconds: after %i ms refused: %s', (ms, refused) => {
+    const judge = new FrozenPosition(0);
+    driven(judge, () => HERE);
+    expect(judge.judge(HERE, { x: 2, y: 0 }, 10_000)).toBe(true);
+    expect(judge.judge(HERE, { x: 2, y: 0 }, 10_000 + ms)).toBe(refused);
+  });
+
   it('of a robot that only seemed to move is believed again after it has stood, with half of the patience each time', () => {
     const judge = new FrozenPosition(0);
     let [x, ms, goes] = [0, 0, 0];

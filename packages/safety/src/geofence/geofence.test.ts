@@ -81,7 +81,9 @@ describe('the guard', () => {
     expect(factors[0]).toBe(1);
     expect(factors.toSorted((a, b) => b - a)).toEqual(factors);
     expect(ask(room, { x: 3.5 }, 1)).toMatchObject({ reason: 'fence-near', urgent: false });
-    expect(ask(room, { x: 4.48 }, 1)).toEqual({ factor: 0, reason: 'fence', urgent: true });
+    // Nearer than 3 cm it stands.
+    expect(ask(room, { x: 4.465 }, 1)).toMatchObject({ reason: 'fence-near', urgent: false });
+    expect(ask(room, { x: 4.475 }, 1)).toEqual({ factor: 0, reason: 'fence', urgent: true });
   });
 
   test('at the edge, nothing leads out, however slowly; turning and the way back in are free', () => {

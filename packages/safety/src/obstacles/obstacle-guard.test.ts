@@ -72,10 +72,12 @@ describe('the obstacle guard', () => {
   test('brakes as hard as it can if something is suddenly near, until it has become slow', () => {
     const guard = standing(wall(0.55), DISC, go(1));
     expect(guard.bound(go(1), 1010)).toEqual({ factor: 0, reason: 'obstacle', urgent: true });
-    // It could now stop in time, but only just.
-    guard.moved({ x: 0, y: 0, yaw: 0 }, go(0.75), 1020);
+    // From 0.55 m/s it could stop within three quarters of the way: it need not begin to brake, and must not end.
+    expect(standing(wall(0.55), DISC, go(0.55)).bound(go(1), 1010).urgent).toBe(false);
+    guard.moved({ x: 0, y: 0, yaw: 0 }, go(0.55), 1020);
     expect(guard.bound(go(1), 1020).factor).toBe(0);
-    guard.moved({ x: 0, y: 0, yaw: 0 }, go(0.2), 1030);
+    // From 0.5 m/s, within two thirds.
+    guard.moved({ x: 0, y: 0, yaw: 0 }, go(0.5), 1030);
     expect(guard.bound(go(1), 1030)).toMatchObject({ reason: 'obstacle-near', urgent: false });
   });
 
@@ -88,16 +90,41 @@ describe('the obstacle guard', () => {
     expect(guard.bound(go(-0.5, 0.4), 1010).factor).toBe(1);
   });
 
-  test('does not let a stopped robot go again because of a centimetre', () => {
-    const guard = standing(wall(0.3));
-    expect(guard.bound(go(1), 1010).factor).toBe(0);
-    const later = (x: number, ms: number) => {
+  test('lets a stopped robot go again where it may go at 0.1 m/s, not because of a centimetre', () => {
+    const at = (guard: ObstacleGuard, x: number, ms: number) => {
       guard.moved({ x, y: 0, yaw: 0 }, zeroTwist(), ms);
       return guard.bound(go(1), ms).factor;
     };
-    expect([later(-0.03, 1020), later(0.01, 1030), later(-0.04, 1040)]).toEqual([0, 0, 0]);
-    expect(later(-0.3, 1050)).toBeGreaterThan(0);
+    const guard = standing(wall(0.3));
+    expect(guard.bound(go(1), 1010).factor).toBe(0);
+    // Where another robot would go at 0.06 m/s, it stays.
+    expect(at(standing(wall(0.3)), -0.1, 1020)).toBeCloseTo(0.06);
+    expect([at(guard, -0.1, 1020), at(guard, 0.01, 1030), at(guard, -0.12, 1040)]).toEqual([0, 0, 0]);
+    expect(at(guard, -0.14, 1050)).toBeCloseTo(0.12);
   });
+
+  test.each([0.2, 0.25, 0.8])(
+    'goes at 0.2 m/s into a door that leaves 13 cm at each side, asked for %f',
+    (asked) => {
+      const door = floor().paint('occupied', 0.15, 0.25, 0.38, 2).paint('occupied', 0.15, 0.25, -2, -0.38);
+      expect(standing(door).bound(go(asked), 1010).factor * asked).toBeCloseTo(0.2);
+    },
+  );
+
+  test.each([
+    [0.015, 'stops', { kind: 'thing', metres: 0 }],
+    [0.035, 'goes', null],
+  ])(
+    'what is 5 cm inside its outline is the robot itself: with an edge %f m farther, it %s',
+    (x, expected, hit) => {
+      const guard = new ObstacleGuard(LONG, 1);
+      guard.moved({ x, y: 0, yaw: 0 }, zeroTwist(), 1000);
+      // Its middle is at 0.575 m, the outline's edge at 0.6 m and x.
+      guard.see(0, floor().paint('occupied', 0.55, 0.6, 0, 0.05));
+      expect(guard.bound(go(0.5), 1010).factor > 0 ? 'goes' : 'stops').toBe(expected);
+      expect(guard.nearField(1010)?.[0]?.hit).toEqual(hit);
+    },
+  );
 
   test('lets the robot go along a wall, and out of a narrow passage', () => {
     const beside = floor().paint('occupied', -4, 4, 0.3, 1).paint('occupied', -4, 4, -1, -0.3);

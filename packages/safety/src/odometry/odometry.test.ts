@@ -45,6 +45,26 @@ describe('a pose', () => {
   });
 });
 
+// At most 0.6 m/s and 1 rad/s.
+test.each([
+  { x: 0.14, yaw: 0, afterMs: 50, count: 0 },
+  { x: 0.15, yaw: 0, afterMs: 50, count: 1 },
+  { x: 0.99, yaw: 0, afterMs: 1000, count: 0 },
+  { x: 1.01, yaw: 0, afterMs: 1000, count: 1 },
+  { x: 0, yaw: 1.59, afterMs: 1000, count: 0 },
+  { x: 0, yaw: -1.61, afterMs: 1000, count: 1 },
+  { x: 0.5, yaw: 0, afterMs: 2000, count: 0 },
+  { x: 0.02, yaw: 0, afterMs: 2001, count: 1 },
+  { x: 0, yaw: 0, afterMs: 2001, count: 0 },
+])(
+  'jumps by 10 cm or 0.1 rad more than at one and a half times its speed, or at all after 2 s: $x m, $yaw rad, $afterMs ms',
+  ({ x, yaw, afterMs, count }) => {
+    const odometry = begun();
+    odometry.measured({ x, y: 0, yaw }, go(0), afterMs);
+    expect(odometry.jumps.count).toBe(count);
+  },
+);
+
 describe('a pose that does not move although the robot is told to', () => {
   /** Told, with the same pose in every step. @returns how far it was told to go before the pose was given up, m */
   function toldUntilStuck(odometry: Odometry, speed: number, twist: Twist, fromMs: number): number {

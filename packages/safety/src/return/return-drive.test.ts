@@ -233,6 +233,21 @@ describe('it stands at once', () => {
     ends(robot, 'blocked');
   });
 
+  test.each([
+    [0.04, 'ended', 'blocked'],
+    [0.06, 'returning', null],
+  ])('when it gets on by less than 5 cm in 20 s: after %f m it is %s', (metres, phase, end) => {
+    const robot = lost();
+    let { pose } = robot.base;
+    robot.onAdvance = () => {
+      robot.base.pose = pose;
+    };
+    robot.wait(25);
+    pose = { ...pose, x: pose.x - metres };
+    robot.wait(10);
+    expect([robot.back.phase, robot.back.end]).toEqual([phase, end]);
+  });
+
   test('when it was on its way for too long', () => {
     const robot = lost({ longestMs: 5000 });
     robot.wait(18.2);
@@ -261,5 +276,20 @@ describe('it does not begin', () => {
     robot.wait(15);
     ends(robot, end);
     expect(robot.back.metres).toBe(0);
+  });
+
+  test.each([
+    [0.17, 'ended', 'no-track'],
+    [0.25, 'announcing', null],
+  ])('unless it knows a way of 0.2 m: after %f m it is %s', (metres, phase, end) => {
+    const robot = new ReturningRobot();
+    robot.connect();
+    robot.hand = { x: 0.1, z: 0 };
+    while (robot.base.pose.x < metres - 0.01) robot.advance();
+    robot.drive(0, 0, 0.1);
+    expect(robot.base.pose.x).toBeCloseTo(metres, 1.5);
+    robot.lose();
+    robot.wait(12);
+    expect([robot.back.phase, robot.back.end]).toEqual([phase, end]);
   });
 });
