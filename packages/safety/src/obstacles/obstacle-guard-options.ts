@@ -44,7 +44,7 @@ export const defaultObstacleGuardOptions: Readonly<ObstacleGuardOptions> = {
 };
 
 /**
- * * How much of the margin is kept even when the robot creeps. The robot gets through a narrow door with 10
+ * How much of the margin is kept even when the robot creeps. The robot gets through a narrow door with 10
  * of 15 cm: docs/obstacle-guard.md says both; `pnpm bench guard-runs` counts contacts and false stops with
  * these numbers.
  */

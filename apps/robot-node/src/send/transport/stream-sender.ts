@@ -25,7 +25,7 @@ const BURST_MS = 2.5;
  */
 const BURST_BYTES = 64_000;
 /**
- * * A probe train waits this many frames for a frame of its length. After that, a frame of at least this many
+ * A probe train waits this many frames for a frame of its length. After that, a frame of at least this many
  * packets is enough. Chosen: an eighth of a second at 30 a second; probe-tester.ts needs five packets, twenty
  * tell more (docs/congestion.md).
  */

@@ -101,7 +101,7 @@ const LEAST_FRAMES_PER_SECOND = 10;
  */
 const UPWARD_MARGIN = 1.25;
 /**
- * * The share of its time that the capture thread may spend on frames. It also reads commands and moves the
+ * The share of its time that the capture thread may spend on frames. It also reads commands and moves the
  * robot, and must not fall behind. Chosen: 30 % of an interval are left for the guard and late wake-ups.
  * `pnpm bench cpu` measures what a frame takes.
  */

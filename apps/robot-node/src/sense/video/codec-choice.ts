@@ -9,7 +9,7 @@ export interface CodecWatcher {
 }
 
 /**
- * * A change that somebody would lose the picture by, or that nobody needs, has to be better for so long, ms.
+ * A change that somebody would lose the picture by, or that nobody needs, has to be better for so long, ms.
  * A page that is loaded again, or an operator who comes and goes, does not make it flap. Chosen: a page is
  * loaded in less (docs/video.md, Codecs).
  */

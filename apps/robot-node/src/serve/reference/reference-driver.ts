@@ -16,7 +16,7 @@ import type { CommandVerdict, DriveGuard } from '@farpoint/safety';
 import { TokenBucket } from '@farpoint/timing';
 
 /**
- * * After this long without a request for motion, the lease is released, because nobody can ask for it, and
+ * After this long without a request for motion, the lease is released, because nobody can ask for it, and
  * the grip counts as open. Not every reference operator sends a zero. Chosen: docs/safety.md says it.
  */
 const LEASE_AFTER_MOTION_MS = 2000;

@@ -10,7 +10,7 @@ import { type Access, mayDrive, supervises } from '../../admit/access/access.ts'
 import type { DriveStation } from '../../motion/drive/drive-station.ts';
 
 /**
- * * A release that names no latch may have been sent before the operator heard of the present one. It counts
+ * A release that names no latch may have been sent before the operator heard of the present one. It counts
  * only if the operator was told of that at least this long ago, ms. Chosen: above the round trip of any link
  * that can be driven by, and below a person's second try.
  */
