@@ -4,6 +4,7 @@ import './panels/ui/picture-panels.css';
 import './panels/ui/sound.css';
 import './panels/ui/minimap.css';
 import './panels/ui/near.css';
+import './panels/ui/banner.css';
 import { isSoftwareRenderer } from '@farpoint/cloud-view';
 import { transformSupport } from '@farpoint/operator';
 import { readBenchSettings } from './ground/bench-settings.ts';

@@ -79,6 +79,7 @@ export class App implements ShownParts {
       figures: () => this.figures(),
       placements: new PanelPlacements(loadPlacements(), storePlacements),
       now: () => performance.now(),
+      isOnline: () => navigator.onLine,
       newCanvas: () => document.createElement('canvas'),
     });
     const { state, stats, player } = this;

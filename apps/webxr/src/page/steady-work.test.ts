@@ -20,7 +20,12 @@ function standIns() {
     cloudPanel: { update: called('cloudPanel') },
     near: { update: called('near') },
     vr: { active: { value: false }, hidden: false },
-    state: { driving: { role: { value: 'drive' } }, looking: { value: false }, sample: called('sample') },
+    state: {
+      driving: { role: { value: 'drive' } },
+      looking: { value: false },
+      sample: called('sample'),
+      followSilence: called('silence'),
+    },
     stats: { update: called('stats'), remembered: null as unknown },
     views: {
       cloud: {},
@@ -48,7 +53,7 @@ const isSuspended = () => {
 describe('the hands', () => {
   test('are read before commands are sent, and the robot is drawn where it is then', () => {
     work.drive(40);
-    expect(order).toEqual(['gap', 'poll', 'estop', 'send', 'robot', 'near']);
+    expect(order).toEqual(['gap', 'poll', 'estop', 'send', 'silence', 'robot', 'near']);
     expect(parts.client.update).toHaveBeenCalledWith(40);
     expect(parts.estop.update).toHaveBeenCalledWith(40, false);
   });

@@ -32,6 +32,7 @@ export interface SteadyWorkParts {
     driving: { role: Pick<PageState['driving']['role'], 'value'> };
     looking: Pick<PageState['looking'], 'value'>;
     sample(): void;
+    followSilence: PageState['followSilence'];
   };
   stats: Pick<PageStatistics, 'update' | 'remembered'>;
   views: {
@@ -76,6 +77,7 @@ export class SteadyWork {
     client.driver.suspended = away || state.driving.role.value === 'watch';
     if (this.#left.decide(vr.active.value ? vr.hidden : this.#page.hidden, nowMs)) client.driver.letGo(nowMs);
     client.update(nowMs);
+    state.followSilence(nowMs);
     showRobot(nowMs);
     near.update(nowMs);
   }

@@ -1,15 +1,35 @@
 /** The link: the state of the signaling service, the robots it lists, the chosen robot, and the session with it. */
-import { type RobotClient, robotAfter } from '@farpoint/operator';
+import { type RobotClient, type RobotLink, robotAfter } from '@farpoint/operator';
 import { computed } from '@preact/signals-core';
+import { type Silence, silenceOf } from '../ground/silence.ts';
 import { obstacleOf } from '../words/access-words.ts';
+import { type Banner, bannerWords } from '../words/banner-words.ts';
 import { linkWords, type Words } from '../words/words.ts';
-import type { Sampler } from './sampler.ts';
+import { type Sampler, steady } from './sampler.ts';
+import { Takeover } from './takeover.ts';
 
 export type LinkState = ReturnType<typeof linkState>;
 
-/** @param signalingFault why the given signaling address cannot be used; `null` if it can */
-export function linkState(client: RobotClient, samples: Sampler, signalingFault: string | null) {
+/** For how long the robot has said nothing; `lost` without a session. @param atMs page's clock */
+export function robotSilence(link: Pick<RobotLink, 'phase' | 'silentMs'>, atMs: number): Silence {
+  return link.phase === 'live' ? silenceOf(link.silentMs(atMs)) : 'lost';
+}
+
+export interface LinkStateParts {
+  readonly client: RobotClient;
+  readonly samples: Sampler;
+  /** Why the given signaling address cannot be used; `null` if it can. */
+  readonly signalingFault: string | null;
+  /** Whether the browser believes that it has a network. */
+  isOnline(): boolean;
+}
+
+export function linkState({ client, samples, signalingFault, isOnline }: LinkStateParts) {
   const { link } = client;
+  const takeover = new Takeover();
+  client.on('lease', ({ holder, driver: name = null }) => takeover.onLease(holder, name));
+  client.on('session', () => takeover.reset());
+  const silence = samples.of((atMs) => robotSilence(link, atMs));
   const phase = samples.of(() => link.phase);
   const robots = samples.of(() => link.robots);
   const chosenRobotId = samples.of(() => client.chosenRobotId);
@@ -23,6 +43,9 @@ export function linkState(client: RobotClient, samples: Sampler, signalingFault:
     connected: computed(() => phase.value !== 'none'),
     /** A session is established. */
     live: computed(() => phase.value === 'live'),
+    silence,
+    /** Something has come from the robot just now: otherwise no figure of it is live. */
+    heard: computed(() => silence.value === 'heard'),
     /** The robot after the chosen one in the list; `null` if there is no other. */
     nextRobot: computed(() => robotAfter(robots.value, chosenRobotId.value)),
     /** What keeps the page from connecting until the operator does something; `null` if nothing does. */
@@ -31,22 +54,49 @@ export function linkState(client: RobotClient, samples: Sampler, signalingFault:
         ? obstacleOf(link.lastLoss, link.lossDetail, link.changedRobotKey, link.signInUrl)
         : null,
     ),
+    /** What stands in the middle of the screen; `null` while there is nothing to say. */
+    banner: steady(samples.of((atMs) => bannerOf(client, { atMs, takeover, isOnline }))),
     /** The state of the link in one line. */
-    line: samples.of((atMs): Words => {
-      if (signalingFault !== null && link.phase === 'none')
-        return { text: `Signaling address: ${signalingFault}`, tone: 'bad' };
-      return linkWords({
-        phase: link.phase,
-        signaling: link.signaling,
-        robotListed: link.robotListed,
-        lastLoss: link.lastLoss,
-        maxOperators: link.maxOperators,
-        lossDetail: link.lossDetail,
-        grantLeftMs: link.session.grantEndsAtMs === null ? null : link.session.grantEndsAtMs - atMs,
-        silentMs: link.silentMs(atMs),
-        pointsSilentMs: atMs - client.pointsAtMs,
-        rateByReports: link.session.telemetry?.stream.feedback === 'reports',
-      });
-    }),
+    line: samples.of((atMs) => lineOf(client, signalingFault, atMs)),
   };
+}
+
+function bannerOf(
+  { link, driver, chosenRobotId }: RobotClient,
+  { atMs, takeover, isOnline }: { atMs: number; takeover: Takeover; isOnline: () => boolean },
+): Banner | null {
+  return bannerWords({
+    phase: link.phase,
+    silence: robotSilence(link, atMs),
+    interrupted: link.interrupted,
+    signaling: link.signaling,
+    online: isOnline(),
+    robotListed: link.robotListed,
+    robotId: chosenRobotId,
+    lastLoss: link.lastLoss,
+    maxOperators: link.maxOperators,
+    lossDetail: link.lossDetail,
+    gripped: driver.isGripped,
+    gripLost: driver.lost,
+    takenOverBy: takeover.by(driver.isGripped),
+  });
+}
+
+function lineOf({ link, pointsAtMs }: RobotClient, signalingFault: string | null, atMs: number): Words {
+  if (signalingFault !== null && link.phase === 'none')
+    return { text: `Signaling address: ${signalingFault}`, tone: 'bad' };
+  const { grantEndsAtMs, telemetry } = link.session;
+  return linkWords({
+    phase: link.phase,
+    signaling: link.signaling,
+    robotListed: link.robotListed,
+    lastLoss: link.lastLoss,
+    maxOperators: link.maxOperators,
+    lossDetail: link.lossDetail,
+    grantLeftMs: grantEndsAtMs === null ? null : grantEndsAtMs - atMs,
+    silentMs: link.silentMs(atMs),
+    silence: robotSilence(link, atMs),
+    pointsSilentMs: atMs - pointsAtMs,
+    rateByReports: telemetry?.stream.feedback === 'reports',
+  });
 }

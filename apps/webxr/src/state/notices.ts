@@ -1,31 +1,43 @@
 /** Notices to the operator: a line that disappears by itself, and a failure that keeps the page from working. */
 
-import { finalLosses, type RobotClient } from '@farpoint/operator';
+import type { RobotClient } from '@farpoint/operator';
 import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
+import { missingGripWords, takenOverWords } from '../words/driving-words.ts';
 import {
   failureWords,
   gripLossWords,
   rejectionWords,
   type Tone,
   type Words,
-  wordsOfLoss,
   wordsOfRejection,
 } from '../words/words.ts';
+import { Takeover } from './takeover.ts';
 
-/** Tells people what happens to the session and to their commands, as short notices. */
+/** Tells people what happens to the session and to their commands, as short notices. Of a loss, the banner tells. */
 export function tellNotices(client: RobotClient, notices: Notices): void {
-  client.on('loss', (loss) => {
-    // A panel shows the final ones.
-    if (!finalLosses.has(loss)) notices.tell(wordsOfLoss(loss, client.link), 'warning');
+  const takeover = new Takeover();
+  const { driver, link } = client;
+  // What follows from a takeover must not hide it.
+  const isDisplaced = () => takeover.by(driver.isGripped) !== null;
+  client.on('session', () => takeover.reset());
+  client.on('lease', ({ holder, driver: name = null }) => {
+    if (takeover.onLease(holder, name)) notices.tell(takenOverWords(name), 'warning');
   });
   client.on('grantExpires', (inS) => notices.tell(`Your grant ends in ${inS} s.`, 'warning'));
   client.on('refused', (message) => notices.tell(message, 'warning'));
   client.on('welcome', ({ name }) => notices.mention(`Connected to ${name}`));
   client.on('commandRejected', ({ reason, detail }) => {
     console.info('command refused:', reason, detail);
+    if (reason === 'not-lease-holder' && isDisplaced()) return;
     notices.tell(wordsOfRejection(reason, client.driver.holder), 'warning');
   });
-  client.on('otherDrives', () => notices.tell(rejectionWords['not-lease-holder'], 'warning'));
+  client.on('otherDrives', () => {
+    if (!isDisplaced()) notices.tell(rejectionWords['not-lease-holder'], 'warning');
+  });
+  client.on('gripMissing', (device) => {
+    const role = link.session.welcome?.access?.role ?? null;
+    if (link.phase === 'live') notices.tell(missingGripWords(device, driver.holder, role), 'warning');
+  });
   client.on('gripLost', (loss) => notices.tell(gripLossWords[loss], 'warning'));
   client.on('robotFault', (message) => notices.tell(`The robot reports: ${message}`, 'warning'));
   client.on('failed', ({ detail }) => {

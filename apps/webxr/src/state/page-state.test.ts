@@ -37,6 +37,7 @@ class Client extends RobotVoice {
     robots: [] as readonly RobotListing[],
     ...{ robotListed: true, lastLoss: null, maxOperators: null, lossDetail: null, changedRobotKey: null },
     signInUrl: null,
+    interrupted: false,
     ...{ session: this.session },
     silentMs: (nowMs: number) => nowMs - this.heardAtMs,
   };
@@ -46,6 +47,7 @@ class Client extends RobotVoice {
     stream: { held: false },
     input: null as { name: string } | null,
     lost: null,
+    isGripped: false,
   };
   heardAtMs = 0;
   readonly watched: (readonly number[])[] = [];
@@ -85,6 +87,7 @@ class Bench {
       notices: new Notices(),
       figures: () => ({ framesDrawn: this.nowMs }) as PageStats,
       now: () => this.nowMs,
+      isOnline: () => true,
       newCanvas: () => ({ width: 0, height: 0, getContext: () => null }) as unknown as HTMLCanvasElement,
     });
   }
@@ -117,6 +120,48 @@ describe('the link', () => {
     bench.client.enter('live');
     expect(bench.state.link.line.value.text).toBe('Live');
     expect(bench.pass(2000).state.link.line.value.text).toContain('lost for 2 s');
+  });
+
+  test('follows a silence without waiting for the next sample, and samples no more often than it changes', () => {
+    const bench = new Bench();
+    const { client, state } = bench;
+    client.chosenRobotId = 'r1';
+    client.enter('live');
+    const told: [heard: boolean, banner: string | null][] = [];
+    let samples = 0;
+    effect(() => {
+      void state.sampledAtMs.value;
+      samples++;
+    });
+    effect(() => void told.push([state.link.heard.value, state.link.banner.value?.title ?? null]));
+    client.driver.holder = 'you';
+    for (; bench.nowMs < 750; bench.nowMs += 25) {
+      // The points stop as well.
+      client.pointsAtMs = 0;
+      state.followSilence(bench.nowMs);
+      if (bench.nowMs === 425) expect(state.driving.line.value.text).toBe('The robot does not hear you');
+    }
+    expect(told).toEqual([
+      [true, null],
+      [false, null],
+      [false, 'The robot does not answer'],
+    ]);
+    expect(samples).toBe(3);
+    client.heardAtMs = bench.nowMs;
+    client.pointsAtMs = bench.nowMs;
+    state.followSilence(bench.nowMs);
+    expect(told.at(-1)).toEqual([true, null]);
+  });
+
+  test('points that stop alone are told of as soon', () => {
+    const bench = new Bench();
+    const { client, state } = bench;
+    client.enter('live');
+    for (; bench.nowMs < 425; bench.nowMs += 25) {
+      client.heardAtMs = bench.nowMs;
+      state.followSilence(bench.nowMs);
+    }
+    expect([state.link.heard.value, state.robot.pointsHeard.value]).toEqual([true, false]);
   });
 
   test('reports an unusable signaling address while there is no session', () => {

@@ -15,9 +15,9 @@ import type { PageStats } from '../words/page-stats.ts';
 import { holderWords } from '../words/words.ts';
 import { Enlarged } from './enlarged.ts';
 import { LinkPriority } from './link-priority.ts';
-import { type LinkState, linkState } from './link-state.ts';
+import { type LinkState, linkState, robotSilence } from './link-state.ts';
 import type { Notices } from './notices.ts';
-import { type RobotState, robotState } from './robot-state.ts';
+import { comesPoints, type RobotState, robotState } from './robot-state.ts';
 import { Sampler } from './sampler.ts';
 import { SoundState } from './sound-state.ts';
 
@@ -63,14 +63,16 @@ function drivingState({ driver, link }: RobotClient, samples: Sampler) {
     /** Whether this operator may take the lease from another. */
     mayTake: computed(() => holder.value === 'other' && role.value !== 'watch'),
     /** Who drives, in a few words. */
-    line: samples.of(() =>
+    line: samples.of((atMs) =>
       holderWords({
+        heard: link.phase !== 'live' || (robotSilence(link, atMs) === 'heard' && !link.interrupted),
         holder: driver.holder,
         driver: link.session.lease.driver ?? null,
         role: link.session.welcome?.access?.role ?? null,
         device: driver.stream.held ? (driver.input?.name ?? '') : null,
         gripLost: driver.lost,
         paused: driver.paused,
+        stopped: link.session.estop.latched,
       }),
     ),
   };
@@ -101,6 +103,8 @@ export interface PageStateParts {
   figures(): PageStats;
   /** Page's clock, ms. */
   now(): number;
+  /** Whether the browser believes that it has a network. */
+  isOnline(): boolean;
   newCanvas(): HTMLCanvasElement;
 }
 
@@ -137,11 +141,14 @@ export class PageState {
   readonly looking = signal(true);
   readonly #samples = new Sampler();
   readonly #now: () => number;
+  readonly #client: RobotClient;
 
-  constructor({ client, settings, notices, placements, figures, now, newCanvas }: PageStateParts) {
+  constructor({ client, settings, notices, placements, figures, now, newCanvas, isOnline }: PageStateParts) {
     this.#now = now;
+    this.#client = client;
     this.notices = notices;
-    this.link = linkState(client, this.#samples, settings.signalingFault);
+    const { signalingFault } = settings;
+    this.link = linkState({ client, samples: this.#samples, signalingFault, isOnline });
     this.robot = robotState(client, this.#samples);
     this.driving = drivingState(client, this.#samples);
     this.figures = this.#samples.of(figures);
@@ -169,6 +176,18 @@ export class PageState {
   /** Updates the signals now. Also called a few times a second, for values that change with time. */
   sample(): void {
     this.#samples.take(this.#now());
+  }
+
+  /**
+   * Samples at once if the robot has fallen silent or is heard again since the last sample. Call it as often as hands are
+   * read: figures must not look live any longer than they are.
+   */
+  followSilence(nowMs: number): void {
+    const { link, robot } = this;
+    const isSame =
+      robotSilence(this.#client.link, nowMs) === link.silence.peek() &&
+      comesPoints(this.#client, nowMs) === robot.pointsHeard.peek();
+    if (!isSame) this.sample();
   }
 
   /** Lets the camera fill the screen, or the cloud again; without one, the enlarged camera or the first. */

@@ -16,6 +16,8 @@ const telemetry = {
 } as Telemetry;
 const open = { type: 'estop', latched: false } as const;
 const session = {
+  heard: true,
+  pointsHeard: true,
   name: 'Rover',
   telemetry,
   estop: open,
@@ -31,6 +33,23 @@ describe('the table of figures', () => {
     const seen = { ...figures, view: { state: 'predicted', aheadMs: 142 } } as const;
     expect(values(sessionFacts({ ...session, figures: seen })).View).toBe('Predicted 140 ms ahead');
     expect(values(sessionFacts({ ...session, figures: seen, telemetry: null })).View).toBeUndefined();
+  });
+
+  test('without a word from the robot no figure of it is live; without points none of them', () => {
+    const remembered = { points: 5, oldestS: 5 };
+    const all = { ...session, figures: { ...figures, remembered } };
+    const live = values(sessionFacts(all));
+    const unheard = values(sessionFacts({ ...all, heard: false }));
+    expect(Object.keys(unheard)).toEqual(Object.keys(live));
+    const kept = Object.entries(unheard).filter(([, value]) => value !== '–');
+    expect(kept).toEqual([
+      ['Robot', 'Rover'],
+      ['Remembered', 'up to 10 s old'],
+    ]);
+    expect(sessionFacts({ ...all, heard: false }).every(({ tone }) => tone === undefined)).toBe(true);
+    const frozen = values(sessionFacts({ ...all, pointsHeard: false }));
+    expect(frozen).toMatchObject({ Points: '–', Rate: '–', Loss: '–', 'View age': '–' });
+    expect(frozen).toMatchObject({ State: 'Stationary', 'Round trip': '42 ms', Battery: '20 %  24.0 V' });
   });
 
   test('says how old what is remembered may be', () => {
@@ -112,6 +131,9 @@ describe('the table of figures', () => {
 test('on the wrist: how to release while the stop is on, otherwise the battery and the next robot', () => {
   const words = { text: 'Live', tone: 'good' } as const;
   const facts = {
+    live: true,
+    heard: true,
+    pointsHeard: true,
     ...{ link: words, driving: words, telemetry, estopLatched: false, figures, estopAtRobot: false },
     ...{ stop: null, driveHand: 'right' as const, view: null },
     ...{ speed: null, near: null, hazards: null, alarm: null, nextRobot: null },
@@ -133,6 +155,15 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
   expect(aware).toHaveLength(8);
   const tinted = wrist({ hazards: 'Red: would hit' });
   expect(tinted.at(-1)?.text).toBe('Red: would hit  Battery 20 %');
+  // Nothing to drive: no hint of how.
+  expect(wrist({ telemetry: null }).at(-1)?.text).toBe('');
+  const without = wrist({ live: false, estopLatched: true, nextRobot: { id: 'b', name: 'B' } });
+  expect(without.map(({ text }) => text)).toEqual(['Live', 'press right stick: B']);
+  const unheard = wrist({ heard: false }).map(({ text }) => text);
+  expect(unheard).toEqual(['Live', 'Live', 'points –', 'rtt –  view –  loss –', '']);
+  const frozen = wrist({ pointsHeard: false }).map(({ text }) => text);
+  expect(frozen).toContain('rtt 42 ms  view –  loss –');
+  expect(frozen).toContain('Stationary');
   const atRobot = wrist({ estopLatched: true, estopAtRobot: true });
   expect(atRobot.at(-1)).toEqual({ text: 'Released at the robot only', tone: 'bad' });
   const stopped = wrist({ estopLatched: true });

@@ -63,7 +63,18 @@ export interface Fact {
   tone?: Tone;
 }
 
+/** What stands in place of a figure that is not live. */
+export const NO_FIGURE = '–';
+/** What stays true without a word from the robot. */
+const OF_THE_PAGE: readonly string[] = ['Robot', 'Remembered', 'Motion to photon'];
+/** What is measured of arriving points. */
+const OF_POINTS: readonly string[] = ['Points', 'Drawn', 'Colours', 'Rate', 'Loss', 'View age'];
+
 export interface SessionFacts {
+  /** Something has come from the robot just now: otherwise no figure is live. */
+  heard: boolean;
+  /** Points have come just now, as often as they should: otherwise no figure of them is live. */
+  pointsHeard: boolean;
   /** The robot's name; `null` before its welcome. */
   name: string | null;
   telemetry: Telemetry | null;
@@ -74,7 +85,14 @@ export interface SessionFacts {
   figures: PageStats;
 }
 
-export function sessionFacts({ name, telemetry, estop, maxLinear, readings, figures }: SessionFacts): Fact[] {
+export function sessionFacts(session: SessionFacts): Fact[] {
+  const { heard, pointsHeard } = session;
+  const isLive = (name: string) =>
+    OF_THE_PAGE.includes(name) || (heard && (pointsHeard || !OF_POINTS.includes(name)));
+  return allFacts(session).map((fact) => (isLive(fact.name) ? fact : { name: fact.name, value: NO_FIGURE }));
+}
+
+function allFacts({ name, telemetry, estop, maxLinear, readings, figures }: SessionFacts): Fact[] {
   const facts: Fact[] = [];
   if (name !== null) facts.push({ name: 'Robot', value: name });
   if (telemetry !== null) facts.push(...telemetryFacts(telemetry, estop, maxLinear));
@@ -189,5 +207,5 @@ export function mbps({ bitsPerSecond }: PageStats): string {
 }
 
 export function ms(value: number | null | undefined): string {
-  return value === null || value === undefined ? '–' : `${value.toFixed(0)} ms`;
+  return value === null || value === undefined ? NO_FIGURE : `${value.toFixed(0)} ms`;
 }

@@ -16,7 +16,11 @@ export function nearWords(view: NearView | null): Words {
   if (view === null) return { text: 'No near-field data', tone: 'warning' };
   const [nearest] = nearestHits(view.sectors);
   const text = nearest === undefined ? 'Nothing near that sensors see' : hitText(nearest);
-  if (view.stale) return { text: `${(view.ageMs / 1000).toFixed(0)} s old: ${text}`, tone: 'warning' };
+  if (view.stale)
+    return {
+      text: `${(view.ageMs / 1000).toFixed(view.ageMs < 1000 ? 1 : 0)} s old: ${text}`,
+      tone: 'warning',
+    };
   return { text: capitalised(text), tone: nearest === undefined ? 'neutral' : toneOf(nearest) };
 }
 

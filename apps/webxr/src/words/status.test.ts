@@ -12,6 +12,7 @@ const live = {
   lossDetail: null,
   grantLeftMs: null,
   silentMs: 20,
+  silence: 'heard',
   pointsSilentMs: 20,
   rateByReports: false,
 } as const;
@@ -47,8 +48,8 @@ describe('words', () => {
     expect(linkWords({ ...live, signaling: 'waiting' }).text).toContain('signaling offline');
     expect(linkWords({ ...live, rateByReports: true }).text).toContain('cautious rate');
     expect(linkWords({ ...live, pointsSilentMs: 3000 }).text).toContain('no points are arriving');
-    expect(linkWords({ ...live, silentMs: 4200, pointsSilentMs: 4200 })).toEqual({
-      text: 'Connection lost for 4 s. The robot stops automatically. Trying to reach it…',
+    expect(linkWords({ ...live, silentMs: 4200, silence: 'lost', pointsSilentMs: 4200 })).toEqual({
+      text: 'Connection lost for 4 s',
       tone: 'bad',
     });
     expect(linkWords({ ...live, phase: 'waiting', robotListed: false }).text).toContain('offline');
@@ -62,25 +63,36 @@ describe('words', () => {
       tone: 'warning',
     });
     // That the robot is out of reach is worse.
-    expect(linkWords({ ...live, grantLeftMs: 9000, silentMs: 4000 }).tone).toBe('bad');
+    expect(linkWords({ ...live, grantLeftMs: 9000, silentMs: 4000, silence: 'lost' }).tone).toBe('bad');
     const waiting = { ...live, phase: 'waiting' } as const;
     for (const lastLoss of finalLosses) expect(linkWords({ ...waiting, lastLoss }).tone).toBe('bad');
   });
 
   test('says by name who drives, and what a grant allows', () => {
     const facts = {
+      heard: true,
       holder: 'other',
       driver: 'Grace',
       role: 'drive',
       device: null,
       gripLost: null,
       paused: false,
+      stopped: false,
     } as const;
     expect(holderWords(facts).text).toBe('Grace is driving');
+    // Without a word from the robot nobody knows who drives.
+    expect(holderWords({ ...facts, heard: false })).toEqual({
+      text: 'The robot does not hear you',
+      tone: 'bad',
+    });
     expect(holderWords({ ...facts, driver: null }).text).toBe('Someone else is driving');
     expect(holderWords({ ...facts, holder: 'nobody', role: 'watch' }).text).toContain('lets you watch');
     expect(holderWords({ ...facts, holder: 'you', device: 'gamepad' }).text).toContain('gamepad');
     expect(holderWords({ ...facts, holder: 'you', paused: true }).text).toContain('Hold on');
+    const stopped = { ...facts, holder: 'you', stopped: true } as const;
+    expect(holderWords({ ...stopped, device: 'headset' }).text).toContain('STOP is on');
+    expect(holderWords({ ...stopped, gripLost: 'late-reading' }).text).toContain('release it, then drive');
+    expect(holderWords(stopped).text).toBe('You have control');
     expect(holderWords({ ...facts, holder: 'you', gripLost: 'late-reading' })).toEqual({
       text: 'Let go of the grip, then drive',
       tone: 'warning',

@@ -3,7 +3,6 @@
 import {
   finalLosses,
   type GripLoss,
-  LOST_AFTER_MS,
   type SessionLoss,
   type SessionPhase,
   type SignalingState,
@@ -17,6 +16,7 @@ import {
   type Role,
   type Telemetry,
 } from '@farpoint/protocol';
+import type { Silence } from '../ground/silence.ts';
 
 /** How urgent a text is: its colour. */
 export type Tone = 'good' | 'neutral' | 'warning' | 'bad';
@@ -79,7 +79,7 @@ export const gripLossWords: Record<GripLoss, string> = {
   'let-go': 'The robot was let go of. Let go of the grip, too, before you drive again.',
 };
 
-const signalingWords: Record<SignalingState, Words> = {
+export const signalingWords: Record<SignalingState, Words> = {
   connecting: { text: 'Connecting to the signaling service…', tone: 'neutral' },
   ready: { text: 'Signaling connected', tone: 'good' },
   waiting: { text: 'Cannot reach the signaling service. Trying again…', tone: 'warning' },
@@ -112,6 +112,8 @@ const lossWords: Record<Exclude<SessionLoss, 'robot-full'>, string> = {
 };
 
 export interface DrivingFacts {
+  /** Whether the robot is heard and hears, in a session: otherwise nobody here drives it. */
+  heard: boolean;
   holder: LeaseState['holder'];
   /** The driver's name, by its grant. */
   driver: string | null;
@@ -123,11 +125,25 @@ export interface DrivingFacts {
   gripLost: GripLoss | null;
   /** Whether the grip that drives was not read for a moment. */
   paused: boolean;
+  /** Whether the emergency stop is latched. */
+  stopped: boolean;
 }
 
 /** Who drives. */
-export function holderWords({ holder, driver, role, device, gripLost, paused }: DrivingFacts): Words {
+export function holderWords({
+  heard,
+  holder,
+  driver,
+  role,
+  device,
+  gripLost,
+  paused,
+  stopped,
+}: DrivingFacts): Words {
+  if (!heard) return { text: 'The robot does not hear you', tone: 'bad' };
   if (holder === 'other') return { text: `${driver ?? 'Someone else'} is driving`, tone: 'warning' };
+  if (stopped && (device !== null || gripLost !== null))
+    return { text: 'STOP is on: let go, release it, then drive', tone: 'bad' };
   if (role === 'watch') return { text: 'Nobody is driving. Your grant lets you watch', tone: 'neutral' };
   if (gripLost !== null && device === null)
     return { text: 'Let go of the grip, then drive', tone: 'warning' };
@@ -176,8 +192,9 @@ export interface LinkFacts {
   lossDetail: string | null;
   /** Until the operator's grant ends, ms; `null` if the robot asks for none. */
   grantLeftMs: number | null;
-  /** Time since the last message or point from the robot, ms. */
+  /** Time since the last message or point from the robot, ms, and what that means. */
   silentMs: number;
+  silence: Silence;
   /** Time since the last point, ms. */
   pointsSilentMs: number;
   /** The robot learns the path's state from receiver reports only. */
@@ -209,12 +226,12 @@ export function linkWords(facts: LinkFacts): Words {
       return { text: 'Connecting to the robot…', tone: 'neutral' };
     case 'live': {
       const grantEnds = grantEndsWords(facts.grantLeftMs);
-      if (facts.silentMs >= LOST_AFTER_MS) {
-        return {
-          text: `Connection lost for ${Math.round(facts.silentMs / 1000)} s. The robot stops automatically. Trying to reach it…`,
-          tone: 'bad',
-        };
+      // The banner says what to do.
+      if (facts.silence === 'lost') {
+        const seconds = Math.max(1, Math.round(facts.silentMs / 1000));
+        return { text: `Connection lost for ${seconds} s`, tone: 'bad' };
       }
+      if (facts.silence === 'unheard') return { text: 'Nothing comes from the robot', tone: 'warning' };
       if (grantEnds !== null) return grantEnds;
       if (facts.pointsSilentMs >= NO_POINTS_MS) {
         return { text: 'Connected, but no points are arriving.', tone: 'warning' };

@@ -1,13 +1,18 @@
 /** The lines of text on the wrist panel. */
 import type { RobotListing, Telemetry } from '@farpoint/operator';
 import type { Hand } from '../ground/headset-settings.ts';
-import { lossTone, mbps, ms } from './facts.ts';
+import { lossTone, mbps, ms, NO_FIGURE } from './facts.ts';
 import { motionWords } from './motion-words.ts';
 import type { PageStats } from './page-stats.ts';
 import { viewLead } from './view-words.ts';
 import { driveStateWords, type Words } from './words.ts';
 
 export interface WristFacts {
+  /** Whether there is a session: otherwise there is nothing to say of a robot. */
+  live: boolean;
+  /** Something has come from the robot just now, and points have: otherwise no figure is live. */
+  heard: boolean;
+  pointsHeard: boolean;
   link: Words;
   driving: Words;
   telemetry: Telemetry | null;
@@ -33,51 +38,67 @@ export interface WristFacts {
   figures: PageStats;
 }
 
-export function wristLines({
-  link,
-  driving,
+export function wristLines(facts: WristFacts): Words[] {
+  const { live, heard, link, driving, telemetry, speed, near, stop, alarm } = facts;
+  if (!live) return [link, lastLine(facts)];
+  const isKnown = heard && telemetry !== null;
+  return [
+    link,
+    ...(isKnown ? [motionWords(telemetry.motion) ?? driveStateWords(telemetry)] : []),
+    ...[speed, near].filter((words) => words !== null),
+    driving,
+    // An unconfirmed STOP, an alarm or a confirmed STOP takes the place of the line that matters least.
+    (stop?.tone === 'good' ? null : stop) ?? alarm ?? stop ?? streamLine(facts),
+    linkLine(facts),
+    lastLine(facts),
+  ];
+}
+
+function streamLine({ heard, pointsHeard, figures }: WristFacts): Words {
+  if (!heard || !pointsHeard) return { text: `points ${NO_FIGURE}`, tone: 'neutral' };
+  const { pointsPerFrame, framesPerSecond } = figures;
+  const points = `${(pointsPerFrame / 1000).toFixed(1)}k points`;
+  return { text: `${points}  ${framesPerSecond.toFixed(0)}/s  ${mbps(figures)} Mbit/s`, tone: 'neutral' };
+}
+
+function linkLine({ heard, pointsHeard, figures }: WristFacts): Words {
+  const { minRttMs, viewAgeMs, lossRate, view } = figures;
+  const trip = heard ? ms(minRttMs) : NO_FIGURE;
+  if (!heard || !pointsHeard)
+    return { text: `rtt ${trip}  view ${NO_FIGURE}  loss ${NO_FIGURE}`, tone: 'neutral' };
+  const loss = `${(lossRate * 100).toFixed(1)} %${viewLead(view)}`;
+  return { text: `rtt ${trip}  view ${ms(viewAgeMs)} old  loss ${loss}`, tone: lossTone(figures) };
+}
+
+/** How the emergency stop is released, or else what hands can do. */
+function lastLine({
+  live,
+  heard,
   telemetry,
-  speed,
-  near,
   estopLatched,
   estopAtRobot,
-  stop,
   nextRobot,
   driveHand,
   view,
   hazards,
-  alarm,
-  figures,
-}: WristFacts): Words[] {
-  const { pointsPerFrame, framesPerSecond, minRttMs, viewAgeMs, lossRate } = figures;
-  const thousands = (pointsPerFrame / 1000).toFixed(1);
-  const charge = telemetry?.battery?.percentage;
+}: WristFacts): Words {
+  if (live && estopLatched) {
+    const text = estopAtRobot ? 'Released at the robot only' : 'Release: open hand, hold trigger 1 s';
+    return { text, tone: 'bad' };
+  }
   const hints = [
     ...[view, hazards].filter((hint) => hint !== null),
-    charge === undefined ? `Squeeze ${driveHand}: drive  B: stop` : `Battery ${Math.round(charge * 100)} %`,
+    ...driveHint(live && heard ? telemetry : null, driveHand),
     ...(nextRobot === null ? [] : [`press ${driveHand} stick: ${nextRobot.name}`]),
   ];
+  return { text: hints.join('  '), tone: 'neutral' };
+}
+
+/** The charge, or else what the hands do; nothing without a robot. */
+function driveHint(telemetry: Telemetry | null, driveHand: Hand): string[] {
+  if (telemetry === null) return [];
+  const charge = telemetry.battery?.percentage;
   return [
-    link,
-    ...(telemetry === null ? [] : [motionWords(telemetry.motion) ?? driveStateWords(telemetry)]),
-    ...[speed, near].filter((words) => words !== null),
-    driving,
-    // An unconfirmed STOP, an alarm or a confirmed STOP takes the place of the line that matters least.
-    (stop?.tone === 'good' ? null : stop) ??
-      alarm ??
-      stop ?? {
-        text: `${thousands}k points  ${framesPerSecond.toFixed(0)}/s  ${mbps(figures)} Mbit/s`,
-        tone: 'neutral',
-      },
-    {
-      text: `rtt ${ms(minRttMs)}  view ${ms(viewAgeMs)} old  loss ${(lossRate * 100).toFixed(1)} %${viewLead(figures.view)}`,
-      tone: lossTone(figures),
-    },
-    estopLatched
-      ? {
-          text: estopAtRobot ? 'Released at the robot only' : 'Release: open hand, hold trigger 1 s',
-          tone: 'bad',
-        }
-      : { text: hints.join('  '), tone: 'neutral' },
+    charge === undefined ? `Squeeze ${driveHand}: drive  B: stop` : `Battery ${Math.round(charge * 100)} %`,
   ];
 }

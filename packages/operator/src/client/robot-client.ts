@@ -76,6 +76,7 @@ export class RobotClient {
       sendSession: (message) => this.link.sendSession(message),
       onOtherDrives: () => this.#emitter.emit('otherDrives', undefined),
       onGripLost: (loss) => this.#emitter.emit('gripLost', loss),
+      onGripMissing: (device) => this.#emitter.emit('gripMissing', device),
     });
     this.stops = new StopDelivery(this.link, (status) => this.#emitter.emit('stop', status));
     this.latency = new LatencyProbe(this.link, this.driver, (result) => {

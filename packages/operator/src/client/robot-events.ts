@@ -21,6 +21,7 @@ import type {
   Welcome,
 } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
+import type { DriveInput } from '../drive/drive-input.ts';
 import type { GripLoss } from '../drive/grips.ts';
 import type { LatencyResult } from '../latency/latency-test.ts';
 import type { SignalingState } from '../link/robot-link.ts';
@@ -66,6 +67,8 @@ export interface RobotEvents {
   stop: StopStatus;
   /** The grip was pressed, but another operator drives. */
   otherDrives: undefined;
+  /** A stick or key of this device is pushed, but its grip is open: the robot does not move. Comes once for each push. */
+  gripMissing: DriveInput['name'];
   /** A grip that was held counts as released until it has been opened. */
   gripLost: GripLoss;
   /** Pose, velocity, drive state, battery; 20 times a second. */

@@ -9,6 +9,8 @@ export interface DriveInput {
   readonly held: boolean;
   /** The wished motion, with dead zone and curve applied. */
   readonly wish: Readonly<DriveWish>;
+  /** Whether the stick is pushed although the grip is open; left out: whether the wish is not zero. */
+  readonly pushed?: boolean;
   /**
    * When the state above was last known to be the hand's, ms (`performance.now()`): when the device was polled, or, for
    * a device that reports by events, when the page last ran. A grip whose device is not read for 100 ms moves nothing

@@ -43,6 +43,25 @@ describe('Driver', () => {
     expect(commands[0]?.twist.linear.x).toBe(1);
   });
 
+  test('a push without the grip is told once, while the page has the keys', () => {
+    const missing: string[] = [];
+    const hand = new WishInput();
+    const driver = new Driver([hand], {
+      sendCommand: () => undefined,
+      sendSession: () => undefined,
+      onOtherDrives: () => undefined,
+      onGripMissing: (device) => missing.push(device),
+    });
+    hand.wish.forward = 1;
+    driver.suspended = true;
+    for (let now = 0; now <= 1000; now += 25) driver.sendDue(now);
+    expect(missing).toEqual([]);
+    expect(driver.isGripped).toBe(false);
+    driver.suspended = false;
+    for (let now = 1025; now <= 3000; now += 25) driver.sendDue(now);
+    expect(missing).toEqual(['script']);
+  });
+
   test('requests the lease again while there is no answer, but never takes it over', () => {
     const { messages, hand, driver, told } = bench();
     hand.held = true;

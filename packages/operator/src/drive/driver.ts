@@ -3,6 +3,7 @@ import type { Command, LeaseState, OperatorSessionMessage, Welcome } from '@farp
 import { CommandStream } from './command-stream.ts';
 import { activeInput, type DriveInput } from './drive-input.ts';
 import { type GripLoss, Grips } from './grips.ts';
+import { MissingGrip } from './missing-grip.ts';
 import { REST } from './velocity-mapping.ts';
 
 export interface DriverPort {
@@ -12,6 +13,8 @@ export interface DriverPort {
   onOtherDrives(): void;
   /** A grip that was held counts as released until it has been opened. */
   onGripLost?(loss: GripLoss): void;
+  /** A stick is pushed, but the grip of its device is open. */
+  onGripMissing?(device: DriveInput['name']): void;
 }
 
 /**
@@ -43,6 +46,7 @@ export class Driver {
   #suspended = false;
   #toldOther = false;
   readonly #grips = new Grips();
+  readonly #missing = new MissingGrip();
   readonly #holds = (input: DriveInput) => this.#grips.holds(input);
 
   /**
@@ -76,6 +80,11 @@ export class Driver {
       if (loss !== null) return loss;
     }
     return null;
+  }
+
+  /** Whether a grip is held, also one that counts as released: a hand is on the stick. */
+  get isGripped(): boolean {
+    return this.#inputs.some(({ held }) => held);
   }
 
   /** Who holds the lease, by the robot's latest message. */
@@ -162,6 +171,8 @@ export class Driver {
   sendDue(nowMs: number): void {
     const lost = this.#grips.update(this.#inputs, nowMs, this.#suspended);
     if (lost !== null) this.#port.onGripLost?.(lost);
+    const open = this.#suspended ? null : this.#missing.update(this.#inputs, nowMs);
+    if (open !== null) this.#port.onGripMissing?.(open.name);
     this.#input = activeInput(this.#inputs, this.#input, this.#holds);
     const held = this.#input !== null;
     const hand = !held ? 'open' : this.paused ? 'unread' : 'held';
@@ -177,7 +188,7 @@ export class Driver {
 
   /** A command may be lost, so it is told again. */
   #tellOpenHand(nowMs: number): void {
-    if (nowMs < this.#nextOpenHandMs || this.#inputs.some(({ held }) => held)) return;
+    if (nowMs < this.#nextOpenHandMs || this.isGripped) return;
     const command = this.stream.openHand(nowMs);
     if (command === null) return;
     this.#nextOpenHandMs = nowMs + OPEN_HAND_MS;

@@ -1,7 +1,8 @@
 import { expect, test } from 'vitest';
 import { nearView } from './near-view.ts';
 
-const aged = (ageMs: number | null) => nearView({ sectors: [], ageMs: () => ageMs } as never, 0, null);
+const aged = (ageMs: number | null, heard = true) =>
+  nearView({ sectors: [], ageMs: () => ageMs } as never, { nowMs: 0, offsetMs: null, heard });
 
 test('what is old is shown as old, and then no longer', () => {
   expect(aged(null)).toBe(null);

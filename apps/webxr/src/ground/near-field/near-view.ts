@@ -22,10 +22,14 @@ export interface NearView {
 /**
  * What can be shown; `null` if there is nothing, or nothing any more.
  *
- * @param nowMs page's clock @param offsetMs what the robot's clock is ahead of it; `null` while unknown
+ * @param at.nowMs page's clock @param at.offsetMs what the robot's clock is ahead of it; `null` while unknown
+ * @param at.heard whether the robot is heard: what it does not repeat is old at once
  */
-export function nearView(near: NearSurroundings, nowMs: number, offsetMs: number | null): NearView | null {
+export function nearView(
+  near: NearSurroundings,
+  { nowMs, offsetMs, heard }: { nowMs: number; offsetMs: number | null; heard: boolean },
+): NearView | null {
   const ageMs = near.ageMs(nowMs, offsetMs);
   if (ageMs === null || ageMs > GONE_MS) return null;
-  return { sectors: near.sectors, stale: ageMs > STALE_MS, ageMs };
+  return { sectors: near.sectors, stale: !heard || ageMs > STALE_MS, ageMs };
 }

@@ -12,17 +12,23 @@ function speeds(): Series {
 describe('what is shown', () => {
   test('belongs to the instant that is presented, and is otherwise the newest', () => {
     const series = speeds();
-    expect(shownAt(series, { instantMs: 880, robotNowMs: 1000 })).toMatchObject({ value: 850, ageMs: 150 });
-    expect(shownAt(series, { instantMs: null, robotNowMs: 1000 })).toMatchObject({ value: 1000, ageMs: 0 });
-    expect(shownAt(series, { instantMs: -10, robotNowMs: 1000 })).toMatchObject({ value: 1000 });
-    expect(shownAt(new Series(), { instantMs: null, robotNowMs: 0 })).toBeNull();
-    expect(shownAt(undefined, { instantMs: null, robotNowMs: 0 })).toBeNull();
+    expect(shownAt(series, { instantMs: 880, robotNowMs: 1000, heard: true })).toMatchObject({
+      value: 850,
+      ageMs: 150,
+    });
+    expect(shownAt(series, { instantMs: null, robotNowMs: 1000, heard: true })).toMatchObject({
+      value: 1000,
+      ageMs: 0,
+    });
+    expect(shownAt(series, { instantMs: -10, robotNowMs: 1000, heard: true })).toMatchObject({ value: 1000 });
+    expect(shownAt(new Series(), { instantMs: null, robotNowMs: 0, heard: true })).toBeNull();
+    expect(shownAt(undefined, { instantMs: null, robotNowMs: 0, heard: true })).toBeNull();
   });
 
   test('is stale when its series has stopped, however late the picture is', () => {
     const series = speeds();
     const isStale = (instantMs: number | null, robotNowMs: number) =>
-      shownAt(series, { instantMs, robotNowMs })?.stale;
+      shownAt(series, { instantMs, robotNowMs, heard: true })?.stale;
     expect(isStale(200, 1000)).toBe(false);
     expect(isStale(null, 1400)).toBe(false);
     expect(isStale(null, 1600)).toBe(true);
@@ -43,4 +49,12 @@ test('the presented instant is the newest that is shown, as long as something ne
   expect(presented.at(2001)).toBe(20);
   presented.clear();
   expect(presented.at(2001)).toBeNull();
+});
+
+test('a robot that is not heard has no live value', () => {
+  const series = new Series();
+  series.add(1000, 1);
+  const at = { instantMs: null, robotNowMs: 1000 };
+  expect(shownAt(series, { ...at, heard: false })?.stale).toBe(true);
+  expect(shownAt(series, { ...at, heard: true })?.stale).toBe(false);
 });

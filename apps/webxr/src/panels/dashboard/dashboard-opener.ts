@@ -2,6 +2,7 @@
 import type { RobotClient } from '@farpoint/operator';
 import { computed, effect, type ReadonlySignal, signal } from '@preact/signals-core';
 import type { Settings } from '../../ground/settings.ts';
+import { silenceOf } from '../../ground/silence.ts';
 import type { Moment } from '../../ground/telemetry/moment.ts';
 import type { PresentedInstant } from '../../ground/telemetry/presented-instant.ts';
 import type { TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
@@ -91,7 +92,8 @@ export class DashboardOpener {
     this.#offsetMs = client.link.session.clock.offsetMs ?? this.#offsetMs;
     // Before the clocks have been compared, what came last is taken as new.
     const offsetMs = this.#offsetMs ?? recorder.newestMs - recorder.heardMs;
+    const heard = silenceOf(nowMs - recorder.heardMs) === 'heard';
     const robotNowMs = Number.isFinite(offsetMs) ? nowMs + offsetMs : 0;
-    return { instantMs: settings.synchronised ? presented.at(nowMs) : null, robotNowMs };
+    return { instantMs: settings.synchronised ? presented.at(nowMs) : null, robotNowMs, heard };
   }
 }

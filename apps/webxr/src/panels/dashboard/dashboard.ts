@@ -1,7 +1,7 @@
 /** The dashboard beside the picture: tiles with the robot's telemetry, arranged by the operator. Loaded when opened. */
 import './dashboard.css';
 import 'uplot/dist/uPlot.min.css';
-import { LOST_AFTER_MS, type RobotSession } from '@farpoint/operator';
+import type { RobotSession } from '@farpoint/operator';
 import { effect, type ReadonlySignal, signal } from '@preact/signals-core';
 import type { MapTiles } from '../../ground/telemetry/map-tiles.ts';
 import type { Moment } from '../../ground/telemetry/moment.ts';
@@ -135,6 +135,7 @@ export class Dashboard {
   readonly #hidden = part('hidden-tiles');
   #kinds: readonly TileKind[] = [];
   #headerDueMs = 0;
+  #heard = false;
   #frame: number | null = null;
 
   constructor(parts: DashboardParts) {
@@ -163,14 +164,15 @@ export class Dashboard {
     const { recorder, momentAt } = this.#parts;
     this.#revision.value = recorder.revision;
     const moment = momentAt(nowMs);
+    const { heard } = moment;
     const frame: TileFrame = { nowMs, moment, windowMs: this.#layout.peek().windowS * 1000 };
     for (const view of this.#views.values()) view.draw(frame);
-    if (nowMs < this.#headerDueMs) return;
+    // A silence that begins or ends is told at once.
+    if (nowMs < this.#headerDueMs && heard === this.#heard) return;
     this.#headerDueMs = nowMs + HEADER_MS;
-    const silentMs = nowMs - recorder.heardMs;
-    const isSilent = !(silentMs < LOST_AFTER_MS);
-    setText(this.#state, stateWords(silentMs, moment));
-    this.#state.dataset.tone = isSilent ? 'bad' : 'neutral';
+    this.#heard = heard;
+    setText(this.#state, stateWords(nowMs - recorder.heardMs, moment));
+    this.#state.dataset.tone = heard ? 'neutral' : 'bad';
   }
 
   #header(): HTMLElement {
@@ -276,9 +278,9 @@ export class Dashboard {
   }
 }
 
-function stateWords(silentMs: number, { instantMs, robotNowMs }: Moment): string {
+function stateWords(silentMs: number, { instantMs, robotNowMs, heard }: Moment): string {
   if (silentMs === Number.POSITIVE_INFINITY) return 'No data from the robot yet';
-  if (!(silentMs < LOST_AFTER_MS)) return `No data from the robot for ${ageText(silentMs)}`;
+  if (!heard) return `No data from the robot for ${ageText(silentMs)}`;
   if (instantMs === null) return 'Newest values';
   return `In step with the picture, ${ageText(Math.max(0, robotNowMs - instantMs))} old`;
 }

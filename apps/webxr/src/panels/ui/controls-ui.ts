@@ -135,7 +135,6 @@ export class ControlsUi {
 
   #nextRobot(): void {
     const { link, notices } = this.#parts.state;
-    if (link.chosenRobotId.value === null) return;
     const next = link.nextRobot.value;
     if (next === null) notices.tell('No other robot is available.');
     else this.#parts.choose(next.id);

@@ -5,6 +5,7 @@ import { blockedBearing } from '../../ground/near-field/blocked-bearing.ts';
 import { nearView } from '../../ground/near-field/near-view.ts';
 import { BlockedArc } from '../../scene/view/blocked-edge.ts';
 import type { Stage } from '../../scene/view/stage.ts';
+import { robotSilence } from '../../state/link-state.ts';
 import { NearPicture, showBlockedEdge } from './near-panel.ts';
 
 export class NearFieldDisplay {
@@ -28,7 +29,13 @@ export class NearFieldDisplay {
     const { link, driver } = this.#client;
     const { session, phase } = link;
     const live = phase === 'live';
-    const view = live ? nearView(session.near, nowMs, session.clock.offsetMs) : null;
+    const view = live
+      ? nearView(session.near, {
+          nowMs,
+          offsetMs: session.clock.offsetMs,
+          heard: robotSilence(link, nowMs) === 'heard',
+        })
+      : null;
     const body = (live ? session.welcome?.body : null) ?? null;
     this.#stage.near.body = body;
     this.#stage.near.show(view);

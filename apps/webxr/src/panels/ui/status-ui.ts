@@ -2,6 +2,7 @@
 import { effect } from '@preact/signals-core';
 import type { PageState } from '../../state/page-state.ts';
 import { alarmLine } from '../../words/alarm-words.ts';
+import type { Banner } from '../../words/banner-words.ts';
 import { type Fact, sessionFacts } from '../../words/facts.ts';
 import type { ShownReading } from '../../words/shown-readings.ts';
 import type { Words } from '../../words/words.ts';
@@ -9,6 +10,7 @@ import { elements } from './elements.ts';
 
 export function showStatus({ link, driving, robot, figures }: PageState): void {
   effect(() => setPill(elements.link, link.line.value));
+  effect(() => showBanner(link.banner.value));
   effect(() => {
     const connected = link.connected.value;
     elements.robots.hidden = connected;
@@ -26,9 +28,14 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
     const live = link.live.value;
     elements.drive.hidden = !live;
     elements.hud.hidden = !live;
+    // Whatever stands there was true a moment ago.
+    elements.hud.dataset.stale = String(!link.heard.value);
   });
   effect(() => {
     setPill(elements.holder, driving.line.value);
+    // Neither can be asked of a robot that does not hear.
+    elements.take.disabled = !link.heard.value;
+    elements.release.disabled = !link.heard.value;
     elements.take.hidden = !driving.mayTake.value;
     elements.release.hidden = driving.holder.value !== 'you';
     const watches = driving.role.value === 'watch';
@@ -45,6 +52,8 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
       tone === 'neutral' && componentTopics.value.includes(topic);
     showFacts(
       sessionFacts({
+        heard: link.heard.value,
+        pointsHeard: robot.pointsHeard.value,
         name: name.value,
         telemetry: telemetry.value,
         estop: estop.value,
@@ -54,6 +63,14 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
       }),
     );
   });
+}
+
+function showBanner(banner: Banner | null): void {
+  const { banner: element, bannerTitle, bannerText } = elements;
+  element.role = banner?.urgent === false ? 'status' : 'alert';
+  element.hidden = banner === null;
+  setText(bannerTitle, banner?.title ?? '');
+  setText(bannerText, banner?.text ?? '');
 }
 
 function showWords(element: HTMLElement, words: Words | null): void {

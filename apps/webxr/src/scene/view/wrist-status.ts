@@ -41,6 +41,9 @@ export function showOnWrist({
     if (!active.value) return;
     panel.show(
       wristLines({
+        live: link.live.value,
+        heard: link.heard.value,
+        pointsHeard: robot.pointsHeard.value,
         link: link.line.value,
         driving: driving.line.value,
         telemetry: robot.telemetry.value,

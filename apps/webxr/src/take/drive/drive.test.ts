@@ -157,6 +157,24 @@ describe('HeadsetInput', () => {
     expect(left.held).toBe(false);
   });
 
+  test('a stick that is pushed with an open grip is noticed, unless a hand holds the model', () => {
+    const input = new HeadsetInput();
+    const pushed = (sources: ReturnType<typeof controller>[], isTracked = true, grabbing = false) => {
+      input.read(sources, 0, () => isTracked, grabbing);
+      return input.pushed;
+    };
+    expect(pushed([controller('right', 0, 0, -0.6)])).toBe(true);
+    // A thumb that rests, the turning hand, an unknown hand, a grip that drives.
+    expect(pushed([controller('right', 0, 0.3, -0.3)])).toBe(false);
+    expect(pushed([controller('left', 0, 0, -1)])).toBe(false);
+    expect(pushed([controller('right', 0, 0, -1)], false)).toBe(false);
+    expect(pushed([controller('right', 1, 0, -1)])).toBe(false);
+    expect(pushed([controller('right', 0, 0, -1)], true, true)).toBe(false);
+    pushed([controller('right', 0, 0, -1)]);
+    input.release();
+    expect(input.pushed).toBe(false);
+  });
+
   test('a hand that is not tracked turns nothing, nor does one without a stick', () => {
     const input = new HeadsetInput();
     input.read([controller('left', 0, 1, 0)], 0, () => false);

@@ -44,6 +44,12 @@ interface HeldButtons {
   trigger: boolean;
 }
 
+/**
+ * A stick that is deflected by more than this share is pushed. Chosen: a thumb that only lies on it, or presses it, moves it
+ * less; drive.test.ts holds it.
+ */
+const PUSHED = 0.5;
+
 const NOTHING_HELD: Readonly<HeldButtons> = {
   estop: false,
   latencyTest: false,
@@ -57,6 +63,8 @@ export class HeadsetInput implements DriveInput {
   readonly name = 'headset';
   readonly wish: DriveWish = { forward: 0, left: 0 };
   held = false;
+  /** Whether the stick of a hand that may drive is pushed, and its grip is open. */
+  pushed = false;
   /** Whether the operator speaks: one hand drives, and the other pulls its trigger. */
   talks = false;
   /** Deflection to the right of the other hand's stick, −1…1; 0 while that hand is not tracked. */
@@ -93,6 +101,7 @@ export class HeadsetInput implements DriveInput {
     this.#mustOpen = (this.#mustOpen || grabbing) && driving !== null;
     if (this.#mustOpen) driving = null;
     if (driving === null || tracks(driving)) this.readMs = nowMs;
+    this.pushed = driving === null && !grabbing && this.#isAnyPushed(sources, tracks);
     this.talks = driving !== null && pullsOther(sources, driving);
     this.held = driving !== null;
     this.#hand = driving?.handedness ?? null;
@@ -133,6 +142,15 @@ export class HeadsetInput implements DriveInput {
     return driving;
   }
 
+  #isAnyPushed<Source extends XrController>(sources: Iterable<Source>, tracks: Tracks<Source>): boolean {
+    for (const source of sources) {
+      if (source.handedness === this.#otherHand || buttonsOf(source) === undefined) continue;
+      const [, , x, y] = source.gamepad?.axes ?? [];
+      if (Math.hypot(x ?? 0, y ?? 0) > PUSHED && tracks(source)) return true;
+    }
+    return false;
+  }
+
   #pressedSince(held: HeldButtons): HeadsetButtons {
     const before = this.#heldBefore;
     this.#heldBefore = held;
@@ -152,6 +170,7 @@ export class HeadsetInput implements DriveInput {
   release(): void {
     this.#mustOpen = true;
     this.held = false;
+    this.pushed = false;
     this.talks = false;
     this.wish.forward = 0;
     this.wish.left = 0;

@@ -1,0 +1,42 @@
+/** What the page says to a hand on the controls that moves nothing. */
+import type { DriveInput, GripLoss } from '@farpoint/operator';
+import type { LeaseState, Role } from '@farpoint/protocol';
+import { gripLossWords, rejectionWords } from './words.ts';
+
+const gripOf: Record<DriveInput['name'], string> = {
+  keyboard: 'Hold Space',
+  gamepad: 'Hold a shoulder button',
+  touch: 'Hold the joystick',
+  headset: 'Squeeze the grip',
+  script: 'Hold the grip',
+};
+
+/** A stick or key is pushed without a grip. @returns what has to be done first */
+export function missingGripWords(
+  device: DriveInput['name'],
+  holder: LeaseState['holder'],
+  role: Role | null,
+): string {
+  if (role === 'watch') return rejectionWords['not-permitted'];
+  if (holder === 'other') return rejectionWords['not-lease-holder'];
+  return `${gripOf[device]}, too: the robot moves only while you do.`;
+}
+
+/** Another has taken the lease. @param driver its name, by its grant; empty if it has none */
+export function takenOverWords(driver: string | null): string {
+  return `${driver || 'Another operator'} has taken over and drives now. You do not.`;
+}
+
+export interface HandFacts {
+  /** Why the grip that is held does not drive; `null` if it does, or if none is. */
+  gripLost: GripLoss | null;
+  /** Who took over while the grip was held, '' without a name; `null`: nobody did, or it has been opened since. */
+  takenOverBy: string | null;
+}
+
+/** What a hand is told as long as it holds on in vain; `null` if it does not. */
+export function vainGripWords({ gripLost, takenOverBy }: HandFacts): { title: string; text: string } | null {
+  if (takenOverBy !== null)
+    return { title: 'Taken over', text: `${takenOverWords(takenOverBy)} Let go of the grip.` };
+  return gripLost === null ? null : { title: 'Let go of the grip', text: gripLossWords[gripLost] };
+}
