@@ -11,6 +11,14 @@ export * from './colour664.ts';
 export * from './control.ts';
 export * from './diagnostics.ts';
 export * from './errors.ts';
+export {
+  type EstopCause,
+  type EstopReleasePolicy,
+  type EstopStart,
+  estopReleasePolicies,
+  type RobotStop,
+  robotStops,
+} from './estop-cause.ts';
 export * from './estop-press.ts';
 export * from './geometry.ts';
 export * from './identifiers.ts';

@@ -3,6 +3,7 @@ import * as z from 'zod/mini';
 import { alarmSchema } from './alarm.ts';
 import { CLOUD_FORMATS } from './cloud-format.ts';
 import { commandRejections } from './control.ts';
+import { estopCauseSchema } from './estop-cause.ts';
 import { displayNameSchema, handleSchema, robotIdSchema, uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
 import { MAX_CAMERAS } from './picture-chunk.ts';
@@ -154,6 +155,7 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
         z.strictObject({ state: z.enum(VOICE_STATES), detail: z.optional(soundDetailSchema) }),
       ),
     }),
+    estopCauseSchema,
     sensorRingsSchema,
     robotModelSchema,
     quantitySchema,

@@ -4,6 +4,7 @@
 import type { Alarm } from './alarm.ts';
 import type { CloudFormat } from './cloud-format.ts';
 import type { CommandRejection } from './control.ts';
+import type { EstopCause } from './estop-cause.ts';
 import type { Operators, Role } from './present-operators.ts';
 import type { Quantity } from './quantity.ts';
 import type { RobotBody } from './robot-body.ts';
@@ -253,6 +254,7 @@ export type RobotSessionMessage =
   | LeaseState
   | CommandRejected
   | EstopState
+  | EstopCause
   | LatencyFrame
   | CloudStream
   | Cameras

@@ -559,6 +559,13 @@ robot_session.spoil(tall, ("body.heights.clearanceM", -0.01), ("body.heights.cle
                     ("body.heights.widthM", 1, "body.heights"), ("body.heights", None))
 for role in ["watch", "supervise"]:
     robot_session.good(changed(admitted, "access.role", role), "welcome, role: " + role)
+caused = robot_session.good({"type": "estopCause", "latch": 7, "pressedBy": "Ada", "yours": True, "heldBy": ["gpio", "key"], "start": "was-latched", "release": "latcher"})
+for start in "unclean-exit", "unreadable", "unwritable":
+    robot_session.good({"type": "estopCause", "latch": 1, "yours": False, "start": start, "release": "driver"}, "estopCause: " + start)
+robot_session.good({"type": "estopCause", "latch": 2 ** 32 - 1, "pressedBy": "Grace", "yours": False, "release": "supervisor"}, "estopCause: released by supervisors")
+robot_session.good({"type": "estopCause", "latch": 3, "yours": False, "heldBy": ["topic", "shm"], "release": "driver"}, "estopCause: held at the robot")
+robot_session.spoil(caused, ("latch", -1), ("latch", ABSENT), ("pressedBy", 3), ("pressedBy", ""), ("pressedBy", "x" * 65), ("pressedBy", "a\nb"), ("yours", "me"), ("heldBy", []),
+                    ("heldBy", ["key"] * 5), ("heldBy.0", "button"), ("start", "crash"), ("release", "robot"), ("release", ABSENT), ("lease", "0f3a9c", ""))
 expires = robot_session.good({"type": "expires", "inS": 60})
 present = {"number": 4, "name": "Ada", "role": "drive", "drives": True, "you": True}
 operators = robot_session.good({"type": "operators", "operators": [present, {"number": 7, "name": "Sue", "role": "supervise", "drives": False, "you": False}]})

@@ -2,9 +2,12 @@ import {
   type Command,
   type DriveLimits,
   type DriveState,
+  type EstopCause,
+  type EstopReleasePolicy,
   type EstopState,
   isZeroTwist,
   type LeaseState,
+  type RobotStop,
   type Twist,
   zeroTwist,
 } from '@farpoint/protocol';
@@ -16,12 +19,11 @@ import {
   WITHOUT_WHEELS,
 } from './command-gate.ts';
 import { EstopLatch, type EstopSource } from './estop.ts';
-import { type EstopReleaseOutcome, type EstopReleasePolicy, releaseEstop } from './estop-release.ts';
+import { causeOf, type EstopReleaseOutcome, releaseEstop } from './estop-release.ts';
 import { type LeaseOptions, type LeaseOutcome, LeaseTable } from './lease.ts';
 import { copyTwist } from './limits.ts';
 import { OperatorView } from './motion/operator-view.ts';
 import { SentViews } from './motion/sent-views.ts';
-import type { RobotStop } from './robot-stop.ts';
 import { Watchdog } from './watchdog.ts';
 
 export interface DriveGuardOptions extends LeaseOptions, CommandGateOptions {
@@ -278,6 +280,11 @@ export class DriveGuard {
   /** The message that tells every operator about the emergency stop. */
   estopState(): EstopState {
     return this.#estop.state;
+  }
+
+  /** What this operator must know of it in order to release it; `null` while it is not latched. */
+  estopCause(operatorId: string): Omit<EstopCause, 'pressedBy' | 'start'> | null {
+    return causeOf(this.#estop, this.#estopRelease, operatorId);
   }
 
   /**

@@ -1,7 +1,7 @@
 /** The emergency stop as stops at the robot hold it. */
+import { robotStops } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { robotStops } from './robot-stop.ts';
 import { makeGuard } from './testing/driven-guard.ts';
 
 describe('a stop at the robot', () => {

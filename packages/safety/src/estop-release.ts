@@ -1,12 +1,5 @@
+import type { EstopCause, EstopReleasePolicy } from '@farpoint/protocol';
 import type { EstopLatch } from './estop.ts';
-
-/** Who may release an emergency stop that an operator has latched. Supervisors always may. */
-export const estopReleasePolicies = [
-  'driver', // whoever drives
-  'latcher', // the operator who latched it, in any of its sessions, while it drives
-  'supervisor', // supervisors only
-] as const;
-export type EstopReleasePolicy = (typeof estopReleasePolicies)[number];
 
 /** Why the emergency stop was not released. */
 export type EstopReleaseRefusal =
@@ -44,14 +37,34 @@ export function releaseEstop(
   if (!estop.latched) return refused('not-latched');
   if (estop.holders.size > 0) return refused('held-at-robot');
   if (of !== undefined && of !== estop.number) return refused('newer-latch');
-  if (!supervises && policy === 'supervisor' && estop.ofOperator) return refused('not-supervisor');
-  if (!supervises && policy === 'latcher' && estop.latchers.present > 0) {
+  const rule = releaseRule(estop, policy);
+  if (!supervises && rule === 'supervisor') return refused('not-supervisor');
+  if (!supervises && rule === 'latcher') {
     if (operatorId === null || !estop.latchers.has(operatorId)) return refused('not-latcher');
     estop.latchers.withdraw(operatorId);
     if (estop.latchers.present > 0) return refused('others-latched');
   }
   estop.release();
   return { released: true };
+}
+
+/** Who may release the present latch, besides supervisors, once no stop at the robot holds it. */
+function releaseRule(estop: EstopLatch, policy: EstopReleasePolicy): EstopReleasePolicy {
+  if (policy === 'supervisor' && estop.ofOperator) return 'supervisor';
+  return policy === 'latcher' && estop.latchers.present > 0 ? 'latcher' : 'driver';
+}
+
+/** What an operator must know of the emergency stop in order to release it; `null` while it is not latched. */
+export function causeOf(
+  estop: EstopLatch,
+  policy: EstopReleasePolicy,
+  operatorId: string,
+): Omit<EstopCause, 'pressedBy' | 'start'> | null {
+  const { latched, number: latch, holders, latchers } = estop;
+  if (!latched) return null;
+  const held = holders.size === 0 ? {} : { heldBy: [...holders] };
+  const yours = latchers.has(operatorId);
+  return { type: 'estopCause', latch, yours, ...held, release: releaseRule(estop, policy) };
 }
 
 function refused(reason: EstopReleaseRefusal): EstopReleaseOutcome {

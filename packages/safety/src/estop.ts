@@ -1,6 +1,5 @@
-import type { EstopState } from '@farpoint/protocol';
+import type { EstopState, RobotStop } from '@farpoint/protocol';
 import { Latchers } from './latchers.ts';
-import type { RobotStop } from './robot-stop.ts';
 
 /** Who latched the emergency stop. */
 export type EstopSource = 'operator' | 'robot';

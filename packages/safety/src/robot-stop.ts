@@ -1,7 +1,3 @@
-/** The kinds of stops at the robot itself. */
-export const robotStops = ['topic', 'shm', 'gpio', 'key'] as const;
-export type RobotStop = (typeof robotStops)[number];
-
 /** What a stop at the robot says. Only `go` lets the robot move. */
 export type RobotStopState =
   | 'go'

@@ -1,6 +1,6 @@
-import type { AfterGap, DriveLimits, IceServer, Quantity } from '@farpoint/protocol';
+import type { AfterGap, DriveLimits, EstopReleasePolicy, IceServer, Quantity } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
-import type { EstopReleasePolicy, TakePolicy } from '@farpoint/safety';
+import type { TakePolicy } from '@farpoint/safety';
 import type { RobotAuditOptions } from '../admit/audit/open-robot-audit.ts';
 import type { SignalingOptions } from '../admit/signaling/signaling-client.ts';
 import type { SinkOptions } from '../motion/drive/open-sink.ts';

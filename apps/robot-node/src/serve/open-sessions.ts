@@ -54,6 +54,7 @@ export function openSessions(
       resume: (request, servers) => void paths.resume(request, servers),
       connected: (operator) => {
         welcome(operator);
+        host.operatorCame();
         sound.welcome(operator);
         budgets.update();
       },

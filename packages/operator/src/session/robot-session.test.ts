@@ -49,6 +49,22 @@ describe('RobotSession', () => {
     expect(told).toEqual(['lease', 'estop', 'robotFault', 'videos']);
   });
 
+  test('keeps what explains the present emergency stop, and nothing of an older one', () => {
+    const { session, told } = bench();
+    const cause = { type: 'estopCause', latch: 7, pressedBy: 'Ada', yours: false, release: 'driver' };
+    const estop = (latched: boolean, latch: number) =>
+      session.onMessage('session', JSON.stringify({ type: 'estop', latched, latch }), 0);
+    session.onMessage('session', JSON.stringify(cause), 0);
+    estop(true, 7);
+    expect(session.estopCause).toEqual(cause);
+    estop(true, 8);
+    expect(session.estopCause).toBeNull();
+    session.onMessage('session', JSON.stringify(cause), 0);
+    estop(false, 7);
+    expect(session.estopCause).toBeNull();
+    expect(told).toEqual(['estop', 'estop', 'estop']);
+  });
+
   test('keeps who has a session', () => {
     const { session, told } = bench();
     expect(session.operators).toBeNull();

@@ -8,6 +8,7 @@ import {
   type CommandRejected,
   type Diagnostics,
   decodeJson,
+  type EstopCause,
   type EstopState,
   type LatencyFrame,
   type LeaseState,
@@ -118,6 +119,8 @@ export class RobotSession {
   operators: Operators | null = null;
   /** Whether the emergency stop is latched. */
   estop: EstopState = { type: 'estop', latched: false };
+  /** Who pressed STOP, why else the robot stands, and who may release it; `null` if the robot has not said so of the present latch. */
+  estopCause: EstopCause | null = null;
   /** The robot's latest telemetry; `null` before the first. */
   telemetry: Telemetry | null = null;
   /** What is near the robot, in each direction. */
@@ -165,7 +168,12 @@ export class RobotSession {
     rejected: (rejected) => this.#events.onRejected(rejected),
     estop: (estop) => {
       this.estop = estop;
+      if (!estop.latched || estop.latch !== this.estopCause?.latch) this.estopCause = null;
       this.#events.onEstop(estop);
+    },
+    // The `estop` message that it explains comes next.
+    estopCause: (cause) => {
+      this.estopCause = cause;
     },
     latencyFrame: (frame) => this.#events.onLatencyFrame(frame),
     cloudStream: (stream) => this.#events.onCloudStream(stream),

@@ -5,6 +5,7 @@ import {
   type Role,
 } from '@farpoint/protocol';
 import type { Access } from './access.ts';
+import { plainName } from './plain-name.ts';
 
 /** The parts of an operator's session that {@link OperatorRoster} uses. */
 export interface ListedOperator {
@@ -73,8 +74,7 @@ export class OperatorRoster {
     const { access, id } = operator.messages;
     return {
       number: this.numberOf(operator),
-      // Half a surrogate pair would take six characters, and the longest list would not fit.
-      name: access.name.toWellFormed(),
+      name: plainName(access.name),
       role: access.role ?? 'watch',
       drives: id === driver,
       you: false,

@@ -1,6 +1,6 @@
 import { type Audit, type AuditEvent, type AuditSubject, noAudit, shortHash } from '@farpoint/audit';
-import type { EstopState, ReturnEnd } from '@farpoint/protocol';
-import type { RobotStop, RobotStopState } from '@farpoint/safety';
+import type { EstopState, ReturnEnd, RobotStop } from '@farpoint/protocol';
+import type { RobotStopState } from '@farpoint/safety';
 import type { Access } from '../access/access.ts';
 
 /** What an entry says about an operator. */

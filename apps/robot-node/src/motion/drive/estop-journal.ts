@@ -5,7 +5,8 @@
  */
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { type EstopSource, type RobotStop, robotStops } from '@farpoint/safety';
+import { type EstopStart, type RobotStop, robotStops } from '@farpoint/protocol';
+import type { EstopSource } from '@farpoint/safety';
 import { makeFolder, replaceFile } from '@farpoint/service';
 import { z } from 'zod';
 import { ReleaseRequest } from './release-request.ts';
@@ -22,16 +23,9 @@ const runSchema = z.strictObject({
 
 export type Run = z.infer<typeof runSchema>;
 
-/** Why a robot starts with its emergency stop latched. */
-export type LatchedStart =
-  | 'was-latched' // when the last run ended
-  | 'unclean-exit' // the last run did not end in order
-  | 'unreadable' // what the last run left cannot be read
-  | 'unwritable'; // nothing can be remembered, so that the next start could not tell a crash
-
 export interface RunStart {
   /** `null`: the robot may start unlatched. */
-  latched: { by: EstopSource; reason: LatchedStart; detail: string } | null;
+  latched: { by: EstopSource; reason: EstopStart; detail: string } | null;
   /** The stops at the robot that held it when the last run ended. */
   heldBy: readonly RobotStop[];
 }

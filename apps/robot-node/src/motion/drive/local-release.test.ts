@@ -1,4 +1,4 @@
-import type { EstopReleasePolicy } from '@farpoint/safety';
+import type { EstopReleasePolicy } from '@farpoint/protocol';
 import { makeGuard } from '@farpoint/safety/testing';
 import { testFolder } from '@farpoint/service/testing/folder';
 import { beforeEach, describe, expect, it } from 'vitest';

@@ -1,5 +1,6 @@
 import { type GpioLine, type GpioLineAt, openGpioLine } from '@farpoint/gpio';
-import { type RobotStop, RobotStopSignal, type RobotStopState } from '@farpoint/safety';
+import type { RobotStop } from '@farpoint/protocol';
+import { RobotStopSignal, type RobotStopState } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import { StopBlock, type TrustedOwner } from '@farpoint/shared-memory';
 import { KeyStop } from './key-stop.ts';

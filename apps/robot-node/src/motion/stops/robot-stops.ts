@@ -1,8 +1,8 @@
 /** The stops at the robot itself: each holds the emergency stop until it says go. */
 
-import { READING_LIMITS } from '@farpoint/protocol';
+import { READING_LIMITS, type RobotStop } from '@farpoint/protocol';
 import type { TopicReading } from '@farpoint/ros';
-import type { DriveGuard, RobotStop, RobotStopState } from '@farpoint/safety';
+import type { DriveGuard, RobotStopState } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import { monotonicMs } from '../../ground/clock.ts';
 import { LimitedLines } from '../../ground/limited-lines.ts';

@@ -1,4 +1,5 @@
-import type { RobotStop, RobotStopState } from '@farpoint/safety';
+import type { RobotStop } from '@farpoint/protocol';
+import type { RobotStopState } from '@farpoint/safety';
 
 /**
  * Time for which a stop that repeats itself must say go before it counts, ms. Chosen: contacts bounce for

@@ -1,6 +1,6 @@
 /** How the robot's motion is bounded, and who may drive it for how long. */
-import { afterGapChoices, MOST_RESUME_MS } from '@farpoint/protocol';
-import { defaultDriveLimits, estopReleasePolicies, Footprint, RESUME_WITHIN_MS } from '@farpoint/safety';
+import { afterGapChoices, estopReleasePolicies, MOST_RESUME_MS } from '@farpoint/protocol';
+import { defaultDriveLimits, Footprint, RESUME_WITHIN_MS } from '@farpoint/safety';
 import { defineOption, type OptionValues, optionGroup, schema } from '@farpoint/service';
 import { FRESH_FRAME_MS } from '../../ground/outgoing-frame.ts';
 import type { MotionLimits } from '../../motion/open-drive.ts';

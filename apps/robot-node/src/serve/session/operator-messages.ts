@@ -6,6 +6,7 @@ import {
   decodeJson,
   decodeStreamSwitch,
   type EndSession,
+  type EstopCause,
   encodeJson,
   type LatencyMeasured,
   type OperatorSessionMessage,
@@ -59,6 +60,8 @@ export interface SessionHost {
   messageLimited?(kind: RatedMessage): void;
   /** The driver's name by its grant; undefined if nobody drives or there are no grants. */
   driverName?(): string | undefined;
+  /** Who pressed STOP and who may release it, for this operator; `null` while it is not latched. */
+  estopCause?(operatorId: string): EstopCause | null;
 }
 
 export class OperatorMessages {
@@ -119,7 +122,10 @@ export class OperatorMessages {
     return this.access.name;
   }
 
+  /** Tells the operator the state of the emergency stop, and before it what explains it. */
   sendEstop(): void {
+    const cause = this.#host.estopCause?.(this.id) ?? null;
+    if (cause !== null) this.send(cause);
     this.send(this.#estop.told());
   }
 

@@ -6,10 +6,10 @@ import type { PeerEnd } from '../../send/transport/peer-events.ts';
 import type { OperatorMessages } from './operator-messages.ts';
 import { RobotSessionHost, type RobotSessionHostParts } from './robot-session-host.ts';
 
-/** A robot that somebody has driven. */
-function driven() {
+/** A robot that somebody has driven, with these operators. */
+function driven(operators: Record<string, { sendLease: () => void; sendEstop: () => void }> = {}) {
   let left = 0;
-  const guard = makeGuard();
+  const guard = makeGuard({ estopRelease: 'latcher' });
   const drive = new DriveStation(
     new MotionSupervisor(guard),
     () => undefined,
@@ -18,10 +18,11 @@ function driven() {
   onTestFinished(() => drive.close());
   const host = new RobotSessionHost({
     drive,
-    estop: { request: { take: () => false } },
-    operators: () => new Map(),
+    estop: { request: { take: () => false }, start: { latched: null }, changed: () => undefined },
+    operators: () => new Map(Object.entries(operators).map(([id, messages]) => [id, { messages }])),
     budgets: { update: () => undefined },
-    audit: { driver: () => undefined },
+    audit: { driver: () => undefined, estop: () => undefined },
+    log: { warn: () => undefined },
     now: () => 0,
     driverLeft: () => left++,
   } as unknown as RobotSessionHostParts);
@@ -64,4 +65,26 @@ test('who has not driven last says nothing by leaving', () => {
   expect(left()).toBe(0);
   host.operatorGone('next', 'closed');
   expect(left()).toBe(1);
+});
+
+test('who pressed STOP is told until it is released, and who may release it whenever that changes', () => {
+  let told = 0;
+  const { host, guard } = driven({ driver: { sendLease: () => undefined, sendEstop: () => told++ } });
+  const ada = { id: 'ada', operatorName: 'Ada' } as OperatorMessages;
+  host.operatorCame();
+  expect([told, host.estopCause('ada')]).toEqual([0, null]);
+  guard.identify('ada', 'ada');
+  guard.latchEstop('operator', 'ada');
+  host.estopChanged(ada);
+  const cause = { type: 'estopCause', latch: 1, pressedBy: 'Ada', release: 'latcher' };
+  expect([told, host.estopCause('ada')]).toEqual([1, { ...cause, yours: true }]);
+  expect(host.estopCause('driver')).toEqual({ ...cause, yours: false });
+  host.operatorGone('ada', 'closed');
+  expect([told, host.estopCause('driver')]).toEqual([2, { ...cause, yours: false, release: 'driver' }]);
+  guard.identify('again', 'ada');
+  host.operatorCame();
+  expect([told, host.estopCause('again')]).toEqual([3, { ...cause, yours: true }]);
+  expect(guard.releaseEstop(null, true)).toEqual({ released: true });
+  host.estopChanged();
+  expect([told, host.estopCause('driver')]).toEqual([4, null]);
 });

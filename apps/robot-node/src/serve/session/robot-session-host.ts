@@ -1,5 +1,12 @@
-import type { Command, EstopState, LatencyMeasured, ProtocolError } from '@farpoint/protocol';
-import type { CommandVerdict, RejectedCommand, RobotStop, RobotStopState } from '@farpoint/safety';
+import type {
+  Command,
+  EstopCause,
+  EstopState,
+  LatencyMeasured,
+  ProtocolError,
+  RobotStop,
+} from '@farpoint/protocol';
+import type { CommandVerdict, RejectedCommand, RobotStopState } from '@farpoint/safety';
 import type { Logger } from '@farpoint/service';
 import type { LeaseCause, RobotAudit } from '../../admit/audit/robot-audit.ts';
 import { LimitedLines } from '../../ground/limited-lines.ts';
@@ -14,6 +21,7 @@ import type { CloudSensors } from '../../send/clouds/cloud-sensors.ts';
 import { isUnintended, type PeerEnd } from '../../send/transport/peer-events.ts';
 import type { VideoHub } from '../../sense/video/video-hub.ts';
 import type { CommandLog } from '../../tell/command-log.ts';
+import { EstopStory } from './estop-story.ts';
 import type { RatedMessage } from './message-rates.ts';
 import type { OperatorMessages, SessionHost } from './operator-messages.ts';
 import type { OperatorSession } from './operator-session.ts';
@@ -48,10 +56,15 @@ export class RobotSessionHost implements SessionHost {
   /** Whoever drives can latch and release the emergency stop without end, but not fill the log. */
   readonly #estopLines = new LimitedLines();
   readonly #localRelease: LocalRelease;
+  readonly #estopStory: EstopStory;
 
   constructor(parts: RobotSessionHostParts) {
     this.drive = parts.drive;
     this.#parts = parts;
+    const { latched, by, releasedAt } = parts.drive.guard.estopState();
+    // A stop that held the robot and is configured no longer leaves it latched, too.
+    const kept = latched && by === 'robot' && releasedAt === undefined ? 'was-latched' : null;
+    this.#estopStory = new EstopStory(parts.estop.start.latched?.reason ?? kept);
     this.#localRelease = new LocalRelease(parts.estop.request, parts.drive.guard, parts.log);
   }
 
@@ -61,7 +74,8 @@ export class RobotSessionHost implements SessionHost {
     this.drive.apply();
     this.#keepEstop();
     this.#parts.audit.releasedAtRobot();
-    for (const { messages } of this.#parts.operators().values()) messages.sendEstop();
+    this.#estopStory.changed(false);
+    this.#tellEstop();
   }
 
   now(): number {
@@ -82,6 +96,11 @@ export class RobotSessionHost implements SessionHost {
     this.#parts.budgets.update();
   }
 
+  /** Its session has begun, and it has been welcomed. */
+  operatorCame(): void {
+    this.#latchersChanged();
+  }
+
   /** @param end why its session has ended */
   operatorGone(id: string, end: PeerEnd): void {
     if (id === this.#driver && !isUnintended(end)) this.#parts.driverLeft();
@@ -89,6 +108,7 @@ export class RobotSessionHost implements SessionHost {
     const leaseFreed = this.drive.guard.operatorGone(id);
     this.drive.apply();
     if (leaseFreed) this.leaseChanged('session-ended');
+    this.#latchersChanged();
     this.#parts.budgets.update();
   }
 
@@ -98,26 +118,35 @@ export class RobotSessionHost implements SessionHost {
   }
 
   estopChanged(by?: OperatorMessages): void {
-    const { audit, operators } = this.#parts;
     const state = this.drive.guard.estopState();
     this.#keepEstop();
-    audit.estop(state, by);
+    this.#parts.audit.estop(state, by);
     this.#logEstop(state);
-    for (const { messages } of operators().values()) messages.sendEstop();
+    this.#estopStory.changed(state.latched, by?.operatorName);
+    this.#tellEstop();
   }
 
   estopRenewed(by: OperatorMessages): void {
     this.#keepEstop();
     this.#parts.audit.estop(this.drive.guard.estopState(), by);
-    for (const { messages } of this.#parts.operators().values()) messages.sendEstop();
+    this.#estopStory.changed(true, by.operatorName);
+    this.#tellEstop();
   }
 
   /** A stop at the robot itself holds the emergency stop, or no longer. */
   robotStopChanged(stop: RobotStop, said: RobotStopState): void {
     this.drive.apply();
     this.#keepEstop();
-    this.#parts.audit.robotStop(stop, said, this.drive.guard.estopState());
-    for (const { messages } of this.#parts.operators().values()) messages.sendEstop();
+    const state = this.drive.guard.estopState();
+    this.#parts.audit.robotStop(stop, said, state);
+    this.#estopStory.changed(state.latched);
+    this.#tellEstop();
+  }
+
+  /** Who pressed STOP and who may release it, for this operator; `null` while it is not latched. */
+  estopCause(operatorId: string): EstopCause | null {
+    const cause = this.drive.guard.estopCause(operatorId);
+    return cause === null ? null : { ...cause, ...this.#estopStory.told };
   }
 
   latencyTestRequested({ id: operator }: OperatorMessages, id: number, commandMs: number): void {
@@ -170,6 +199,15 @@ export class RobotSessionHost implements SessionHost {
   messageRefused(channel: string, error: ProtocolError): void {
     this.#parts.counters.messagesRefused.add(`${channel}:${error.code}`);
     this.#parts.log.debug({ err: error, channel }, 'message refused');
+  }
+
+  /** Who comes back may keep others from releasing the emergency stop, and who has left no longer does. */
+  #latchersChanged(): void {
+    if (this.drive.guard.estopState().latched) this.#tellEstop();
+  }
+
+  #tellEstop(): void {
+    for (const { messages } of this.#parts.operators().values()) messages.sendEstop();
   }
 
   #keepEstop(): void {
