@@ -7,12 +7,12 @@
  * After this silence no figure of the robot counts as live, ms. Chosen: seven lost reports in a row, and the page has told by
  * half of a second; lost-link.page.ts holds it.
  */
-export const UNHEARD_MS = 400;
+const UNHEARD_MS = 400;
 /**
  * After this silence the connection counts as lost for people, ms. Chosen: longer than most changes of a radio cell, and the
  * banner stands within a second; lost-link.page.ts holds it.
  */
-export const LOST_MS = 700;
+const LOST_MS = 700;
 /** Points count as missing after this many of their intervals: one may be lost, and the next is on its way. */
 const POINT_INTERVALS = 1.5;
 

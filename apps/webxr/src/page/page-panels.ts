@@ -70,7 +70,7 @@ export class PagePanels {
       signIn: new SignIn(tabStorage(), origin),
       tell,
     });
-    this.estop = new EstopUi(client, state.robot, parts.release);
+    this.estop = new EstopUi(client, state, parts.release);
     const { recorder } = parts;
     const { presented, predicted, clouds, remembered } = views;
     const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });

@@ -3,10 +3,11 @@ import type { RobotClient } from '@farpoint/operator';
 import { nearView } from '../ground/near-field/near-view.ts';
 import { arePointsHeard } from '../ground/silence.ts';
 import { alarmWords, raisedFirst } from '../words/alarm-words.ts';
+import { latchedStop } from '../words/estop-words.ts';
 import { motionWords, obstacleGuardWords, speedWords } from '../words/motion-words.ts';
 import { readingsWithNavigation } from '../words/navigation-words.ts';
 import { robotSilence } from './link-state.ts';
-import type { Sampler } from './sampler.ts';
+import { type Sampler, steady } from './sampler.ts';
 
 export type RobotState = ReturnType<typeof robotState>;
 
@@ -75,9 +76,18 @@ export function robotState(client: RobotClient, samples: Sampler) {
 }
 
 /** The robot's emergency stop, and what has become of this operator's STOP. */
-function estopState({ link, stops }: RobotClient, samples: Sampler) {
+function estopState({ link, stops, driver }: RobotClient, samples: Sampler) {
   return {
     estop: samples.of(() => link.session.estop),
+    /** Who or what has stopped it, and who may release that; `null` while it is not latched, and without a session. */
+    latchedStop: steady(
+      samples.of(() => {
+        if (link.phase !== 'live') return null;
+        const { estop, estopCause: cause, lease, welcome } = link.session;
+        const role = welcome?.access?.role ?? null;
+        return latchedStop({ estop, cause, holder: driver.holder, driver: lease.driver ?? null, role });
+      }),
+    ),
     /**
      * What has become of this operator's STOP. Through a bridge the page itself says that it is latched, and numbers no
      * latches: then nothing is called confirmed.

@@ -8,7 +8,16 @@ import type {
   SentMessage,
   ToldMessage,
 } from '@farpoint/operator/testing/scripted-link';
-import type { EstopState, LeaseState, Pose, RobotBody, Telemetry, Twist, Welcome } from '@farpoint/protocol';
+import type {
+  EstopCause,
+  EstopState,
+  LeaseState,
+  Pose,
+  RobotBody,
+  Telemetry,
+  Twist,
+  Welcome,
+} from '@farpoint/protocol';
 
 const TELEMETRY_MS = 50;
 /** From the request to the session, ms. */
@@ -40,6 +49,8 @@ export class ScriptedRobot implements LinkScript {
   access: Welcome['access'];
   lease: LeaseState = { type: 'lease', holder: 'nobody' };
   estop: EstopState = { type: 'estop', latched: false, latch: 0 };
+  /** What it says about its emergency stop besides that, if an operator has not pressed STOP here. */
+  cause: Omit<EstopCause, 'type' | 'latch'> = { yours: false, release: 'driver' };
   /** Whether it opens the sessions that are asked for. */
   admits = true;
   /** Whether it does what it is asked. Clock probes are answered anyway. */
@@ -96,9 +107,16 @@ export class ScriptedRobot implements LinkScript {
     this.tell(this.lease);
   }
 
-  /** The emergency stop is in this state now. */
-  stop(state: Partial<EstopState>): void {
+  /** The emergency stop is in this state now. @param cause who or what stopped it, and who may release that */
+  stop(state: Partial<EstopState>, cause: Partial<ScriptedRobot['cause']> = {}): void {
     this.estop = { ...this.estop, ...state };
+    this.cause = { ...this.cause, ...cause };
+    this.#tellStop();
+  }
+
+  #tellStop(): void {
+    const { latched, latch } = this.estop;
+    if (latched && latch !== undefined) this.tell({ type: 'estopCause', latch, ...this.cause });
     this.tell(this.estop);
   }
 
@@ -117,7 +135,9 @@ export class ScriptedRobot implements LinkScript {
     const welcome: Welcome = { type: 'welcome', protocol: 1, robotId, name, limits, stream };
     if (body !== undefined) welcome.body = body;
     if (access !== undefined) welcome.access = access;
-    for (const message of [welcome, this.lease, this.estop, ...this.greeting]) this.tell(message);
+    for (const message of [welcome, this.lease]) this.tell(message);
+    this.#tellStop();
+    for (const message of this.greeting) this.tell(message);
     this.#report();
   }
 
@@ -150,10 +170,13 @@ export class ScriptedRobot implements LinkScript {
   #press(press: number | undefined): void {
     const isRepeat = press !== undefined && press === this.estop.press;
     if (!isRepeat)
-      this.stop({
-        ...{ latched: true, by: 'operator', latch: (this.estop.latch ?? 0) + 1 },
-        ...(press === undefined ? {} : { press }),
-      });
+      this.stop(
+        {
+          ...{ latched: true, by: 'operator', latch: (this.estop.latch ?? 0) + 1 },
+          ...(press === undefined ? {} : { press }),
+        },
+        { yours: true },
+      );
     if (press !== undefined) this.tell({ type: 'estopAck', press });
   }
 

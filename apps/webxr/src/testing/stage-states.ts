@@ -126,7 +126,37 @@ const states = {
     stage.cut();
     setTimeout(() => stage.app.client.estop(), 1500);
   }),
+  'stop-by-other': afterwards('Another operator has pressed STOP, and drives', ({ robot }) => {
+    robot.giveLease('other', 'Bo');
+    robot.stop({ latched: true, by: 'operator', latch: 1 }, { pressedBy: 'Bo' });
+  }),
   'path-lost': afterwards('Nothing arrives any more', (stage) => stage.cut()),
+  'robot-lost': afterwards(
+    'The robot was killed while you drove: the service does not see it, either',
+    (stage) => {
+      stage.robot.giveLease('you');
+      setTimeout(() => {
+        stage.cut();
+        stage.link.list([]);
+      }, SETTLED_MS);
+    },
+  ),
+  'link-lost': afterwards('This computer’s network is gone', (stage) => {
+    stage.cut();
+    stage.link.enterSignaling('waiting');
+  }),
+  'decoder-hung': afterwards('The robot is heard, but its points do not come', (stage) => stage.stream(null)),
+  'taken-over': afterwards('Another operator has taken over while you held the grip', (stage) => {
+    const { robot } = stage;
+    robot.giveLease('you');
+    window.dispatchEvent(new KeyboardEvent('keydown', { code: 'Space' }));
+    setTimeout(() => robot.giveLease('other', 'Bo'), SETTLED_MS);
+  }),
+  'unknown-robot': without('A robot that the service does not list', ({ link, app }) => {
+    link.enterSignaling('ready');
+    link.list([]);
+    app.choose('rover-that-nobody-knows');
+  }),
   'robot-gone': afterwards('The robot was shut down', ({ link }) => {
     link.list([]);
     link.end('shutting-down');

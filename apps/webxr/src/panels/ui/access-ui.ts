@@ -11,6 +11,7 @@ import { grantFaultWords, grantWords, roleWords, signInErrorWords } from '../../
 import type { Words } from '../../words/words.ts';
 import { elements } from './elements.ts';
 import { showObstacle } from './obstacle-panel.ts';
+import { openDialog } from './open-dialog.ts';
 
 export interface AccessDialogParts {
   readonly access: OperatorAccess;
@@ -86,7 +87,7 @@ class AccessDialog {
     settings.close('cancel');
     this.#robots.value = this.#parts.known.all();
     accessText.value = text;
-    if (!access.open) access.showModal();
+    openDialog(access);
     if (window.isSecureContext) {
       void this.#parts.access.makeKey().then(async () => {
         await this.#take();

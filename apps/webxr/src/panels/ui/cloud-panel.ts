@@ -131,7 +131,7 @@ function heightText(height: number | null): string {
 
 /** Keeps the left column above the row for driving, and `controls`, a list in it, too. */
 function boundLeftColumn(controls: HTMLElement): void {
-  const { hud, drive, facts, noGpu, people, clouds } = elements;
+  const { hud, drive, stopBand, facts, noGpu, people, clouds } = elements;
   const giving = [facts, noGpu, people];
   const parts = [...drive.children];
   const update = () => {
@@ -154,7 +154,7 @@ function boundLeftColumn(controls: HTMLElement): void {
   };
   const observer = new ResizeObserver(update);
   // Whatever is above the controls moves them, and the column grows with it.
-  for (const watched of [controls, hud, drive, ...giving, ...parts]) observer.observe(watched);
+  for (const watched of [controls, hud, drive, stopBand, ...giving, ...parts]) observer.observe(watched);
   window.addEventListener('resize', update);
 }
 

@@ -5,20 +5,29 @@
 
 import type { RobotClient, StopStatus } from '@farpoint/operator';
 import { effect } from '@preact/signals-core';
-import type { RobotState } from '../../state/robot-state.ts';
+import type { Notices } from '../../state/notices.ts';
+import type { PageState } from '../../state/page-state.ts';
 import type { ReleaseControl, ReleaseHold } from '../../take/drive/release-hold.ts';
+import { LATCHED_TITLE, type LatchedStop, stopButtonWords } from '../../words/estop-words.ts';
 import { stopWords } from '../../words/words.ts';
 import { elements } from './elements.ts';
+import { followHeight } from './panel-parts.ts';
 
 export class EstopUi {
   readonly #client: RobotClient;
-  readonly #robot: RobotState;
+  readonly #robot: PageState['robot'];
+  readonly #link: PageState['link'];
+  readonly #notices: Pick<Notices, 'tell'>;
   readonly #hold: ReleaseHold;
 
-  constructor(client: RobotClient, robot: RobotState, hold: ReleaseHold) {
+  constructor(client: RobotClient, { robot, link, notices }: PageState, hold: ReleaseHold) {
     this.#client = client;
     this.#robot = robot;
+    this.#link = link;
+    this.#notices = notices;
     this.#hold = hold;
+    // What is below the band makes room for it. Observers are told in the order in which they were made: this one comes first.
+    followHeight(elements.stopBand, '--stop-band');
   }
 
   start(): void {
@@ -37,8 +46,13 @@ export class EstopUi {
     // A long touch must not open a menu.
     estopRelease.addEventListener('contextmenu', (event) => event.preventDefault());
     effect(() => showStop(this.#robot.stop.value));
-    effect(() => showLatched(this.#robot.estopLatched.value));
-    effect(() => showWhere(this.#robot.estopAtRobot.value));
+    const { latchedStop, estopAtRobot } = this.#robot;
+    // A STOP that is pressed between two sessions is kept for the next.
+    effect(() => {
+      elements.stop.hidden = !this.#link.connected.value;
+    });
+    effect(() => showLatched(latchedStop.value, estopAtRobot.value));
+    effect(() => showWhere(estopAtRobot.value));
     effect(() => showProgress(this.#hold.progress.value));
   }
 
@@ -48,7 +62,9 @@ export class EstopUi {
   }
 
   hold(control: ReleaseControl, down: boolean): void {
-    this.#hold.set(control, down);
+    if (!this.#hold.set(control, down)) return;
+    const stop = this.#robot.latchedStop.peek();
+    if (stop !== null && !stop.mayRelease) this.#notices.tell(stop.release, 'warning');
   }
 
   /**
@@ -58,17 +74,23 @@ export class EstopUi {
    */
   update(nowMs: number, away: boolean): void {
     if (away) this.#hold.letGo();
-    const { estopLatched, estopAtRobot } = this.#robot;
-    const mayRelease = estopLatched.value && !estopAtRobot.value;
+    const mayRelease = this.#robot.latchedStop.peek()?.mayRelease === true;
     if (this.#hold.advance(nowMs, mayRelease)) this.#client.releaseEstop();
   }
 }
 
-function showLatched(latched: boolean): void {
-  const { estop, estopRelease, latency } = elements;
+/** @param stop `null` while it is not latched */
+function showLatched(stop: LatchedStop | null, atRobot: boolean): void {
+  const { estop, estopRelease, latency, stopBand, stopTitle, stopWhy, stopHow } = elements;
+  const latched = stop !== null;
   estop.setAttribute('aria-pressed', String(latched));
-  estop.querySelector('span')!.textContent = latched ? 'engaged' : 'emergency';
-  estopRelease.hidden = !latched;
+  estop.querySelector('span')!.textContent = stopButtonWords[latched ? 'latched' : 'clear'];
+  // A stop at the robot keeps the control, which then says where it is released.
+  estopRelease.hidden = !latched || !(stop.mayRelease || atRobot);
+  stopBand.hidden = !latched;
+  stopTitle.textContent = latched ? LATCHED_TITLE : '';
+  stopWhy.textContent = stop?.why ?? '';
+  stopHow.textContent = stop?.release ?? '';
   // The release control needs its place, and a robot that cannot drive has nothing to measure.
   latency.hidden = latched;
 }

@@ -9,6 +9,8 @@ import { PickGamepad, unknownGamepadWords } from '../../take/drive/pick-gamepad.
 import type { ReleaseControl } from '../../take/drive/release-hold.ts';
 import { TouchJoystick } from '../../take/drive/touch-joystick.ts';
 import { elements } from './elements.ts';
+import { isDialogOpen } from './open-dialog.ts';
+import { takesText } from './takes-text.ts';
 
 export type TalkControl = 'key' | 'pointer' | 'headset';
 
@@ -39,6 +41,8 @@ export type Action =
 
 /** Stops the robot wherever the focus is, except in a text field. */
 const STOP_KEY = 'KeyX';
+/** Stops the robot wherever the focus is: it writes nothing, and browsers leave it to the page. */
+const STOP_KEY_ALWAYS = 'F9';
 const ACTION_KEYS: Readonly<Record<string, Action>> = {
   KeyL: 'latency-test',
   KeyC: 'recentre',
@@ -152,8 +156,8 @@ export class OperatorInputs {
 
   #onKey(event: KeyboardEvent, down: boolean): void {
     const { target } = event;
-    const typing = target instanceof HTMLInputElement && target.type !== 'range';
-    const elsewhere = target instanceof HTMLInputElement || elements.settings.open;
+    const typing = takesText(target);
+    const elsewhere = typing || isDialogOpen();
     const driving = this.#port.mayDrive() && !elsewhere;
     // A released key counts as released wherever the focus is by now.
     if (!down) {
@@ -165,9 +169,9 @@ export class OperatorInputs {
       return;
     }
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (!typing && this.#onEstopKey(event)) return;
+    if ((!typing || event.code === STOP_KEY_ALWAYS) && this.#onEstopKey(event)) return;
     if (elsewhere) return;
-    const choosing = target instanceof HTMLSelectElement;
+    const choosing = target instanceof HTMLSelectElement || target instanceof HTMLInputElement;
     if (choosing && event.code.startsWith('Arrow')) return;
     // They move a panel that has the focus, unless somebody drives.
     if (isPanelKey(event) && !this.#keyboard.held) return;
@@ -198,9 +202,9 @@ export class OperatorInputs {
     const { estop, estopRelease } = elements;
     const isSpaceOnControl = code === 'Space' && (target === estop || target === estopRelease);
     const isRelease = code === RELEASE_KEY || (code === 'Enter' && target === estopRelease);
-    if (code === STOP_KEY || isSpaceOnControl) {
+    if (code === STOP_KEY || code === STOP_KEY_ALWAYS || isSpaceOnControl) {
       if (!event.repeat) this.#port.onAction('estop', event.timeStamp);
-    } else if (isRelease && !elements.settings.open) {
+    } else if (isRelease && !isDialogOpen()) {
       // Key repeat is not a new press.
       if (!event.repeat) this.#port.onRelease('key', true);
     } else return false;

@@ -5,6 +5,7 @@ import type { PageState } from '../../state/page-state.ts';
 import { steady } from '../../state/sampler.ts';
 import { type ShownPerson, shownPeople } from '../../words/people-words.ts';
 import { elements } from './elements.ts';
+import { openDialog } from './open-dialog.ts';
 
 export function showPeople({ robot, driving }: PageState, client: Pick<RobotClient, 'endSession'>): void {
   const { people, peopleLine, peopleList } = elements;
@@ -44,7 +45,6 @@ function confirmEnd(name: string, onEnd: (block: boolean) => void): void {
   const { endSession, endSessionTitle, endSessionBlock } = elements;
   endSessionTitle.textContent = `End the session of ${name}?`;
   endSessionBlock.checked = false;
-  endSession.returnValue = '';
   endSession.addEventListener(
     'close',
     () => {
@@ -52,5 +52,5 @@ function confirmEnd(name: string, onEnd: (block: boolean) => void): void {
     },
     { once: true },
   );
-  endSession.showModal();
+  openDialog(endSession);
 }

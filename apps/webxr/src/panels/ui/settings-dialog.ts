@@ -6,6 +6,7 @@ import { tokenOrigin, withToken } from '../../ground/signaling-tokens.ts';
 import { forgetVisitTokens, loadStored, pageOrigin, store } from '../../ground/stored-settings.ts';
 import { parseTileTemplate } from '../../ground/telemetry/map-tiles.ts';
 import { elements } from './elements.ts';
+import { openDialog } from './open-dialog.ts';
 
 /** Sets up the dialog. @param pointScale follows the slider while it moves */
 export function initSettingsDialog(pointScale: Signal<number>): void {
@@ -13,7 +14,7 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
   const form = new SettingsForm(dialog.querySelector('form')!);
   settingsOpen.addEventListener('click', () => {
     form.fill();
-    dialog.showModal();
+    openDialog(dialog);
   });
   form.listen(pointScale);
   dialog.addEventListener('close', () => {

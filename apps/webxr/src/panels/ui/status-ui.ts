@@ -3,10 +3,11 @@ import { effect } from '@preact/signals-core';
 import type { PageState } from '../../state/page-state.ts';
 import { alarmLine } from '../../words/alarm-words.ts';
 import type { Banner } from '../../words/banner-words.ts';
-import { type Fact, sessionFacts } from '../../words/facts.ts';
+import { sessionFacts } from '../../words/facts.ts';
 import type { ShownReading } from '../../words/shown-readings.ts';
 import type { Words } from '../../words/words.ts';
 import { elements } from './elements.ts';
+import { showFacts } from './facts-table.ts';
 
 export function showStatus({ link, driving, robot, figures }: PageState): void {
   effect(() => setPill(elements.link, link.line.value));
@@ -85,30 +86,4 @@ function setPill(element: HTMLElement, words: Words): void {
 
 function setText(element: HTMLElement, text: string): void {
   if (element.textContent !== text) element.textContent = text;
-}
-
-const rows = new Map<string, { term: HTMLElement; value: HTMLElement }>();
-let shownNames = '';
-
-/** Shows the table of figures over the picture. Its rows are created once; only their texts change. */
-function showFacts(facts: readonly Fact[]): void {
-  for (const { name, value, tone } of facts) {
-    let row = rows.get(name);
-    if (row === undefined) {
-      row = { term: document.createElement('dt'), value: document.createElement('dd') };
-      row.term.textContent = name;
-      rows.set(name, row);
-    }
-    if (row.value.textContent !== value) row.value.textContent = value;
-    row.value.dataset.tone = tone ?? '';
-  }
-  const names = facts.map((fact) => fact.name).join('\n');
-  if (names === shownNames) return;
-  shownNames = names;
-  elements.facts.replaceChildren(
-    ...facts.flatMap(({ name }) => {
-      const row = rows.get(name);
-      return row === undefined ? [] : [row.term, row.value];
-    }),
-  );
 }

@@ -29,9 +29,12 @@ export class ReleaseHold {
   /** From 0 (nothing is held) to 1 (releases). */
   readonly progress: ReadonlySignal<number> = computed(() => this.#heldMs.value / RELEASE_HOLD_MS);
 
-  set(control: ReleaseControl, down: boolean): void {
+  /** @returns whether it has just been pressed */
+  set(control: ReleaseControl, down: boolean): boolean {
+    const isNew = down && !this.#down.has(control);
     if (down) this.#down.add(control);
     else this.#down.delete(control);
+    return isNew;
   }
 
   /** The operator pressed stop: a control that is held now does not release it. */
