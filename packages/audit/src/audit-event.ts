@@ -11,6 +11,7 @@ export const auditKinds = [
   'session-ended',
   'lease-given',
   'lease-taken', // from another operator, who is in the details
+  'lease-handed-over', // by another operator, who is in the details
   'lease-released',
   'lease-expired', // the driver was silent for too long
   'estop-latched',

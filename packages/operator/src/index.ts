@@ -25,6 +25,9 @@ export type {
   EstopReleasePolicy,
   EstopStart,
   EstopState,
+  Handover,
+  HandoverEnd,
+  HandoverKind,
   LatencyFrame,
   LeaseState,
   MapTiles,
@@ -32,6 +35,7 @@ export type {
   ModelLink,
   ModelPlace,
   ModelShape,
+  NamedOperator,
   NearField,
   NearKind,
   NearSector,
@@ -76,6 +80,7 @@ export type { ChangedRobotKey } from './access/session-admission.ts';
 export { type BridgeAddress, parseBridge } from './bridge/bridge-settings.ts';
 export type { RobotClientOptions } from './client/client-options.ts';
 export { ConnectError, type ConnectFailure, type ConnectOptions, connect } from './client/connect.ts';
+export { PeopleRequests } from './client/people-requests.ts';
 export { RobotClient } from './client/robot-client.ts';
 export type { ClientFailure, RobotEvents } from './client/robot-events.ts';
 export {
@@ -145,6 +150,7 @@ export type { NearSurroundings } from './session/near-surroundings.ts';
 export { type AgedReading, Readings } from './session/readings.ts';
 export { LOST_AFTER_MS } from './session/resume-policy.ts';
 export { RobotModel } from './session/robot-model.ts';
+export { givesYou, type OpenHandover, RobotPeople } from './session/robot-people.ts';
 export type { RobotSession } from './session/robot-session.ts';
 export type { SessionPhase } from './session/session-keeper.ts';
 export { finalLosses, lossOf, type SessionLoss } from './session/session-loss.ts';

@@ -21,6 +21,14 @@ export {
 } from './estop-cause.ts';
 export * from './estop-press.ts';
 export * from './geometry.ts';
+export {
+  type DriveRequest,
+  HANDOVER_MS,
+  type Handover,
+  type HandoverEnd,
+  type HandoverKind,
+  handoverEnds,
+} from './handover.ts';
 export * from './identifiers.ts';
 export * from './interventions.ts';
 export * from './json.ts';
@@ -61,6 +69,7 @@ export * from './points64.ts';
 export * from './pose-algebra.ts';
 export {
   MAX_LISTED_OPERATORS,
+  type NamedOperator,
   type Operators,
   type PresentOperator,
   type Role,

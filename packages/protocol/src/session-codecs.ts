@@ -4,6 +4,13 @@ import { alarmSchema } from './alarm.ts';
 import { CLOUD_FORMATS } from './cloud-format.ts';
 import { commandRejections } from './control.ts';
 import { estopCauseSchema } from './estop-cause.ts';
+import {
+  driveAnswerSchema,
+  driveAskSchema,
+  driveOfferSchema,
+  driveWithdrawSchema,
+  handoverSchema,
+} from './handover.ts';
 import { displayNameSchema, handleSchema, robotIdSchema, uint32Schema } from './identifiers.ts';
 import type { JsonCodec } from './json.ts';
 import { MAX_CAMERAS } from './picture-chunk.ts';
@@ -162,6 +169,7 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
     alarmSchema,
     z.strictObject({ type: z.literal('expires'), inS: secondsSchema }),
     operatorsSchema,
+    handoverSchema,
     z.strictObject({
       type: z.literal('fault'),
       message: z.string().check(z.maxLength(512)),
@@ -182,6 +190,10 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
       press: z.optional(uint32Schema),
       of: z.optional(uint32Schema),
     }),
+    driveAskSchema,
+    driveOfferSchema,
+    driveAnswerSchema,
+    driveWithdrawSchema,
     z.strictObject({ type: z.literal('stream'), running: z.boolean() }),
     z.strictObject({
       type: z.literal('cloudFormats'),

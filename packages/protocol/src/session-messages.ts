@@ -5,6 +5,7 @@ import type { Alarm } from './alarm.ts';
 import type { CloudFormat } from './cloud-format.ts';
 import type { CommandRejection } from './control.ts';
 import type { EstopCause } from './estop-cause.ts';
+import type { Handover } from './handover.ts';
 import type { Operators, Role } from './present-operators.ts';
 import type { Quantity } from './quantity.ts';
 import type { RobotBody } from './robot-body.ts';
@@ -227,12 +228,18 @@ export interface Sound {
 export const faultReasons = [
   'not-permitted', // the grant's role does not permit it
   'unknown-operator', // no operator has this number now
-  'own-session', // it is the asker's own, which it can leave
+  'own-session', // it is the asker's own, which it can leave, or which drives already
   'rate-limited', // too many such requests
   'no-room', // no more grants can be blocked
   'newer-latch', // the release meant an older latch of the emergency stop, or may have meant one
   'held-at-robot', // a stop at the robot itself is on: the emergency stop is released there
   'not-latcher', // the emergency stop is released by those who latched it
+  'not-driver', // only who drives offers the drive
+  'nobody-drives', // there is nobody to ask: the lease is free
+  'only-watches', // the other operator may not drive
+  'already-open', // the operator has a request or an offer that is not answered yet
+  'not-open', // the request or offer can no longer be answered, or never could by this operator
+  'estop', // the drive is not handed over while the emergency stop is latched
 ] as const;
 /**
  * Why the robot did not do what an operator asked.
@@ -267,6 +274,7 @@ export type RobotSessionMessage =
   | Alarm
   | GrantExpires
   | Operators
+  | Handover
   | SessionFault;
 
 export const PROTOCOL_VERSION = 1;

@@ -1,5 +1,6 @@
 /** What an operator sends on the `session` channel; what the robot sends on it is in session-messages.ts. */
 import type { CloudFormat } from './cloud-format.ts';
+import type { DriveRequest } from './handover.ts';
 
 /** Requests the lease. `take` asks to take over from another operator; the robot's policy decides. */
 export interface LeaseRequest {
@@ -132,4 +133,5 @@ export type OperatorSessionMessage =
   | Listen
   | Speak
   | EndSession
+  | DriveRequest
   | LatencyMeasured;

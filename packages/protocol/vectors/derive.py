@@ -574,7 +574,8 @@ robot_session.good({"type": "operators", "operators": [{**present, "number": 2 *
 robot_session.spoil(operators, ("operators", ABSENT), ("operators", [present] * 17), ("operators.0.number", -1), ("operators.0.number", 2 ** 32),
                     ("operators.1.name", ""), ("operators.1.role", "root"), ("operators.1.drives", 1), ("operators.0.you", ABSENT),
                     ("operators.1.session", "s1", "operators.1"), ("more", 0), ("more", 0.5))
-for reason in ["unknown-operator", "own-session", "rate-limited", "no-room", "newer-latch", "held-at-robot", "not-latcher"]:
+for reason in ["unknown-operator", "own-session", "rate-limited", "no-room", "newer-latch", "held-at-robot", "not-latcher", "not-driver", "nobody-drives",
+               "only-watches", "already-open", "not-open", "estop"]:
     robot_session.good({"type": "fault", "message": "", "reason": reason}, "fault: " + reason)
 robot_session.good({"type": "lease", "holder": "other", "driver": "Ada"}, "lease held by another, who is named")
 robot_session.good({"type": "fault", "message": "your grant lets you watch", "reason": "not-permitted"}, "fault: not permitted")
@@ -674,6 +675,18 @@ robot_session.spoil(model, ("number", -1), ("number", 2 ** 32), ("count", 641), 
                     ("parts.0.axis", ABSENT), ("parts.0.name", "wheel", "parts.0"), ("parts.2.link", 129), ("parts.2.link", 0.5), ("parts.2.form", "mesh"),
                     ("parts.2.size", [1, 1]), ("parts.2.size", [1, 1, 0], "parts.2.size.2"), ("parts.2.size", [1, 1, 101], "parts.2.size.2"), ("parts.3.size", [1]),
                     ("parts.4.size", []), ("parts.2.colour", 16777216), ("parts.2.colour", "red"), ("parts.2.mesh", "a.stl", "parts.2"), ("scale", 1, ""))
+away = robot_session.good({**operators, "operators": [present, {"number": 7, "name": "Bob", "claimed": True, "role": "drive", "drives": False, "you": False,
+                                                               "away": True}], "drivesForS": 0}, "operators: one is away, and nothing proves its name")
+robot_session.spoil(away, ("drivesForS", -1), ("drivesForS", 0.5), ("operators.1.claimed", False), ("operators.1.away", False), ("operators.1.away", 1))
+ada, bob = {"number": 4, "name": "Ada"}, {"number": 7, "name": "Bob", "claimed": True}
+asked = robot_session.good({"type": "handover", "id": 3, "kind": "ask", "from": bob, "to": ada, "yours": False, "leftMs": 15000})
+robot_session.good({"type": "handover", "id": 2 ** 32 - 1, "kind": "offer", "from": ada, "to": bob, "yours": True, "leftMs": 0}, "handover: an offer in its last moment")
+for end in ["accepted", "refused", "withdrawn", "expired", "driver-changed", "left", "estop"]:
+    over = robot_session.good({"type": "handover", "id": 0, "kind": "offer", "from": ada, "to": bob, "yours": True, "ended": end}, "handover: " + end)
+robot_session.spoil(asked, ("id", -1), ("id", ABSENT), ("kind", "give"), ("kind", ABSENT), ("from", "Bob"), ("from", ABSENT), ("from.name", ""), ("to.number", -1),
+                    ("to.role", "drive", "to"), ("yours", ABSENT), ("yours", 1), ("leftMs", -1), ("leftMs", 15001), ("leftMs", 0.5), ("leftMs", ABSENT, "ended"),
+                    ("ended", "accepted"), ("lease", "0f3a9c", ""))
+robot_session.spoil(over, ("ended", "given"), ("ended", ABSENT))
 write("robot-session.json", robot_session.lists())
 
 operator_session = Messages()
@@ -685,6 +698,15 @@ operator_session.good({"type": "estop", "latch": False}, "estop release")
 operator_session.good({"type": "estop", "latch": True, "press": 2}, "estop with the number of the press")
 release = operator_session.good({"type": "estop", "latch": False, "of": 7}, "estop release of one latch")
 operator_session.spoil(release, ("of", -1), ("of", "7"), ("of", 2 ** 32), ("press", 0.5))
+asks = operator_session.good({"type": "driveAsk"})
+offers = operator_session.good({"type": "driveOffer", "to": 7})
+for accept in [True, False]:
+    answers = operator_session.good({"type": "driveAnswer", "id": 3, "accept": accept}, "driveAnswer: " + ("accept" if accept else "refuse"))
+withdraws = operator_session.good({"type": "driveWithdraw", "id": 3})
+operator_session.spoil(asks, ("to", 7, ""), ("lease", "0f3a9c", ""))
+operator_session.spoil(offers, ("to", -1), ("to", 2 ** 32), ("to", "Bob"), ("to", ABSENT), ("lease", "0f3a9c", ""))
+operator_session.spoil(answers, ("id", -1), ("id", ABSENT), ("accept", ABSENT), ("accept", 1), ("from", 7, ""))
+operator_session.spoil(withdraws, ("id", ABSENT), ("id", 0.5), ("kind", "ask", ""))
 stream = operator_session.good({"type": "stream", "running": False})
 formats = operator_session.good({"type": "cloudFormats", "formats": ["points64", "organised", "unorganised"]})
 operator_session.good({"type": "cloudFormats", "formats": []}, "cloudFormats: none")

@@ -9,7 +9,7 @@ beforeEach(() => {
   gate = new CommandGate(defaultDriveLimits);
 });
 
-const open: GateContext = { holdsLease: true, meetEstop: () => 'clear' };
+const open: GateContext = { holdsLease: true, meetEstop: () => 'clear', stands: true };
 
 const command = (change: Partial<Command> = {}, x = 0.5, yaw = -0.25) => commandOf(x, yaw, change);
 

@@ -33,6 +33,8 @@ export interface GateContext {
   meetEstop: (motion: boolean) => EstopAnswer;
   /** Why nothing takes the robot's velocities; `null` or undefined if something does. */
   wheelsFault?: string | null;
+  /** Whether the robot stands still, as far as its wheels were told. */
+  stands: boolean;
 }
 
 export interface CommandGateOptions {
@@ -55,6 +57,8 @@ interface OperatorState {
   movedMs: number | null;
   /** During what the hand held on, and has not let go since; `null` if it has. */
   mustLetGo: string | null;
+  /** Whether the drive was handed to it, and it has not shown an open grip since the robot stands. */
+  mustOpen: boolean;
   /** Whether the hand is known to be open: the latest that it said was zero, or an open grip. */
   isOpen: boolean;
   /** Of the latest command without the lease. */
@@ -77,7 +81,8 @@ export const WITHOUT_WHEELS = 'the wheels took no velocities';
 
 /**
  * Judges each command of each operator by itself, in this order: rate, lease, sequence, age, emergency stop, dead-man
- * grip, wheels that are away, a grip held through silence, range. Each operator has state of its own: a broken or hostile clock or counter
+ * grip, wheels that are away, a drive that was handed over, a grip held
+ * through silence, range. Each operator has state of its own: a broken or hostile clock or counter
  * spoils only its own commands.
  */
 export class CommandGate {
@@ -122,12 +127,15 @@ export class CommandGate {
       operator.movedMs = null;
       operator.mustLetGo = null;
     }
+    // A stick in its middle is not enough here: the hand may have been on it before it was asked.
+    if (!command.deadMan && context.stands) operator.mustOpen = false;
     const estop = context.meetEstop(!isNeutral);
     if (motion) {
       const refusal =
         estopRefusal(estop) ??
         (command.deadMan ? null : rejected('dead-man-released', 'motion without the dead-man grip')) ??
         withoutWheels(operator, context.wheelsFault ?? null) ??
+        handedOver(operator) ??
         this.#heldThroughSilence(operator, nowMs) ??
         outOfRange(command.twist, this.#limits);
       if (refusal !== null) return refusal;
@@ -162,7 +170,14 @@ export class CommandGate {
    */
   takesOver(operatorId: string): void {
     const operator = this.#operator(operatorId);
+    // What an earlier hand-over demanded went with the lease that it gave.
+    operator.mustOpen = false;
     if (!operator.isOpen) operator.mustLetGo ??= 'you did not drive';
+  }
+
+  /** The drive was handed to this operator: it must show an open grip while the robot stands before it moves anything. */
+  requireOpenGrip(operatorId: string): void {
+    this.#operator(operatorId).mustOpen = true;
   }
 
   /** The operator's grip has closed, but it may not drive: it must open before it does. */
@@ -187,12 +202,14 @@ export class CommandGate {
   /** Whether motion of this operator would be refused until its hand has let go, whoever or whatever demands that. */
   mustLetGo(operatorId: string, nowMs: number): boolean {
     const operator = this.#operators.get(operatorId);
-    return operator !== undefined && (operator.mustLetGo !== null || this.#heldTooLong(operator, nowMs));
+    if (operator === undefined) return false;
+    return operator.mustOpen || operator.mustLetGo !== null || this.#heldTooLong(operator, nowMs);
   }
 
-  /** Whether this operator's hand is still to let go, as {@link requireLetGo} demanded. */
+  /** Whether this operator's hand is still to let go, as {@link requireLetGo} or {@link requireOpenGrip} demanded. */
   awaitsLetGo(operatorId: string): boolean {
-    return (this.#operators.get(operatorId)?.mustLetGo ?? null) !== null;
+    const operator = this.#operators.get(operatorId);
+    return operator !== undefined && (operator.mustOpen || operator.mustLetGo !== null);
   }
 
   forget(operatorId: string): void {
@@ -211,6 +228,7 @@ export class CommandGate {
         lastSequence: null,
         movedMs: null,
         mustLetGo: null,
+        mustOpen: false,
         isOpen: false,
         handSequence: null,
       };
@@ -266,4 +284,10 @@ function withoutWheels(operator: OperatorState, fault: string | null): RejectedC
   }
   if (operator.mustLetGo === null) return null;
   return rejected('let-go-first', `held while ${operator.mustLetGo}: let go of it once`);
+}
+
+/** A hand that was on the grip when the drive came to it must not move the robot. */
+function handedOver({ mustOpen }: OperatorState): RejectedCommand | null {
+  if (!mustOpen) return null;
+  return rejected('let-go-first', 'the drive was handed over: open the grip once while the robot stands');
 }

@@ -43,6 +43,10 @@ const step = fc.oneof(
   },
   { weight: 2, arbitrary: fc.record({ kind: fc.constant('unlatch' as const), by: operator }) },
   { weight: 10, arbitrary: fc.record({ kind: fc.constant('open' as const), by: operator }) },
+  {
+    weight: 1,
+    arbitrary: fc.record({ kind: fc.constant('handOver' as const), by: operator, to: operator }),
+  },
 );
 const timedStep = fc.record({
   waitMs: fc.constantFrom(0, 1, 5, 10, 20, 20, 20, 50, 149, 150, 151, 1000, 6000, 20_000),
@@ -62,6 +66,7 @@ function checkAnything(letGoAfterMs: number | undefined): void {
   let moved = 0;
   let checked = 0;
   let letGo = 0;
+  let handedOver = 0;
   fc.assert(
     fc.property(fc.array(timedStep, { minLength: 1, maxLength: 80, size: 'max' }), (steps) => {
       let handles = 0;
@@ -83,6 +88,8 @@ function checkAnything(letGoAfterMs: number | undefined): void {
       const open = new Set<string>();
       /** Who has been seen with an open hand since it drives, or when it began to; and since the emergency stop was released. */
       const mayMove = new Set<string>();
+      /** Who got the drive from another's hand and has not shown an open grip since. */
+      const mustOpen = new Set<string>();
 
       const check = (atMs: number) => {
         checked++;
@@ -126,6 +133,7 @@ function checkAnything(letGoAfterMs: number | undefined): void {
           const isHeard = verdict.accepted || !unheard.includes(verdict.reason);
           const drives = isHeard && (verdict.accepted || verdict.reason !== 'not-lease-holder');
           if (drives && isNeutral) mayMove.add(by);
+          if (drives && !step.deadMan) mustOpen.delete(by);
           if (drives) open.delete(by);
           // Of those who do not drive, too.
           if (isHeard && isNeutral) open.add(by);
@@ -137,6 +145,7 @@ function checkAnything(letGoAfterMs: number | undefined): void {
             else {
               expect(step.deadMan && !latched).toBe(true);
               expect(mayMove.has(by)).toBe(true);
+              expect(mustOpen.has(by)).toBe(false);
               expect(nowMs - (held.get(by) ?? nowMs)).toBeLessThan(letGoAfterMs ?? 1000);
               held.set(by, nowMs - verdict.spentMs);
             }
@@ -155,6 +164,7 @@ function checkAnything(letGoAfterMs: number | undefined): void {
             if (holder !== by) last = null;
             if (holder !== by && !open.has(by)) mayMove.delete(by);
             if (holder !== by && open.has(by)) mayMove.add(by);
+            if (holder !== by) mustOpen.delete(by);
             holder = by;
             leases.set(by, outcome.lease);
           } else open.delete(by);
@@ -166,6 +176,7 @@ function checkAnything(letGoAfterMs: number | undefined): void {
           if (step.kind === 'gone') {
             held.delete(by);
             open.delete(by);
+            mustOpen.delete(by);
           }
         } else if (step.kind === 'open') {
           guard.onOpenHand(by);
@@ -183,6 +194,19 @@ function checkAnything(letGoAfterMs: number | undefined): void {
             latched = false;
             mayMove.delete(by);
           }
+        } else if (step.kind === 'handOver') {
+          const { to } = step;
+          const isDriver = holder === by && to !== by;
+          expect(guard.handOver(by, to, nowMs)).toBe(isDriver);
+          if (isDriver) {
+            handedOver++;
+            holder = to;
+            last = null;
+            mustOpen.add(to);
+            // Whatever it has said before.
+            mayMove.add(to);
+            leases.set(to, guard.leaseState(to).lease ?? '');
+          }
         } else {
           guard.onMalformed(by, 'not valid JSON', nowMs);
         }
@@ -197,4 +221,5 @@ function checkAnything(letGoAfterMs: number | undefined): void {
   // Without this check, the property would hold for a robot that never moves.
   expect(moved / checked).toBeGreaterThan(0.015);
   expect(letGo).toBeGreaterThan(0);
+  expect(handedOver).toBeGreaterThan(0);
 }

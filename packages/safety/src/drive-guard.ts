@@ -42,7 +42,7 @@ export interface DriveGuardOptions extends LeaseOptions, CommandGateOptions {
  * - it follows the commands of the lease holder and of nobody else;
  * - it is zero while nothing takes it ({@link DriveGuard.watchWheels});
  * - a hand that is not known to have been open since it began to drive, or since the emergency stop was released, moves
- *   nothing;
+ *   nothing; nor does one to which another hand gave the drive, until it was seen open while the robot stood;
  * - a request from before an emergency stop, a change of the lease, a fault of the wheels or a released grip never
  *   takes effect again.
  */
@@ -61,6 +61,7 @@ export class DriveGuard {
   readonly #watchdog: Watchdog;
   #wish: Twist = zeroTwist();
   #askWheels: () => string | null = () => null;
+  #stands: () => boolean = () => true;
   #hadWheels = true;
   /** Whether something other than the driver's wish has stopped the robot. */
   #forced = false;
@@ -90,6 +91,7 @@ export class DriveGuard {
       holdsLease: this.#leases.holds(operatorId, command.lease),
       meetEstop: (motion) => this.#estop.meet(motion),
       wheelsFault,
+      stands: this.#stands(),
     });
     if (verdict.accepted) {
       this.view.note(this.sentViews.ageMs(operatorId, command.seenUs, nowMs), nowMs);
@@ -142,6 +144,11 @@ export class DriveGuard {
     this.#askWheels = fault;
   }
 
+  /** @param stands asked at each command: whether the robot stands still, as far as its wheels were told */
+  watchMotion(stands: () => boolean): void {
+    this.#stands = stands;
+  }
+
   /** Whether something takes the velocities, as {@link velocityAt} found last. */
   get hasWheels(): boolean {
     return this.#hadWheels;
@@ -176,7 +183,7 @@ export class DriveGuard {
     return holder !== null && this.#gate.mustLetGo(holder, nowMs);
   }
 
-  /** Whether {@link demandLetGo} still keeps the robot from moving. */
+  /** Whether {@link demandLetGo}, or a {@link handOver}, still keeps the robot from moving. */
   get awaitsLetGo(): boolean {
     const { holder } = this.#leases;
     return holder !== null && this.#gate.awaitsLetGo(holder);
@@ -213,6 +220,19 @@ export class DriveGuard {
     this.#changeDriver();
     this.#gate.takesOver(operatorId);
     return outcome;
+  }
+
+  /**
+   * The driver hands the lease to another operator. The robot brakes at once, and stands until the new driver has shown an
+   * open grip after that: a hand that is on the stick already moves nothing. Then send every operator its `leaseState`.
+   *
+   * @returns false if `from` does not drive, or is `to`; then nothing has changed
+   */
+  handOver(from: string, to: string, nowMs: number): boolean {
+    if (!this.#leases.handOver(from, to, nowMs)) return false;
+    this.#changeDriver();
+    this.#gate.requireOpenGrip(to);
+    return true;
   }
 
   /** @returns whether the operator held the lease; if so, send every operator its `leaseState` */

@@ -60,3 +60,16 @@ test('never and always', () => {
   always.request('a', false, 0);
   expect(always.request('b', true, 0)).toMatchObject({ granted: true, takenFrom: 'a' });
 });
+
+test('only the holder hands it over, to another operator, who gets a lease of its own', () => {
+  const leases = table({ takePolicy: 'never' });
+  expect(leases.handOver('a', 'b', 0)).toBe(false);
+  leases.request('a', false, 0);
+  expect(leases.handOver('b', 'b', 0)).toBe(false);
+  expect(leases.handOver('b', 'a', 0)).toBe(false);
+  expect(leases.handOver('a', 'a', 0)).toBe(false);
+  expect(leases.leaseOf('a')).toBe('01'.repeat(16));
+  expect(leases.handOver('a', 'b', 0)).toBe(true);
+  expect(leases.leaseOf('a')).toBeNull();
+  expect(leases.leaseOf('b')).toBe('02'.repeat(16));
+});

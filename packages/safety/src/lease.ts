@@ -76,6 +76,13 @@ export class LeaseTable {
     return { granted: false, reason: 'take-refused', detail };
   }
 
+  /** The holder gives it to another operator, under a new lease. @returns false if `from` did not hold it: nothing has changed */
+  handOver(from: string, to: string, nowMs: number): boolean {
+    if (this.#held?.operatorId !== from || from === to) return false;
+    this.#grant(to, from, nowMs);
+    return true;
+  }
+
   /** @returns false if the operator did not hold the lease */
   release(operatorId: string): boolean {
     if (this.#held?.operatorId !== operatorId) return false;

@@ -7,6 +7,7 @@ import { iceAttacks } from './attacks/ice.ts';
 import { peerMediaAttacks } from './attacks/peer-media.ts';
 import { peerPathAttacks } from './attacks/peer-path.ts';
 import { peerSctpAttacks } from './attacks/peer-sctp.ts';
+import { peopleAttacks } from './attacks/people.ts';
 import { referenceAttacks } from './attacks/reference.ts';
 import { sctpAttacks } from './attacks/sctp.ts';
 import { sessionAttacks } from './attacks/session.ts';
@@ -22,6 +23,7 @@ export const allAttacks = [
   ...peerMediaAttacks,
   ...peerPathAttacks,
   ...sessionAttacks,
+  ...peopleAttacks,
   ...grantAttacks,
   ...signalingAttacks,
   ...referenceAttacks,

@@ -4,8 +4,10 @@ import {
   accessWithoutKeys,
   DriveCore,
   monotonicMs,
+  OperatorRoster,
   openObstacleGuard,
   type PeerEnd,
+  People,
   RealTimeBase,
   RobotCounters,
   type RobotOptions,
@@ -45,7 +47,9 @@ export class ScenarioRobot {
   /** Called for each new path that an operator is offered. */
   onRestart: ((session: RobotSession) => void) | null = null;
   readonly #parts: RobotParts;
-  readonly #access = accessWithoutKeys(ID, monotonicMs);
+  readonly #roster = new OperatorRoster();
+  readonly #access = accessWithoutKeys(ID, monotonicMs, this.#roster);
+  readonly #people: People;
   readonly #timers: ReturnType<typeof setInterval>[];
   #frameNumber = 0;
   #telemetrySequence = 0;
@@ -60,7 +64,10 @@ export class ScenarioRobot {
     const wheels = new Wheels(realTime, options.limits.watchdogMs);
     this.wheels = new WheelRecord(options.limits.watchdogMs, log);
     this.core = this.#openCore(realTime, wheels);
-    const { motion } = this.core.host.drive;
+    const { host } = this.core;
+    const { sessions: operators, counters } = this;
+    this.#people = new People({ operators, roster: this.#roster, host, counters, log: silentLogger() });
+    const { motion } = host.drive;
     const report = motion.onIntervention;
     motion.onIntervention = (reason, nowMs) => {
       report?.(reason, nowMs);
@@ -90,6 +97,7 @@ export class ScenarioRobot {
     if (access?.subject != null) this.core.host.drive.guard.identify(session.id, access.subject);
     session.messages.onEndSession = (request) =>
       this.#access.endSession(session, request, this.sessions.values());
+    session.messages.onDriveRequest = (request) => this.#people.request(session, request);
     this.sessions.set(session.id, session);
     this.counters.sessionsOpened++;
     return session;
@@ -176,6 +184,7 @@ export class ScenarioRobot {
   #update(): void {
     this.core.update();
     this.#access.enforce(this.sessions, this.core.host.drive.guard.leaseHolder);
+    this.#people.update();
   }
 
   #welcome({ messages, resumeKey }: RobotSession): void {
@@ -199,6 +208,7 @@ export class ScenarioRobot {
     this.sessions.delete(session.id);
     this.counters.sessionsEnded.add(end);
     this.core.host.operatorGone(session.id, end);
+    this.#people.gone(session.id);
     const { signaling } = this.#parts;
     if (end !== 'closed') signaling.post(() => session.onEndTold?.(end, detail));
   }

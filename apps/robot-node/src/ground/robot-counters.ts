@@ -53,6 +53,8 @@ export class RobotCounters {
   readonly interventions = new ReasonCounts();
   /** By channel and error code. */
   readonly messagesRefused = new ReasonCounts();
+  /** Ends of requests for the drive and offers of it: `ask-refused`, `offer-accepted` and so on. */
+  readonly handovers = new ReasonCounts();
   framesCaptured = 0;
   /** Frames that were captured, but too old when they left the worker. */
   framesStale = 0;

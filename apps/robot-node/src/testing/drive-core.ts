@@ -1,6 +1,7 @@
 /** What a robot in virtual time is made of: all that decides whether it moves, without sockets, threads and sensors. */
 import { noAudit } from '@farpoint/audit';
 import { resolveOptions, silentLogger } from '@farpoint/service';
+import type { OperatorRoster } from '../admit/access/operator-roster.ts';
 import { RobotAccess } from '../admit/access/robot-access.ts';
 import { RobotAudit } from '../admit/audit/robot-audit.ts';
 import { ReasonCounts } from '../ground/robot-counters.ts';
@@ -9,6 +10,7 @@ import { robotProgram } from '../program/options/robot-program.ts';
 import type { RobotOptions } from '../program/robot-configuration.ts';
 
 export type { Access } from '../admit/access/access.ts';
+export { OperatorRoster } from '../admit/access/operator-roster.ts';
 export { DriveCore, type DriveCoreParts } from '../drive-core.ts';
 export { monotonicMs } from '../ground/clock.ts';
 export { RobotCounters } from '../ground/robot-counters.ts';
@@ -18,6 +20,7 @@ export type { RobotOptions } from '../program/robot-configuration.ts';
 export { isUnintended, type PeerEnd } from '../send/transport/peer-events.ts';
 export { RealTimeBase } from '../sense/base/real-time-base.ts';
 export { Wheels } from '../sense/base/wheels.ts';
+export { People } from '../serve/people/people.ts';
 export { OperatorMessages, type SessionHost } from '../serve/session/operator-messages.ts';
 export type { KeptOperator } from '../serve/session/path-keeper.ts';
 export { RestartPolicy } from '../serve/session/restart-policy.ts';
@@ -45,7 +48,7 @@ export function unreadAudit(): RobotAudit {
 }
 
 /** What ends the sessions of admitted operators. It verifies nobody: a test says what each may do. */
-export function accessWithoutKeys(robot: string, nowMs: () => number): RobotAccess {
+export function accessWithoutKeys(robot: string, nowMs: () => number, roster: OperatorRoster): RobotAccess {
   return new RobotAccess({
     files: {
       keys: { keys: new Map(), reload: async () => undefined },
@@ -53,6 +56,6 @@ export function accessWithoutKeys(robot: string, nowMs: () => number): RobotAcce
       revocations: [],
     },
     ...{ robot, refusals: new ReasonCounts(), revocationLists: new ReasonCounts(), log: silentLogger() },
-    ...{ nowS: () => Date.now() / 1000, now: nowMs },
+    ...{ nowS: () => Date.now() / 1000, now: nowMs, roster },
   });
 }

@@ -11,6 +11,7 @@ export interface DriveExtras {
   latencyTest?: number;
   seenUs?: number | undefined;
   twist?: Twist;
+  deadMan?: boolean;
 }
 
 /** The hand of an operator for tests: makes its commands, and lets go once when the robot asks for it. */

@@ -5,6 +5,7 @@ import type { SeenView } from '../drive/seen-view.ts';
 import type { LatencyProbe } from '../latency/latency-probe.ts';
 import type { RobotLinkEvents } from '../link/robot-link.ts';
 import type { PictureFeed } from '../pictures/picture-feed.ts';
+import { givesYou } from '../session/robot-people.ts';
 import type { RobotSound } from '../sound/robot-sound.ts';
 import type { StreamStatistics } from '../statistics/stream-statistics.ts';
 import type { StopDelivery } from '../stop/stop-delivery.ts';
@@ -88,6 +89,10 @@ function driveEvents(client: LinkedClient, { emitter, tellFormats }: ClientParts
       client.driver.onLease(lease);
       client.latency.onLease();
       emitter.emit('lease', lease);
+    },
+    onHandover: (handover) => {
+      if (givesYou(handover)) client.driver.onHandedOver(performance.now());
+      emitter.emit('handover', handover);
     },
     onEstop: (estop) => {
       client.stops.onState(estop);

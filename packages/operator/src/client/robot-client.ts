@@ -17,6 +17,7 @@ import { StopDelivery } from '../stop/stop-delivery.ts';
 import type { RobotClientOptions } from './client-options.ts';
 import { clientParts, openLink } from './client-parts.ts';
 import { type ClientParts, linkEvents } from './link-events.ts';
+import { PeopleRequests } from './people-requests.ts';
 import type { RobotEvents } from './robot-events.ts';
 
 /**
@@ -34,6 +35,8 @@ export class RobotClient {
   readonly link: RobotLink;
   /** Which device drives, and who holds the lease. */
   readonly driver: Driver;
+  /** Asks for the drive, and offers it. */
+  readonly people: PeopleRequests;
   /** What is on the operator's screen, which each command tells the robot. */
   readonly seen = new SeenView();
   /** Gets STOP to the robot. */
@@ -78,6 +81,7 @@ export class RobotClient {
       onGripLost: (loss) => this.#emitter.emit('gripLost', loss),
       onGripMissing: (device) => this.#emitter.emit('gripMissing', device),
     });
+    this.people = new PeopleRequests(this.link);
     this.stops = new StopDelivery(this.link, (status) => this.#emitter.emit('stop', status));
     this.latency = new LatencyProbe(this.link, this.driver, (result) => {
       this.statistics.onResult(result);

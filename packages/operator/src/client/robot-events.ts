@@ -4,6 +4,7 @@ import type {
   CommandRejected,
   Diagnostics,
   EstopState,
+  Handover,
   LeaseState,
   MapTiles,
   NearField,
@@ -57,8 +58,13 @@ export interface RobotEvents {
   grantExpires: number;
   /** Who drives. */
   lease: LeaseState;
-  /** Who has a session with the robot, and who of them drives; from robots that ask for grants. */
+  /** Who has a session with the robot, and who of them drives. */
   operators: Operators;
+  /**
+   * A request for the drive or an offer of it that this operator has made or is to answer ({@link RobotClient.people}), or
+   * what has become of it.
+   */
+  handover: Handover;
   /** The robot refused a command. */
   commandRejected: CommandRejected;
   /** The emergency stop, latched or released. */

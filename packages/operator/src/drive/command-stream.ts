@@ -20,6 +20,11 @@ export const COMMANDS_PER_SECOND = 40;
  * lost; without any, the robot's watchdog stops it.
  */
 export const STOP_REPEATS = 4;
+/**
+ * Number of commands that show an open grip after {@link CommandStream.showOpen}: a second's. Chosen: the robot
+ * may still be braking, and counts it only once it stands.
+ */
+const OPEN_REPEATS = COMMANDS_PER_SECOND;
 /** Number of zero commands before motion after {@link CommandStream.restFirst}, since one may be lost. */
 export const FIRST_RESTS = 2;
 
@@ -92,6 +97,13 @@ export class CommandStream {
   /** The next grip starts with zero commands: the robot may not have heard that the grip was released in between. */
   restFirst(): void {
     this.#restsLeft = FIRST_RESTS;
+  }
+
+  /** The robot must see an open grip: tells it so for a second, or until a grip is pressed. */
+  showOpen(): void {
+    this.#hand = 'open';
+    this.#stopsLeft = OPEN_REPEATS;
+    this.#nextMs = 0;
   }
 
   /** The velocity that the hand asks for now, the same object each time; `null` while it drives nothing. */

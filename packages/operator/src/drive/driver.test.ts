@@ -62,6 +62,38 @@ describe('Driver', () => {
     expect(missing).toEqual(['script']);
   });
 
+  test('a drive that is handed over moves nothing until the grip was opened and pressed anew', () => {
+    const { commands, hand, driver } = bench();
+    hand.held = true;
+    hand.wish.forward = 1;
+    driver.onLease({ type: 'lease', holder: 'other' });
+    for (let now = 0; now < 500; now += 25) driver.sendDue(now);
+    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    driver.onHandedOver(500);
+    expect(driver.lost).toBe('other-drives');
+    for (let now = 525; now < 3000; now += 25) driver.sendDue(now);
+    // It shows the robot an open grip, for a second: the robot may still be braking.
+    expect(commands.length).toBeGreaterThan(30);
+    expect(commands.length).toBeLessThan(50);
+    expect(commands.some(({ deadMan, twist }) => deadMan || twist.linear.x !== 0)).toBe(false);
+    hand.held = false;
+    driver.sendDue(3000);
+    hand.held = true;
+    driver.sendDue(3025);
+    expect(commands.at(-1)).toMatchObject({ deadMan: true, twist: { linear: { x: 1 } } });
+  });
+
+  test('an open hand to which the drive is handed shows the robot that it is open', () => {
+    const { commands, hand, driver } = bench();
+    driver.onLease({ type: 'lease', holder: 'you', lease: 'x' });
+    driver.onHandedOver(0);
+    driver.sendDue(25);
+    expect(commands.map(({ deadMan }) => deadMan)).toEqual([false, false]);
+    [hand.held, hand.wish.forward] = [true, 1];
+    driver.sendDue(50);
+    expect(commands.at(-1)?.twist.linear.x).toBe(1);
+  });
+
   test('requests the lease again while there is no answer, but never takes it over', () => {
     const { messages, hand, driver, told } = bench();
     hand.held = true;

@@ -162,6 +162,18 @@ export class Driver {
   }
 
   /**
+   * Another operator has handed the drive to this one. Each grip that is held counts as released until it has been opened,
+   * and the robot is shown that: it demands it.
+   *
+   * @param nowMs `performance.now()`
+   */
+  onHandedOver(nowMs: number): void {
+    this.#grips.lose(this.#inputs, 'other-drives');
+    this.stream.showOpen();
+    this.sendDue(nowMs);
+  }
+
+  /**
    * Takes the devices' states and sends what is due. Call it at the stream's rate, and at once when a grip or stick
    * changes. A grip whose device was not read for 100 ms moves nothing until it is read again, and counts as released if
    * that takes longer than the robot allows.

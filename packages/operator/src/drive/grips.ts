@@ -12,7 +12,7 @@ export type GripLoss =
   | 'late-reading' // its device was not read for longer than the robot allows: the page or the headset hung, or tracking was lost
   | 'hands-away' // the page was hidden or lost the focus, or the headset was taken off
   | 'path-lost' // the path to the robot was lost or restored
-  | 'other-drives' // it was closed while another operator drove
+  | 'other-drives' // it was closed while another operator drove, or when that one handed the drive over
   | 'let-go'; // the page let go: the session ended, or another robot was chosen
 
 interface Reading {

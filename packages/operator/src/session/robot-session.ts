@@ -10,6 +10,7 @@ import {
   decodeJson,
   type EstopCause,
   type EstopState,
+  type Handover,
   type LatencyFrame,
   type LeaseState,
   type MapTiles,
@@ -42,6 +43,7 @@ import { NavigatorPath } from './navigator-path.ts';
 import { NearSurroundings } from './near-surroundings.ts';
 import { Readings } from './readings.ts';
 import { RobotModel } from './robot-model.ts';
+import { RobotPeople } from './robot-people.ts';
 
 /** Channels on which the robot sends. */
 export type RobotChannel = 'session' | 'telemetry' | 'control' | 'pictures';
@@ -53,8 +55,10 @@ export interface RobotSessionEvents {
   onGrantExpires(inS: number): void;
   /** Somebody else drives now, or nobody. */
   onLease(lease: LeaseState): void;
-  /** Who has a session with the robot; from robots that ask for grants. */
+  /** Who has a session with the robot. */
   onOperators(operators: Operators): void;
+  /** A request for the drive or an offer of it, made or ended, that concerns this operator. */
+  onHandover(handover: Handover): void;
   /** The robot has refused a command. */
   onRejected(rejected: CommandRejected): void;
   /** The state of the emergency stop. */
@@ -115,8 +119,10 @@ export class RobotSession {
   grantEndsAtMs: number | null = null;
   /** Who drives. */
   lease: LeaseState = { type: 'lease', holder: 'nobody' };
-  /** Who has a session with the robot; `null` until the robot says so, and from robots that ask for no grants. */
+  /** Who has a session with the robot; `null` until the robot says so. */
   operators: Operators | null = null;
+  /** What they ask of each other. */
+  readonly people = new RobotPeople();
   /** Whether the emergency stop is latched. */
   estop: EstopState = { type: 'estop', latched: false };
   /** Who pressed STOP, why else the robot stands, and who may release it; `null` if the robot has not said so of the present latch. */
@@ -161,9 +167,14 @@ export class RobotSession {
       this.lease = lease;
       this.#events.onLease(lease);
     },
-    operators: (operators) => {
+    operators: (operators, nowMs) => {
       this.operators = operators;
+      this.people.onOperators(operators, nowMs);
       this.#events.onOperators(operators);
+    },
+    handover: (handover, nowMs) => {
+      this.people.onHandover(handover, nowMs);
+      this.#events.onHandover(handover);
     },
     rejected: (rejected) => this.#events.onRejected(rejected),
     estop: (estop) => {

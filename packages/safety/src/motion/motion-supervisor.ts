@@ -86,6 +86,7 @@ export class MotionSupervisor {
     this.#unattended = options.unattended ?? null;
     this.#ramp = new VelocityRamp(options.ramps ?? NO_RAMPS, options.staleMs ?? guard.limits.watchdogMs);
     this.#letGoAfter = new Map(Object.entries(options.letGoAfter ?? {}) as [Intervention, LetGoDemand][]);
+    guard.watchMotion(() => this.#ramp.stands);
   }
 
   /** The velocity for the wheels now. Call it at every change of the guard, and at short intervals while {@link ramping}. */

@@ -61,6 +61,11 @@ export class VelocityRamp {
     return this.#linear !== linear.x || this.#angular !== angular.z;
   }
 
+  /** Whether the velocity is zero. */
+  get stands(): boolean {
+    return this.#linear === 0 && this.#angular === 0;
+  }
+
   /** Stands still at once. */
   stop(): void {
     this.#linear = 0;

@@ -30,7 +30,13 @@ async function setUp() {
   });
   const operator = (id: string, given: Access = openAccess('Ada')) => {
     const [send, close] = [vi.fn(), vi.fn()];
-    const messages: GuardedOperator['messages'] = { id, access: given, operatorName: 'Ada', send };
+    const messages: GuardedOperator['messages'] = {
+      id,
+      access: given,
+      operatorName: 'Ada',
+      heardMs: 0,
+      send,
+    };
     const made: GuardedOperator = { messages, peer: { connected: true, close } };
     return { made, send, close };
   };

@@ -25,6 +25,8 @@ export interface GuardedOperator {
     /** What it may do. */
     access: Access;
     readonly operatorName: string;
+    /** When a message last came from it, ms on the robot's clock. */
+    readonly heardMs: number;
     send(message: RobotSessionMessage): void;
   };
   readonly peer: Pick<OperatorPeer, 'connected' | 'close'>;
@@ -39,6 +41,8 @@ export interface RobotAccessOptions extends Omit<GrantGateOptions, 'keys' | 'ref
   revocationLists: ReasonCounts;
   /** For the audit log. */
   onRefused?: (operator: GuardedOperator['messages'], reason: string) => void;
+  /** Knows the operators' numbers; without one, there is one of its own. */
+  roster?: OperatorRoster;
 }
 
 /** Admits operators by their grants, ends their sessions with them, and tells operators of each other. */
@@ -46,7 +50,7 @@ export class RobotAccess {
   readonly revocations: RobotRevocations;
   readonly #options: RobotAccessOptions;
   readonly #gate: GrantGate;
-  readonly #roster = new OperatorRoster();
+  readonly #roster: OperatorRoster;
   readonly #lists: readonly WatchedText[];
   /** What was last read of each. */
   readonly #listed = new Map<string, string>();
@@ -56,6 +60,7 @@ export class RobotAccess {
 
   constructor(options: RobotAccessOptions) {
     this.#options = options;
+    this.#roster = options.roster ?? new OperatorRoster();
     const { files, revocationLists: outcomes, log, nowS, now } = options;
     const keys = () => files.keys.keys;
     this.revocations = new RobotRevocations({ keys, journal: files.journal, outcomes, log, nowS, now });

@@ -14,7 +14,7 @@ export interface AuditedOperator {
 export type RefusedThing = 'admission' | 'session' | 'lease' | 'estop-release' | 'command';
 
 /** Why the driver may have changed, if not by a request. */
-export type LeaseCause = 'expired' | 'session-ended';
+export type LeaseCause = 'expired' | 'session-ended' | 'handed-over';
 
 interface Who {
   readonly subject: AuditSubject;
@@ -75,7 +75,8 @@ export class RobotAudit {
     if (before === null) this.#record({ kind: 'lease-given', ...who });
     else {
       const from = { ...before.subject, session: before.session };
-      this.#record({ kind: 'lease-taken', ...who, details: { from } });
+      const kind = cause === 'handed-over' ? 'lease-handed-over' : 'lease-taken';
+      this.#record({ kind, ...who, details: { from } });
     }
   }
 

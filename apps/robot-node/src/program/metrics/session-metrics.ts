@@ -33,6 +33,9 @@ export function addSessionMetrics(metrics: PulledMetrics, { counters, operators 
         [...read()].map(([reason, count]) => [what, reason, count] as const),
       ),
   );
+  metrics.sums('handovers', 'Ends of requests for the drive and offers of it, by outcome', 'outcome', () =>
+    counters.handovers.entries(),
+  );
   metrics.gauge('operators', 'Operators with a session', () => operators.size);
 }
 

@@ -2,6 +2,7 @@
 import {
   type Command,
   clockAnswerCodec,
+  type DriveRequest,
   decodeBandwidth,
   decodeJson,
   decodeStreamSwitch,
@@ -38,7 +39,7 @@ export interface SessionHost {
   readonly drive: DriveStation;
   now(): number;
   /** The driver has changed, and all operators must be told. @param cause if it was not a request */
-  leaseChanged(cause?: 'expired' | 'session-ended'): void;
+  leaseChanged(cause?: 'expired' | 'session-ended' | 'handed-over'): void;
   /** It has given the lease back, or would if it still had it. */
   driverLeaves?(session: OperatorMessages): void;
   /** The emergency stop was latched or released. @param by who changed it; undefined: the robot itself */
@@ -76,6 +77,8 @@ export class OperatorMessages {
   onReceiverLimit: ((bitsPerSecond: number) => void) | null = null;
   /** Of supervisors only. */
   onEndSession: ((request: EndSession) => void) | null = null;
+  /** What it asks of the other operators. */
+  onDriveRequest: ((request: DriveRequest) => void) | null = null;
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #commands: CommandPipeline;
@@ -199,35 +202,24 @@ export class OperatorMessages {
 
   #onRequest(message: OperatorSessionMessage): void {
     const { drive } = this.#host;
-    const { guard } = drive;
     switch (message.type) {
-      case 'leaseRequest': {
-        if (this.#rates.over('lease', this.heardMs)) break;
-        if (!mayDrive(this.access)) {
-          this.#host.refused?.(this, 'lease', 'not-permitted');
-          this.#notPermitted(NOT_PERMITTED.detail);
-          this.sendLease();
-          break;
-        }
-        const outcome = guard.requestLease(this.id, message.take, this.heardMs, supervises(this.access));
-        drive.apply();
-        if (outcome.granted) {
-          this.#host.leaseChanged();
-        } else {
-          this.#host.refused?.(this, 'lease', outcome.reason);
-          this.send({ type: 'fault', message: outcome.detail });
-          this.sendLease();
-        }
+      case 'leaseRequest':
+        this.#requestLease(message.take);
         break;
-      }
       case 'leaseRelease': {
-        const released = guard.releaseLease(this.id);
+        const released = drive.guard.releaseLease(this.id);
         drive.apply();
         this.#host.driverLeaves?.(this);
         if (released) this.#host.leaseChanged();
         else this.sendLease();
         break;
       }
+      case 'driveAsk':
+      case 'driveOffer':
+      case 'driveAnswer':
+      case 'driveWithdraw':
+        this.onDriveRequest?.(message);
+        break;
       case 'estop':
         if (message.latch) this.#estop.press(message.press);
         else this.#estop.release(message.of);
@@ -242,6 +234,27 @@ export class OperatorMessages {
       default:
         this.wishes.take(message, mayDrive(this.access));
     }
+  }
+
+  /** @param take whether to take it from another operator */
+  #requestLease(take: boolean): void {
+    if (this.#rates.over('lease', this.heardMs)) return;
+    if (!mayDrive(this.access)) {
+      this.#host.refused?.(this, 'lease', 'not-permitted');
+      this.#notPermitted(NOT_PERMITTED.detail);
+      this.sendLease();
+      return;
+    }
+    const { drive } = this.#host;
+    const outcome = drive.guard.requestLease(this.id, take, this.heardMs, supervises(this.access));
+    drive.apply();
+    if (outcome.granted) {
+      this.#host.leaseChanged();
+      return;
+    }
+    this.#host.refused?.(this, 'lease', outcome.reason);
+    this.send({ type: 'fault', message: outcome.detail });
+    this.sendLease();
   }
 
   #notPermitted(message: string): void {

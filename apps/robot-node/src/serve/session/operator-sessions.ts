@@ -5,6 +5,7 @@ import type { IceServer, RobotToService, ServiceToRobot, VideoCodec } from '@far
 import type { Logger } from '@farpoint/service';
 import { openAccess } from '../../admit/access/access.ts';
 import type { GrantFiles } from '../../admit/access/grant-files.ts';
+import { OperatorRoster } from '../../admit/access/operator-roster.ts';
 import { RobotAccess } from '../../admit/access/robot-access.ts';
 import type { RobotKey } from '../../admit/access/robot-key-file.ts';
 import { SIGNALING } from '../../admit/access/robot-revocations.ts';
@@ -16,6 +17,7 @@ import type { CloudClaim } from '../../send/budgets/cloud-shares.ts';
 import type { PacketLog } from '../../send/transport/packet-log.ts';
 import type { OperatorPeerOptions, PeerEnd } from '../../send/transport/peer-events.ts';
 import type { SendLoop } from '../../send/transport/send-loop.ts';
+import { People } from '../people/people.ts';
 import type { SessionHost } from './operator-messages.ts';
 import { OperatorPlaces, type OperatorPlacesOptions } from './operator-places.ts';
 import { OperatorSession } from './operator-session.ts';
@@ -69,6 +71,8 @@ export class OperatorSessions {
   readonly #options: OperatorSessionsOptions;
   readonly #events: OperatorSessionsEvents;
   readonly #access: RobotAccess | null;
+  readonly #roster = new OperatorRoster();
+  readonly #people: People;
   readonly #waiting = new WaitingPlaces();
   /** `null` if everybody is admitted: then nobody is known by anything but a name of its own choice. */
   readonly #places: OperatorPlaces | null;
@@ -77,7 +81,10 @@ export class OperatorSessions {
   constructor(options: OperatorSessionsOptions, events: OperatorSessionsEvents) {
     this.#options = options;
     this.#events = events;
-    const { grants: files, id: robot, counters, audit, log } = options;
+    const { grants: files, id: robot, counters, audit, host, log } = options;
+    const { operators } = this;
+    const roster = this.#roster;
+    this.#people = new People({ operators, roster, host, counters, log });
     const { grantsRefused: refusals, revocationLists } = counters;
     const onRefused = (operator: AuditedOperator, reason: string) =>
       audit.refused('admission', reason, operator);
@@ -86,14 +93,16 @@ export class OperatorSessions {
     this.#access =
       files === null
         ? null
-        : new RobotAccess({ files, robot, refusals, revocationLists, onRefused, log, ...clocks });
+        : new RobotAccess({ files, robot, refusals, revocationLists, onRefused, roster, log, ...clocks });
   }
 
-  /** Notes the driver, and enforces the grants. Call every 25 ms. */
+  /** Notes the driver, enforces the grants, and tells everybody who is here. Call every 25 ms. */
   update(): void {
     const { leaseHolder } = this.#options.host.drive.guard;
     this.#places?.noteDriver(leaseHolder, monotonicMs());
-    this.#access?.enforce(this.operators, leaseHolder);
+    if (this.#access !== null) this.#access.enforce(this.operators, leaseHolder);
+    else this.#roster.sendDue(this.operators.values(), leaseHolder, monotonicMs());
+    this.#people.update();
   }
 
   /** Reads keys and revocations again; the old keys stay in force if that fails. @throws {GrantKeysError} */
@@ -259,6 +268,7 @@ export class OperatorSessions {
     );
     operator.messages.onEndSession = (request) =>
       this.#access?.endSession(operator, request, this.operators.values());
+    operator.messages.onDriveRequest = (request) => this.#people.request(operator, request);
     return operator;
   }
 
@@ -286,6 +296,7 @@ export class OperatorSessions {
     this.#access?.forget(id);
     this.#places?.ended(operator, end, monotonicMs());
     this.#events.ended(operator, end);
+    this.#people.gone(id);
     audit.sessionEnded(operator.messages, end, detail);
     counters.sessionsEnded.add(end);
     log.info({ end, detail, operators: this.operators.size }, 'session ended');
