@@ -56,6 +56,7 @@ export type {
   SensorRings,
   Sensors,
   Sound,
+  StageTimes,
   StageTimings,
   StreamStatus,
   Telemetry,
@@ -130,9 +131,17 @@ export {
   HeldClouds,
   type SessionClock,
 } from './instant/held-clouds.ts';
+export { type CommandStage, type CommandStages, commandStages } from './latency/command-stages.ts';
+export { type FrameStage, type FrameStages, frameStages } from './latency/frame-stages.ts';
 export { LatencyError, type LatencyProbe, type LatencyReport } from './latency/latency-probe.ts';
 export type { LatencyFailure, LatencyResult } from './latency/latency-test.ts';
 export { type Distribution, SampleWindow } from './latency/sample-window.ts';
+export {
+  STAGES_KEPT_MS,
+  type StageRow,
+  type StageSummary,
+  type StageWindow,
+} from './latency/stage-window.ts';
 export type { RobotLink, RobotLinkEvents, SignalingState } from './link/robot-link.ts';
 export { MEMORY_LAYOUT } from './memory/memory-layout.ts';
 export type { MemoryStats } from './memory/memory-messages.ts';

@@ -102,6 +102,13 @@ export * from './signaling/farpoint.ts';
 export * from './signaling/reference.ts';
 export * from './signaling/signaling-endpoint.ts';
 export * from './sound-media.ts';
+export {
+  type CommandTimes,
+  type FrameTimes,
+  MOST_STAGE_ROWS,
+  MOST_STAGE_US,
+  type StageTimes,
+} from './stage-times.ts';
 export * from './telemetry.ts';
 export * from './unorganised-stream.ts';
 export * from './video-media.ts';

@@ -1,6 +1,7 @@
 /**
  * The `telemetry` channel, opened by the robot, unordered, with a short lifetime: the robot's state, 20 times per
- * second, what is near it, samples of quantities, readings, diagnostics, its navigator's path and its map, its joints.
+ * second, what is near it, samples of quantities, readings, diagnostics, its navigator's path and its map, its joints, and
+ * when clouds and commands passed its stations.
  */
 import * as z from 'zod/mini';
 import { type Diagnostics, diagnosticsSchema } from './diagnostics.ts';
@@ -14,6 +15,7 @@ import { type PlannedPath, plannedPathSchema } from './planned-path.ts';
 import { type Samples, samplesSchema } from './quantity.ts';
 import { type Reading, readingSchema } from './reading.ts';
 import { type JointPositions, jointPositionsSchema } from './robot-model.ts';
+import { type StageTimes, stageTimesSchema } from './stage-times.ts';
 
 /** Whether the robot is driving, and if not, why. */
 export const driveStates = [
@@ -108,7 +110,8 @@ export type TelemetryMessage =
   | Diagnostics
   | PlannedPath
   | MapTiles
-  | JointPositions;
+  | JointPositions
+  | StageTimes;
 
 const telemetrySchema = z.strictObject({
   type: z.literal('telemetry'),
@@ -155,6 +158,7 @@ export const telemetryCodec: JsonCodec<TelemetryMessage> = {
     plannedPathSchema,
     mapTilesSchema,
     jointPositionsSchema,
+    stageTimesSchema,
   ]),
   maxBytes: 4096,
 };

@@ -857,6 +857,17 @@ for level in ["warn", "error"]:
 telemetry.spoil(reading, ("topic", ""), ("topic", "/" + "a" * 255), ("label", ""), ("label", "l" * 41), ("level", "fatal"),
                 ("values", [["", "x"]] * 11), ("values", [["x"]], "values.0"), ("values", [["n" * 37, "x"]], "values.0.0"),
                 ("values", [["", "x" * 61]], "values.0.1"), ("values", [["", 7]], "values.0.1"), ("ageMs", -1), ("timeMs", -1), ("unit", "V", ""))
+stages = telemetry.good({"type": "stages", "frames": [[0, 901, 88131000, 4000, 31250, 32100, 58400], [1, 77, 88140500, 900, 900, 900, 900]],
+                         "commands": [[17, 88120500, 40, 95], [18, 88145500, 38, None]]})
+telemetry.good({"type": "stages", "frames": [], "commands": []}, "stages: none")
+telemetry.good({"type": "stages", "frames": [[7] + [2 ** 32 - 1] * 2 + [60_000_000] * 4] * 32, "commands": [[2 ** 32 - 1] * 2 + [60_000_000] * 2] * 32},
+                   "stages: as many and as long as there may be")
+telemetry.spoil(stages, ("frames", ABSENT), ("commands", ABSENT), ("frames", [stages["frames"][1]] * 33), ("commands", [[1, 2, 3, 4]] * 33),
+                    ("frames.0.0", 8), ("frames.0.1", -1), ("frames.0.2", 2 ** 32), ("frames.0.3", 0.5), ("frames.0.3", 31251, "frames.0"),
+                    ("frames.0.4", 32101, "frames.0"), ("frames.0.5", 58401, "frames.0"), ("frames.0.6", 60_000_001), ("frames.1.6", None),
+                    ("frames.1", [1, 77, 88140500, 900, 900, 900]), ("frames.1", [1, 77, 88140500, 900, 900, 900, 900, 900]),
+                    ("commands.0.0", "17"), ("commands.0.1", -1), ("commands.0.2", 96, "commands.0"), ("commands.0.3", 39, "commands.0"),
+                    ("commands.0.3", -1), ("commands.1.2", None), ("commands.1", [18]), ("from", 0, ""))
 write("telemetry.json", telemetry.lists())
 
 broadcast = Messages()

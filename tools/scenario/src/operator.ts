@@ -1,9 +1,11 @@
-import { RobotClient } from '@farpoint/operator';
+import { BATCH_BYTES, Batch, DEFAULT_EXTENT, RobotClient } from '@farpoint/operator';
+import { BYTES_PER_POINT, emptyPlacement } from '@farpoint/protocol';
 import type { SentFrame } from './connection.ts';
 import type { Direction } from './direction.ts';
 import type { EventLog } from './event-log.ts';
 import { Hand } from './hand.ts';
 import { OperatorLink, type OperatorLinkParts } from './operator-link.ts';
+import { after } from './slow-robot.ts';
 
 /** A display frame, ms. */
 const DISPLAY_MS = 16;
@@ -23,6 +25,9 @@ export class ScenarioOperator {
   readonly up: Direction;
   readonly down: Direction;
   readonly link: OperatorLink;
+  /** How long its page takes to have a cloud that has come with the GPU, ms. */
+  pageMs = 0;
+  readonly #batch = new Batch(new ArrayBuffer(BATCH_BYTES));
   readonly #display: ReturnType<typeof setInterval>;
   #draws = true;
 
@@ -71,6 +76,14 @@ export class ScenarioOperator {
 
   #onFrame({ number, captureUs }: SentFrame): void {
     this.client.pointsAtMs = performance.now();
-    this.client.seen.onPoints(0, number, captureUs, POINTS, POINTS);
+    const receivedAtMs = performance.timeOrigin + performance.now();
+    after(this.pageMs, () => {
+      const [bytes, batch] = [POINTS * BYTES_PER_POINT, this.#batch];
+      const header = { frameNumber: number, frameLength: bytes, sequenceOffset: 0, sequenceLength: bytes };
+      const look = { imageExtent: DEFAULT_EXTENT, unit: 0.001, cover: 1 };
+      batch.clear();
+      batch.add(header, { ...emptyPlacement(), captureTimeUs: captureUs }, POINTS, receivedAtMs, look);
+      this.client.noteUploaded(batch, 0);
+    });
   }
 }

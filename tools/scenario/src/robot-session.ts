@@ -8,6 +8,7 @@ import {
   type SessionHost,
 } from '@farpoint/robot-node/testing/drive-core';
 import type { Connection, SentFrame } from './connection.ts';
+import type { CaptureStations } from './slow-robot.ts';
 
 /** A cloud as a poor link carries it: one packet. */
 const FRAME_BYTES = 1200;
@@ -81,12 +82,14 @@ export class RobotSession implements KeptOperator, HostedOperator {
   }
 
   /** A captured frame leaves for the operator. */
-  frame(frame: SentFrame, capturedAtMs: number): void {
+  frame(frame: SentFrame, stations: Readonly<CaptureStations>): void {
     if (!this.peer.connected || !this.messages.wishes.streaming || this.quiet) return;
     const { guard } = this.#parts.host.drive;
-    guard.sentViews.sent(this.id, capturedAtMs, 0);
+    guard.sentViews.sent(this.id, stations.capturedAtMs, 0);
     this.#connection?.frame(frame, FRAME_BYTES);
-    guard.onViewSent(this.id, this.#parts.host.now());
+    const leftMs = this.#parts.host.now();
+    this.messages.stages.frame(0, frame.number, { ...stations, firstLeftMs: leftMs, lastLeftMs: leftMs });
+    guard.onViewSent(this.id, leftMs);
   }
 
   telemetry(text: string): void {

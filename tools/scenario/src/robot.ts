@@ -21,6 +21,7 @@ import type { EventLog } from './event-log.ts';
 import type { GuardSight } from './guard-sight.ts';
 import { RobotSession } from './robot-session.ts';
 import type { Signaling } from './signaling.ts';
+import { SlowRobot } from './slow-robot.ts';
 import { WheelRecord } from './wheel-record.ts';
 
 const [UPDATE_EVERY_MS, BASE_MS, TELEMETRY_MS, CAMERA_MS] = [25, 10, 50, 33];
@@ -44,6 +45,8 @@ export class ScenarioRobot {
   readonly base: SimulatedBase;
   readonly counters = new RobotCounters();
   readonly sessions = new Map<string, RobotSession>();
+  /** How long its camera's clouds take until they leave. */
+  readonly slow = new SlowRobot();
   /** Called for each new path that an operator is offered. */
   onRestart: ((session: RobotSession) => void) | null = null;
   readonly #parts: RobotParts;
@@ -215,9 +218,10 @@ export class ScenarioRobot {
 
   #capture(): void {
     if (!this.#camera) return;
-    const capturedAtMs = monotonicMs();
-    const frame = { number: ++this.#frameNumber, captureUs: stampUsOf(capturedAtMs) };
-    for (const session of this.sessions.values()) session.frame(frame, capturedAtMs);
+    const frame = { number: ++this.#frameNumber, captureUs: stampUsOf(monotonicMs()) };
+    this.slow.process(monotonicMs, (stations) => {
+      for (const session of this.sessions.values()) session.frame(frame, stations);
+    });
   }
 
   #tell(base: RealTimeBase): void {
@@ -234,7 +238,12 @@ export class ScenarioRobot {
       stream: { ...stream, bitsPerSecond: 0, targetBitsPerSecond: 0, droppedFrames: 0 },
       operators: this.sessions.size,
     });
-    for (const session of this.sessions.values()) if (session.peer.connected) session.telemetry(text);
+    for (const session of this.sessions.values()) {
+      if (!session.peer.connected) continue;
+      session.telemetry(text);
+      const passed = session.messages.stages.due(now, false);
+      if (passed !== null) session.telemetry(encodeJson(telemetryCodec, passed));
+    }
   }
 }
 

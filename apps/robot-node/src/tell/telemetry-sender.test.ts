@@ -5,6 +5,7 @@ import { describe, expect, it } from 'vitest';
 import { StageTimer } from '../ground/stage-timer.ts';
 import { MotionStatus } from '../motion/drive/motion-status.ts';
 import type { OperatorSession } from '../serve/session/operator-session.ts';
+import { StageBoard } from './stage-board.ts';
 import { TelemetryBoard } from './telemetry-board.ts';
 import { TelemetrySender } from './telemetry-sender.ts';
 
@@ -31,13 +32,16 @@ function secondAt(
   near: number;
   paths: number;
   alarms: unknown[];
+  /** How many commands are told of in each message. */
+  stages: number[];
 } {
   const heard: string[] = [];
   const alarms: unknown[] = [];
+  const stages = new StageBoard();
   const operator = {
     peer: { connected: true, sendTelemetry: (text: string) => heard.push(text) },
     sender: { targetBitsPerSecond },
-    messages: { send: (message: unknown) => alarms.push(message) },
+    messages: { send: (message: unknown) => alarms.push(message), stages },
     status: (stages: unknown) => ({ stages, stream: STREAM }),
   } as unknown as OperatorSession;
   const guard = makeGuard();
@@ -76,6 +80,7 @@ function secondAt(
   );
   for (let i = 0; i < 20; i++) {
     board.sample('/a', [i / 5], i * STEP_MS);
+    stages.command(i, i * STEP_MS, i * STEP_MS, null);
     sender.send({ ...state, battery: null, contact: false }, i * STEP_MS);
   }
   const messages = heard.map((text) => decodeJson(telemetryCodec, text));
@@ -87,6 +92,7 @@ function secondAt(
     near: messages.filter(({ type }) => type === 'nearField').length,
     paths: messages.filter(({ type }) => type === 'path').length,
     alarms,
+    stages: messages.flatMap((message) => (message.type === 'stages' ? [message.commands.length] : [])),
   };
 }
 
@@ -109,6 +115,11 @@ describe('TelemetrySender', () => {
     const { states, topics } = secondAt(0.3e6);
     expect(states).toBe(5);
     expect(topics.sort()).toEqual(['/a', '/b', '/c']);
+  });
+
+  it('tells when commands passed the robot’s stations, four times a second, and once to a narrow path', () => {
+    expect(secondAt(10e6).stages).toEqual([1, 5, 5, 5]);
+    expect(secondAt(0.3e6).stages).toEqual([4]);
   });
 
   it('sends every sample, but only the newest of each quantity on a narrow path', () => {

@@ -16,6 +16,7 @@ import type { StageTimer } from '../ground/stage-timer.ts';
 import type { MotionStatus } from '../motion/drive/motion-status.ts';
 import type { OperatorPeer } from '../send/transport/operator-peer.ts';
 import type { StreamSender } from '../send/transport/stream-sender.ts';
+import type { StageBoard } from './stage-board.ts';
 import type { TelemetryBoard } from './telemetry-board.ts';
 
 /** An operator, as far as it is told what the robot does. */
@@ -23,7 +24,7 @@ export interface TelemetryTarget {
   /** Of its session. */
   readonly id: string;
   readonly peer: Pick<OperatorPeer, 'connected' | 'sendTelemetry'>;
-  readonly messages: { send(message: RobotSessionMessage): void };
+  readonly messages: { send(message: RobotSessionMessage): void; readonly stages: Pick<StageBoard, 'due'> };
   /** `null` before it is connected. */
   readonly sender: Pick<StreamSender, 'rate' | 'targetBitsPerSecond' | 'counters'> | null;
   /** Frames that its pacer has dropped, entirely or in part. */
@@ -53,7 +54,8 @@ export interface Surroundings {
 
 /**
  * Sends each operator the robot's state, what is near it, statistics of its stream, samples of quantities, alarms,
- * components' reports, up to five readings a second, the navigator's path and map, and its model and joints. Call `send` 20 times a second.
+ * components' reports, up to five readings a second, the navigator's path and map, its model and joints, and when frames
+ * and commands passed the robot's stations. Call `send` 20 times a second.
  */
 export class TelemetrySender {
   readonly #operators: ReadonlyMap<string, TelemetryTarget>;
@@ -129,6 +131,7 @@ export class TelemetrySender {
       const parts = model.nextParts(operator, width, nowMs);
       if (parts !== null) operator.messages.send(parts);
       send(model.nextJoints(operator, nowMs));
+      send(operator.messages.stages.due(nowMs, isNarrow));
     }
   }
 

@@ -100,6 +100,7 @@ function driveEvents(client: LinkedClient, { emitter, tellFormats }: ClientParts
     },
     onEstopAck: (press) => client.stops.onAck(press),
     onLatencyFrame: (frame) => client.latency.onRobotFrame(frame),
+    onStages: (times, nowMs) => client.statistics.onStages(times, nowMs),
   } satisfies Partial<RobotLinkEvents>;
 }
 

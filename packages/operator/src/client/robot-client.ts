@@ -1,5 +1,11 @@
 /** An operator's connection to robots. */
-import type { OperatorSessionMessage, RobotListing, Telemetry } from '@farpoint/protocol';
+import {
+  type Command,
+  NO_LEASE,
+  type OperatorSessionMessage,
+  type RobotListing,
+  type Telemetry,
+} from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
 import { ReadableFormats } from '../cloud/readable-formats.ts';
 import { Driver } from '../drive/driver.ts';
@@ -75,7 +81,7 @@ export class RobotClient {
     this.sound = this.#parts.sound;
     this.link = openLink(options, this.#parts.receiver.worker, linkEvents(this, this.#parts));
     this.driver = new Driver([...(options.inputs ?? []), this.#wish], {
-      sendCommand: (command) => this.link.sendCommand(this.seen.stamp(command)),
+      sendCommand: (command) => this.#sendCommand(command),
       sendSession: (message) => this.link.sendSession(message),
       onOtherDrives: () => this.#emitter.emit('otherDrives', undefined),
       onGripLost: (loss) => this.#emitter.emit('gripLost', loss),
@@ -267,7 +273,7 @@ export class RobotClient {
 
   /** A packet's points were uploaded for the display frame being prepared. */
   noteUploaded(batch: Batch, packet: number): void {
-    this.statistics.onUploaded(batch, packet);
+    this.statistics.onUploaded(batch, packet, performance.now());
     this.seen.onUploaded(batch, packet);
     // Only the first sensor answers latency tests.
     if (batch.sensor === 0) this.latency.onPacket(batch, packet);
@@ -302,6 +308,14 @@ export class RobotClient {
     if (!this.#emitter.emit(type, batch)) this.release(batch);
     this.pointsAtMs = performance.now();
     this.link.onPoints(this.pointsAtMs);
+  }
+
+  #sendCommand(command: Command): void {
+    const madeMs = performance.now();
+    this.link.sendCommand(this.seen.stamp(command));
+    // The robot answers none that only says that the hand is open.
+    if (command.lease === NO_LEASE) return;
+    this.statistics.commands.onSent(command.sequence, command.timeMs, madeMs, performance.now());
   }
 
   /** Sends what only a session can take. */

@@ -23,6 +23,15 @@ test('decodes packets that waited for the decoder to start', () => {
   expect(stale(600, 590, 300, 10)).toEqual([false, false, false, false]);
 });
 
+test('says how long a packet waited beyond the shortest wait, which no packet can do without', () => {
+  const backlog = new DecoderBacklog();
+  const waits = [-5000, -4930, -4990, Number.NaN, -5100, -5000].map((waitedMs) => {
+    backlog.isStale(waitedMs);
+    return backlog.waitedMs;
+  });
+  expect(waits).toEqual([0, 70, 10, 0, 0, 100]);
+});
+
 test('drops nothing if the browser provides no arrival times', () => {
   expect(stale(Number.NaN, Number.NaN)).toEqual([false, false]);
 });

@@ -14,6 +14,12 @@ const CAUGHT_UP_MS = 20;
 export class DecoderBacklog {
   #behind = false;
   #leastMs = Number.POSITIVE_INFINITY;
+  #waitedMs = 0;
+
+  /** How much longer than the shortest wait so far the last packet waited, ms; 0 if the browser does not say. */
+  get waitedMs(): number {
+    return this.#waitedMs;
+  }
 
   /**
    * Whether to drop a packet.
@@ -24,6 +30,7 @@ export class DecoderBacklog {
   isStale(waitedMs: number): boolean {
     if (waitedMs < this.#leastMs) this.#leastMs = waitedMs;
     const behindMs = waitedMs - this.#leastMs;
+    this.#waitedMs = Number.isFinite(behindMs) ? behindMs : 0;
     if (behindMs > MOST_MS) this.#behind = true;
     else if (!(behindMs > CAUGHT_UP_MS)) this.#behind = false;
     return this.#behind;

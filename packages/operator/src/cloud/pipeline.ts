@@ -117,7 +117,7 @@ export class ReceivePipeline implements BatchWriter {
     const fault = this.#intake.take(new DataView(payload), rtpSequence);
     if (fault === null) {
       if (this.#backlog.isStale(beganMs - receiveTimeMs)) this.drop('decoder-behind');
-      else this.#decode(payload, this.#port.timeOriginMs + beganMs);
+      else this.#decode(payload, this.#port.timeOriginMs + beganMs - this.#backlog.waitedMs);
     }
     this.#busyMs += this.#port.nowMs() - beganMs;
     this.#busyPackets++;

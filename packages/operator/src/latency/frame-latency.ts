@@ -5,6 +5,19 @@ import { type Distribution, SampleWindow } from './sample-window.ts';
 /** Age of a capture timestamp at a local time, ms; `null` while the robot's clock is unknown. */
 export type AgeOfStamp = (captureTimeUs: number, nowMs: number) => number | null;
 
+/** Told of each frame that is shown, as it is measured. */
+export interface FrameListener {
+  /** Times are NaN where they are not known. */
+  onShown(
+    frameNumber: number,
+    captureUs: number,
+    ageMs: number | null,
+    arrivedMs: number,
+    uploadedMs: number,
+    drawnMs: number,
+  ): void;
+}
+
 /**
  * Frames that were shown and are remembered, half of a second at 30 a second: a late packet of one begins no
  * new measurement.
@@ -15,6 +28,9 @@ export class FrameLatency {
   readonly #samples = new SampleWindow(1024);
   #frame: number | null = null;
   #captureUs = 0;
+  /** When the last packet of the current frame came, and when the last one was uploaded. */
+  #arrivedMs = Number.NaN;
+  #uploadedMs = Number.NaN;
   #arrived = 0;
   #finished = false;
   /** Packets of the current frame wait for the display frame being drawn. */
@@ -22,11 +38,17 @@ export class FrameLatency {
   #lastDrawnMs = 0;
   /** Capture times of the frames whose last packets are in the display frame being drawn. */
   readonly #done = new Float64Array(MAX_DONE);
+  readonly #doneFrame = new Float64Array(MAX_DONE);
+  readonly #doneArrivedMs = new Float64Array(MAX_DONE);
+  readonly #doneUploadedMs = new Float64Array(MAX_DONE);
   #doneCount = 0;
   readonly #ageOf: AgeOfStamp;
 
-  constructor(ageOf: AgeOfStamp) {
+  readonly #listener: FrameListener | null;
+
+  constructor(ageOf: AgeOfStamp, listener: FrameListener | null = null) {
     this.#ageOf = ageOf;
+    this.#listener = listener;
   }
 
   get distribution(): Distribution | null {
@@ -40,29 +62,39 @@ export class FrameLatency {
     this.#fresh = false;
   }
 
-  /** A packet was uploaded for the display frame being prepared. */
-  onPacket(frameNumber: number, captureUs: number, points: number, totalPoints: number): void {
+  /** A packet, which had come at `arrivedMs`, was uploaded at `uploadedMs` for the display frame being prepared. */
+  onPacket(
+    frameNumber: number,
+    captureUs: number,
+    points: number,
+    totalPoints: number,
+    arrivedMs = Number.NaN,
+    uploadedMs = Number.NaN,
+  ): void {
     if (frameNumber !== this.#frame) {
       // A late packet of the previous frame, which has been counted already.
       if (this.#frame !== null && sequenceDelta32(frameNumber, this.#frame) < 0) return;
       this.#close();
       this.#frame = frameNumber;
       this.#captureUs = captureUs;
+      this.#arrivedMs = arrivedMs;
       this.#arrived = 0;
       this.#finished = false;
       this.#fresh = false;
     }
+    this.#arrivedMs = Math.max(this.#arrivedMs, arrivedMs);
+    this.#uploadedMs = uploadedMs;
     this.#arrived += points;
     this.#fresh = true;
     if (this.#arrived >= totalPoints && !this.#finished) {
       this.#finished = true;
-      this.#push(captureUs);
+      this.#push();
     }
   }
 
   /** The display frame is finished. */
   onDrawn(nowMs: number): void {
-    for (let i = 0; i < this.#doneCount; i++) this.#add(this.#done[i] as number, nowMs);
+    for (let i = 0; i < this.#doneCount; i++) this.#addDone(i, nowMs);
     this.#doneCount = 0;
     if (this.#fresh) this.#lastDrawnMs = nowMs;
     this.#fresh = false;
@@ -71,16 +103,27 @@ export class FrameLatency {
   /** The next frame begins: whatever is missing of this one was lost. */
   #close(): void {
     if (this.#frame === null || this.#finished) return;
-    if (this.#fresh) this.#push(this.#captureUs);
-    else this.#add(this.#captureUs, this.#lastDrawnMs);
+    if (this.#fresh) this.#push();
+    else this.#add(this.#frame, this.#captureUs, this.#arrivedMs, this.#uploadedMs, this.#lastDrawnMs);
   }
 
-  #push(captureUs: number): void {
-    if (this.#doneCount < MAX_DONE) this.#done[this.#doneCount++] = captureUs;
+  /** The current frame is shown by the display frame being drawn. */
+  #push(): void {
+    if (this.#doneCount >= MAX_DONE) return;
+    this.#doneFrame[this.#doneCount] = this.#frame as number;
+    this.#doneArrivedMs[this.#doneCount] = this.#arrivedMs;
+    this.#doneUploadedMs[this.#doneCount] = this.#uploadedMs;
+    this.#done[this.#doneCount++] = this.#captureUs;
   }
 
-  #add(captureUs: number, nowMs: number): void {
-    const age = this.#ageOf(captureUs, nowMs);
+  #addDone(i: number, nowMs: number): void {
+    const [frame, captureUs] = [this.#doneFrame[i] as number, this.#done[i] as number];
+    this.#add(frame, captureUs, this.#doneArrivedMs[i] as number, this.#doneUploadedMs[i] as number, nowMs);
+  }
+
+  #add(frame: number, captureUs: number, arrivedMs: number, uploadedMs: number, drawnMs: number): void {
+    const age = this.#ageOf(captureUs, drawnMs);
     if (age !== null) this.#samples.add(age);
+    this.#listener?.onShown(frame, captureUs, age, arrivedMs, uploadedMs, drawnMs);
   }
 }

@@ -37,10 +37,14 @@ export class SampleWindow {
 
   /** Percentiles by nearest rank; `null` without samples. */
   distribution(): Distribution | null {
-    if (this.length === 0) return null;
-    const sorted = this.#samples.slice(0, this.length).sort();
-    const rank = (share: number): number =>
-      sorted[Math.max(0, Math.ceil(share * sorted.length) - 1)] as number;
-    return { p50: rank(0.5), p95: rank(0.95), p99: rank(0.99), max: sorted.at(-1) as number };
+    return distributionOf(this.#samples.slice(0, this.length));
   }
+}
+
+/** Percentiles by nearest rank; `null` without samples. @param samples are sorted by this */
+export function distributionOf(samples: Float64Array): Distribution | null {
+  if (samples.length === 0) return null;
+  const sorted = samples.sort();
+  const rank = (share: number): number => sorted[Math.max(0, Math.ceil(share * sorted.length) - 1)] as number;
+  return { p50: rank(0.5), p95: rank(0.95), p99: rank(0.99), max: sorted.at(-1) as number };
 }

@@ -30,6 +30,7 @@ import {
   type SensorRings,
   type Sensors,
   type Sound,
+  type StageTimes,
   sequenceDelta32,
   type Telemetry,
   telemetryCodec,
@@ -99,6 +100,8 @@ export interface RobotSessionEvents {
   onSound(sound: Sound): void;
   /** A camera's picture; `nowMs`: when its last packet arrived, `performance.now()`. */
   onPicture(picture: WholePicture, nowMs: number): void;
+  /** When frames and commands passed the robot's stations; `nowMs`: when it was told, `performance.now()`. */
+  onStages(times: StageTimes, nowMs: number): void;
   /** The robot could not use a message from this client. */
   onRobotFault(message: string): void;
 }
@@ -290,6 +293,9 @@ export class RobotSession {
         return;
       case 'map':
         if (this.map.take(telemetry, nowMs)) this.#events.onMap(telemetry);
+        return;
+      case 'stages':
+        this.#events.onStages(telemetry, nowMs);
         return;
       case 'joints':
         this.model.takeJoints(telemetry, nowMs);

@@ -1,6 +1,7 @@
 import { pointsOfBytes } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
 import { type AgeOfStamp, FrameLatency } from '../latency/frame-latency.ts';
+import { FrameStages } from '../latency/frame-stages.ts';
 import type { Distribution } from '../latency/sample-window.ts';
 
 /** What was drawn of one sensor's clouds since the session began. */
@@ -19,6 +20,8 @@ export interface SensorStats {
 
 /** Counts one sensor's clouds, from the decoder to the display. */
 export class SensorStatistics {
+  /** Where the time of each of its frames goes. */
+  readonly stages = new FrameStages();
   readonly #latency: FrameLatency;
   #frame: number | null = null;
   #frames = 0;
@@ -27,7 +30,7 @@ export class SensorStatistics {
 
   /** @param ageOf the age of a timestamp of the robot's clock, ms */
   constructor(ageOf: AgeOfStamp) {
-    this.#latency = new FrameLatency(ageOf);
+    this.#latency = new FrameLatency(ageOf, this.stages);
   }
 
   /** Capture to the end of the display frame with the frame's last points, ms. */
@@ -40,8 +43,8 @@ export class SensorStatistics {
     this.#latency.reset();
   }
 
-  /** @param packet index in the batch */
-  onUploaded(batch: Batch, packet: number): void {
+  /** @param packet index in the batch @param receivedMs when it came, `performance.now()` @param nowMs the same now */
+  onUploaded(batch: Batch, packet: number, receivedMs: number, nowMs: number): void {
     const frame = batch.frameNumber(packet);
     if (frame !== this.#frame) this.#frames++;
     this.#frame = frame;
@@ -53,6 +56,8 @@ export class SensorStatistics {
       batch.captureTimeUs(packet),
       came,
       pointsOfBytes(batch.frameLength(packet)),
+      receivedMs,
+      nowMs,
     );
   }
 

@@ -1,11 +1,13 @@
 /** Statistics of the stream, from the network to the display. Time is an argument. */
 
-import type { ClockOffset } from '@farpoint/protocol';
+import type { ClockOffset, StageTimes } from '@farpoint/protocol';
 import { BitRate, RateMeter } from '@farpoint/timing';
 import type { Batch } from '../cloud/batch.ts';
 import type { DropCounts } from '../cloud/packet-intake.ts';
 import type { IntakeReport } from '../cloud/worker-messages.ts';
+import { CommandStages } from '../latency/command-stages.ts';
 import type { AgeOfStamp } from '../latency/frame-latency.ts';
+import type { FrameStages } from '../latency/frame-stages.ts';
 import type { LatencyResult } from '../latency/latency-test.ts';
 import { type Distribution, SampleWindow } from '../latency/sample-window.ts';
 import { SensorStatistics, type SensorStats } from './sensor-statistics.ts';
@@ -49,6 +51,8 @@ const LOSS_WINDOW_MS = 3000;
 
 /** Counts and measures the stream, from the network to the display. {@link RobotClient} makes one and calls it. */
 export class StreamStatistics {
+  /** Where the time of each command goes. */
+  readonly commands: CommandStages;
   readonly #ageOf: AgeOfStamp;
   readonly #delivery = new SampleWindow(8192);
   readonly #mtp = new SampleWindow(MAX_RESULTS);
@@ -65,6 +69,7 @@ export class StreamStatistics {
   /** @param ageOf the age of a timestamp of the robot's clock, ms */
   constructor(ageOf: AgeOfStamp) {
     this.#ageOf = ageOf;
+    this.commands = new CommandStages(ageOf);
   }
 
   /** A new session. */
@@ -73,6 +78,7 @@ export class StreamStatistics {
     for (const meter of [this.#bytes, this.#lost, this.#received]) meter.reset();
     this.#delivery.clear();
     this.#sensors.length = 0;
+    this.commands.clear();
   }
 
   /** Restarts the latency distributions. */
@@ -92,13 +98,12 @@ export class StreamStatistics {
    * A packet's points were uploaded for the display frame being prepared.
    *
    * @param packet index in the batch
+   * @param nowMs `performance.now()`
    */
-  onUploaded(batch: Batch, packet: number): void {
-    // Leave no gaps: every sensor up to the highest number has statistics.
-    while (this.#sensors.length <= batch.sensor) this.#sensors.push(new SensorStatistics(this.#ageOf));
-    this.#sensors[batch.sensor]?.onUploaded(batch, packet);
-    if (batch.sensor !== 0) return;
+  onUploaded(batch: Batch, packet: number, nowMs: number): void {
     const receivedMs = batch.receivedAtMs(packet) - performance.timeOrigin;
+    this.#sensor(batch.sensor).onUploaded(batch, packet, receivedMs, nowMs);
+    if (batch.sensor !== 0) return;
     const age = this.#ageOf(batch.captureTimeUs(packet), receivedMs);
     if (age !== null) this.#delivery.add(age);
   }
@@ -110,6 +115,17 @@ export class StreamStatistics {
    */
   onDrawn(nowMs: number): void {
     for (const sensor of this.#sensors) sensor.onDrawn(nowMs);
+  }
+
+  /** The robot has told when frames and commands passed its stations. @param nowMs `performance.now()` */
+  onStages({ frames, commands }: StageTimes, nowMs: number): void {
+    for (const times of frames) this.#sensor(times[0]).stages.onTimes(times);
+    for (const times of commands) this.commands.onTimes(times, nowMs);
+  }
+
+  /** Where the time of each frame of a sensor goes; `null` before its first. Of a new session it is another. */
+  frameStages(sensor = 0): FrameStages | null {
+    return this.#sensors[sensor]?.stages ?? null;
   }
 
   /** A latency test ended. */
@@ -155,5 +171,11 @@ export class StreamStatistics {
       decodeUs: this.#report?.decodeUs ?? 0,
       sensors: this.#sensors.map((sensor, number) => sensor.snapshot(number)),
     };
+  }
+
+  /** Leaves no gaps: every sensor up to the highest number has statistics. */
+  #sensor(number: number): SensorStatistics {
+    while (this.#sensors.length <= number) this.#sensors.push(new SensorStatistics(this.#ageOf));
+    return this.#sensors[number] as SensorStatistics;
   }
 }

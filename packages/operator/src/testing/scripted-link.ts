@@ -166,6 +166,7 @@ const TELEMETRY: Readonly<Record<TelemetryMessage['type'], true>> = {
   path: true,
   map: true,
   joints: true,
+  stages: true,
 };
 
 function isTelemetry(message: ToldMessage): message is TelemetryMessage {

@@ -42,7 +42,15 @@ function setUp(viewers: readonly ReturnType<typeof viewer>[]) {
     const before = viewers.map(({ got }) => got.frames);
     capture.onFrame?.({
       ...{ type: 'frame', audience, buffer: new ArrayBuffer(0), latencyTest: false, intervalMs: 33 },
-      ...{ capturedAtMs, captureMs: 1, captureCpuMs: 1, readyMs: 1000, frameNumber: 1, packets: 1 },
+      ...{
+        capturedAtMs,
+        inMemoryMs: capturedAtMs,
+        captureMs: 1,
+        captureCpuMs: 1,
+        readyMs: 1000,
+        frameNumber: 1,
+        packets: 1,
+      },
       ...{ points: 10, validPoints: 10, sampleMs: 1, packMs: 1, format: 'points64' },
       rejected: { notFinite: 0, nonPositiveDepth: 0, outOfRange: 0, notDrawn: 0 },
     } as unknown as ReadyFrame);

@@ -129,6 +129,28 @@ describe('StreamSender', () => {
     expect(recycled).toHaveLength(3);
   });
 
+  it('knows when a frame has left, also one that is cut short, and of none that has not', () => {
+    const { sender, share, runUntil, transport } = stage(1e6);
+    const departures: unknown[] = [];
+    const note = (sent: OutgoingFrame) => departures.push(sender.departureOf(sent));
+    sender.onFrameSent = ({ frame: sent }) => note(sent);
+    sender.onFrameDropped = note;
+    const frames = [share(frame(1500)), share(frame(1500)), share(frame(1500))] as const;
+    for (const shared of frames) {
+      sender.enqueue(shared);
+      shared.release();
+      if (shared === frames[0]) runUntil(20);
+    }
+    expect(departures).toEqual([null]);
+    runUntil(10_000);
+    const at = (i: number) => transport.sent[i]?.atMs;
+    expect(departures.slice(1)).toEqual([
+      { firstMs: at(0), lastMs: at(9) },
+      { firstMs: at(10), lastMs: at(19) },
+    ]);
+    expect(at(9)).toBeGreaterThan(20);
+  });
+
   it('clears the queue when the stream stops', () => {
     const { transport, sender, recycled, runUntil, send } = stage(1e6);
     send(frame(1500));

@@ -39,6 +39,13 @@ export interface SentFrame {
   sendMs: number;
 }
 
+/** When packets of a frame were handed to the transport, ms on the robot's clock. */
+export interface FrameDeparture {
+  firstMs: number;
+  /** Of the last packet so far. */
+  lastMs: number;
+}
+
 /**
  * What is streamed to one operator: clouds, and the videos of cameras. Takes whole frames, sends their packets evenly
  * at the rate that the controller allows, and reports the result to the controller. It owns no timer: call `pump` at
@@ -62,7 +69,7 @@ export class StreamSender {
   readonly #reports: ReportIntake;
   readonly #fit = new FrameFit();
   readonly #now: () => number;
-  readonly #beganMs = new WeakMap<OutgoingFrame, number>();
+  readonly #departures = new WeakMap<OutgoingFrame, FrameDeparture>();
   readonly #cloudDrops: Record<FrameDropReason, number> = {
     superseded: 0,
     overdue: 0,
@@ -142,6 +149,11 @@ export class StreamSender {
     return this.#cloudDrops;
   }
 
+  /** When a frame, or the part of it that was sent, left; `null` if nothing of it has. */
+  departureOf(frame: OutgoingFrame): Readonly<FrameDeparture> | null {
+    return this.#departures.get(frame) ?? null;
+  }
+
   /** How often a retransmission was refused, by reason. */
   get resendRefusals(): Readonly<Record<ResendRefusal, number>> {
     return this.#transport.resendRefusals;
@@ -200,7 +212,8 @@ export class StreamSender {
       const run = this.#pacer.due(now);
       if (run === null) return;
       const { frame, first, count, last } = run;
-      if (first === 0) this.#beganMs.set(frame, now);
+      const departure = this.#departures.get(frame) ?? { firstMs: now, lastMs: now };
+      if (first === 0) this.#departures.set(frame, departure);
       const { rtpTimestamp, usefulMs, capturedAtMs, codec } = frame;
       const transport = this.#streams.get(frame.stream) ?? this.#transport;
       for (let i = first; i < first + count; i++) {
@@ -224,13 +237,14 @@ export class StreamSender {
         this.counters.packetsSent++;
         this.counters.bytesSent += wireBytes;
       }
+      departure.lastMs = this.#now();
       if (!last) continue;
       if (frame.stream === CLOUD_STREAM) {
         this.#fit.onSent();
         this.counters.framesSent++;
         this.counters.pointsSent += frame.points;
       }
-      this.onFrameSent?.({ frame, sendMs: this.#now() - (this.#beganMs.get(frame) ?? now) });
+      this.onFrameSent?.({ frame, sendMs: departure.lastMs - departure.firstMs });
       frame.release();
     }
   }

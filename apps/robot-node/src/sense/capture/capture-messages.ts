@@ -60,6 +60,8 @@ export interface ReadyFrame extends EncodedFrame {
   intervalMs: number;
   /** When the cloud was taken, robot's clock, ms. */
   capturedAtMs: number;
+  /** When the source had handed it over, before the guard has judged it, robot's clock, ms. */
+  inMemoryMs: number;
   /** How long it took to get the cloud from the source, ms. */
   captureMs: number;
   /** The thread's own processor time within `captureMs`. */

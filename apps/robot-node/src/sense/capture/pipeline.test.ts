@@ -94,6 +94,7 @@ describe('the way of a cloud on the capture thread', () => {
     wait(50);
     capture();
     const [first, second] = sent();
+    expect(first).toMatchObject({ inMemoryMs: 1000, readyMs: 1000 });
     expect(first).toMatchObject({ frameNumber: 0, sensor: 2, capturedAtMs: 995, format: 'unorganised' });
     expect(second).toMatchObject({ frameNumber: 1, capturedAtMs: 1045 });
     expect(first?.audience).toEqual({ readers: 'unorganised' });

@@ -141,6 +141,7 @@ export class CapturePipeline {
     const room = this.#formats.room(budget.coded.length > 0);
     const frame = this.#source.capture(began.wallMs, this.wishes(budget), room);
     if (frame === null) return null;
+    const inMemoryMs = this.#clocks.now();
     this.#judge(frame, began.wallMs);
     const taken = this.#since(began);
     const latencyTest = this.#latencyTest && frame.latencyTest !== false;
@@ -152,6 +153,7 @@ export class CapturePipeline {
       intervalMs: encoded.intervalMs,
       latencyTest,
       capturedAtMs: frame.capturedAtMs,
+      inMemoryMs,
       captureMs: taken.wallMs,
       captureCpuMs: taken.cpuMs,
     };
@@ -284,6 +286,7 @@ interface FrameFacts {
   intervalMs: number;
   latencyTest: boolean;
   capturedAtMs: number;
+  inMemoryMs: number;
   captureMs: number;
   captureCpuMs: number;
 }

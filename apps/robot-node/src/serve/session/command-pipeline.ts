@@ -34,6 +34,8 @@ export interface CommandHost {
   mayDrive(): boolean;
   judged(command: Command, verdict: CommandVerdict): void;
   accepted(): void;
+  /** When the robot had it, had judged it, and had told the drive; `wheelsMs` is `null` if it was refused. */
+  timed(sequence: number, receivedMs: number, judgedMs: number, wheelsMs: number | null): void;
   rejected(verdict: RejectedCommand): void;
   latencyTestRequested(id: number, commandMs: number): void;
   report(rejected: CommandRejected): void;
@@ -57,9 +59,11 @@ export class CommandPipeline {
       : NOT_PERMITTED;
     // It only says that its hand is open.
     if (command.lease === NO_LEASE && isZeroTwist(command.twist)) return;
+    const judgedMs = this.#host.now();
     this.#host.judged(command, verdict);
     // Also after a rejection: releasing the grip stops the robot.
     drive.apply();
+    this.#host.timed(command.sequence, nowMs, judgedMs, verdict.accepted ? this.#host.now() : null);
     if (!verdict.accepted) {
       this.#reject(verdict, command.sequence);
       return;

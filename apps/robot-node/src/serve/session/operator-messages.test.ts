@@ -59,6 +59,20 @@ describe('OperatorMessages', () => {
     expect(bob.inbox.at(-1)).toEqual({ type: 'lease', holder: 'nobody' });
   });
 
+  it('notes when it had each command, had judged it and had told the drive', () => {
+    const { alice, bob, pass } = robot();
+    const lease = alice.takeLease();
+    alice.command(0, lease, 0.4);
+    pass(25);
+    alice.command(1, lease, 99);
+    bob.command(0, NO_LEASE, 0, { deadMan: false });
+    expect(alice.session.stages.due(2000, false)?.commands).toEqual([
+      [0, 1_000_000, 0, 0],
+      [1, 1_025_000, 0, null],
+    ]);
+    expect(bob.session.stages.due(2000, false)).toBe(null);
+  });
+
   it('says why a lease is not granted', () => {
     const { alice, bob } = robot();
     alice.takeLease();

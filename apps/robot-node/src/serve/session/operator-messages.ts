@@ -23,6 +23,7 @@ import {
 import type { CommandVerdict, RejectedCommand } from '@farpoint/safety';
 import { type Access, mayDrive, openAccess, supervises } from '../../admit/access/access.ts';
 import type { DriveStation } from '../../motion/drive/drive-station.ts';
+import { StageBoard } from '../../tell/stage-board.ts';
 import { CommandPipeline, NOT_PERMITTED } from './command-pipeline.ts';
 import { EstopRequests } from './estop-requests.ts';
 import { MessageRates, type RatedMessage } from './message-rates.ts';
@@ -71,6 +72,8 @@ export class OperatorMessages {
   access: Access;
   /** What it wants of the robot's streams. */
   readonly wishes = new OperatorWishes();
+  /** When its frames and commands passed the robot's stations. */
+  readonly stages = new StageBoard();
   /** When a message last came from the operator on any channel, ms on the robot's clock. */
   heardMs: number;
   onReceiverReport: ((report: ReceiverReport) => void) | null = null;
@@ -101,6 +104,7 @@ export class OperatorMessages {
       mayDrive: () => mayDrive(this.access),
       judged: (command, verdict) => host.commandJudged?.(this, command, verdict),
       accepted: () => host.commandAccepted(),
+      timed: (...command) => this.stages.command(...command),
       rejected: (verdict) => host.commandRejected(verdict),
       latencyTestRequested: (test, commandMs) => host.latencyTestRequested(this, test, commandMs),
       report: (rejected) => this.send(rejected),

@@ -98,6 +98,18 @@ function setUp() {
 }
 
 describe('a session with an operator', () => {
+  it('tells when each frame passed the robot’s stations', () => {
+    const { connect, offer, wait, session } = setUp();
+    connect();
+    offer({ frameNumber: 9, sensor: 1, capturedAtMs: 960, inMemoryMs: 964, readyMs: 991.5 });
+    wait(5);
+    expect(session.messages.stages.due(2000, false)).toEqual({
+      type: 'stages',
+      frames: [[1, 9, 960_000, 4000, 31_500, 45_000, 45_000]],
+      commands: [],
+    });
+  });
+
   it('takes and sends nothing before its connection is there', () => {
     const { session, offer, recycled, transport, events } = setUp();
     offer();

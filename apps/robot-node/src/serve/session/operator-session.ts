@@ -297,6 +297,16 @@ export class OperatorSession extends FrameReceiver {
     this.#host.drive.guard.sentViews.sent(this.id, capturedAtMs, exactMs);
   }
 
+  /** Of a frame that was cut short, the part that has left counts. */
+  #noteStages(shared: SharedFrame, sender: StreamSender): void {
+    const departure = sender.departureOf(shared);
+    if (departure === null) return;
+    const { sensor, frameNumber, capturedAtMs, inMemoryMs, readyMs } = shared.frame;
+    const { firstMs: firstLeftMs, lastMs: lastLeftMs } = departure;
+    const at = { capturedAtMs, inMemoryMs, readyMs, firstLeftMs, lastLeftMs };
+    this.messages.stages.frame(sensor, frameNumber, at);
+  }
+
   #sendPictures(): void {
     this.pictures.sendDue(this.#host.now(), this.streaming ? this.pictureBitsPerSecond : 0);
   }
@@ -322,13 +332,18 @@ export class OperatorSession extends FrameReceiver {
       if (frame.stream !== SOUND_STREAM) this.#onViewSent();
       if (!(frame instanceof SharedFrame)) return;
       this.#meter.onSent(frame, sendMs);
+      this.#noteStages(frame, sender);
       this.#tests.onSent(frame);
     };
     sender.onFrameDropped = (frame) => {
       // A packet of sound is needed by no other.
       if (frame.stream === SOUND_STREAM) return;
-      if (!(frame instanceof SharedFrame)) this.videos.onDropped(frame.stream);
-      else if (this.#tests.onLost(frame)) this.#events.onLatencyFrameLost();
+      if (!(frame instanceof SharedFrame)) {
+        this.videos.onDropped(frame.stream);
+        return;
+      }
+      this.#noteStages(frame, sender);
+      if (this.#tests.onLost(frame)) this.#events.onLatencyFrameLost();
     };
     this.videos.connect(sender, lines);
     this.sound.connect(sender, sound);

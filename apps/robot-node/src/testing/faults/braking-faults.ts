@@ -34,7 +34,10 @@ export const brakingFaults: Fault[] = [
   },
   {
     name: 'STOP on the control channel',
-    cause: ({ operator }) => operator.sendControl({ type: 'estop', press: 1 }),
+    cause: ({ operator }) => {
+      // Any may be lost: a page repeats the press until it is acknowledged.
+      for (let i = 0; i < 3; i++) operator.sendControl({ type: 'estop', press: 1 });
+    },
   },
   // Commands.
   {

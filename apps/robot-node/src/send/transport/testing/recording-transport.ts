@@ -79,6 +79,7 @@ export function frame(points: number, capturedAtMs = 1000): ReadyFrame {
     intervalMs: 1000,
     capturedAtMs,
     captureMs: 0,
+    inMemoryMs: capturedAtMs,
     captureCpuMs: 0,
     readyMs: capturedAtMs,
   };
