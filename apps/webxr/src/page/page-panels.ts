@@ -18,6 +18,7 @@ import { showPicturePanels } from '../panels/ui/picture-panels.ts';
 import { showRobotList, showRobotSwitcher } from '../panels/ui/robot-list.ts';
 import { showSensorSwitches } from '../panels/ui/sensor-switches.ts';
 import { SoundUi } from '../panels/ui/sound-ui.ts';
+import { showStagesLine } from '../panels/ui/stages-line.ts';
 import { showStatus } from '../panels/ui/status-ui.ts';
 import type { Stage } from '../scene/view/stage.ts';
 import type { VrSession } from '../scene/view/vr-session.ts';
@@ -74,6 +75,7 @@ export class PagePanels {
     const { recorder } = parts;
     const { presented, predicted, clouds, remembered } = views;
     const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });
+    showStagesLine(client, state, () => dashboard.openStages());
     this.controls = new ControlsUi({
       client,
       state,

@@ -1,6 +1,6 @@
 /** Opens and closes the dashboard. Its code is loaded when it is first opened, so that the page starts without it. */
 import type { RobotClient } from '@farpoint/operator';
-import { computed, effect, type ReadonlySignal, signal } from '@preact/signals-core';
+import { computed, effect, type ReadonlySignal, signal, untracked } from '@preact/signals-core';
 import type { Settings } from '../../ground/settings.ts';
 import { silenceOf } from '../../ground/silence.ts';
 import type { Moment } from '../../ground/telemetry/moment.ts';
@@ -23,6 +23,8 @@ export class DashboardOpener {
   readonly #parts: DashboardOpenerParts;
   readonly #open = signal(false);
   readonly #dashboard = signal<Dashboard | null>(null);
+  /** The tile with where the time goes is to be shown, once the dashboard is. */
+  readonly #wantsStages = signal(false);
   #loading = false;
   /** Robot's clock minus page's clock, as last known, ms. */
   #offsetMs: number | null = null;
@@ -52,8 +54,20 @@ export class DashboardOpener {
     });
     effect(() => {
       const loaded = this.#dashboard.value;
+      if (!this.#wantsStages.value || !shown.value || loaded === null) return;
+      this.#wantsStages.value = false;
+      untracked(() => loaded.showStages());
+    });
+    effect(() => {
+      const loaded = this.#dashboard.value;
       if (loaded !== null) loaded.visible = shown.value && !inVr.value && state.looking.value;
     });
+  }
+
+  /** Opens it with the tile that says where the time goes. */
+  openStages(): void {
+    this.#open.value = true;
+    this.#wantsStages.value = true;
   }
 
   toggle(): void {
@@ -71,6 +85,7 @@ export class DashboardOpener {
           recorder,
           mapTiles: settings.mapTiles,
           alarms: state.robot.alarms,
+          stages: () => client.statistics,
           session: () => client.link.session,
           momentAt: (nowMs) => this.#momentAt(nowMs),
           close: () => {

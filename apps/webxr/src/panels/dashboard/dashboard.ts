@@ -21,8 +21,9 @@ import {
   WINDOWS_S,
 } from './layout.ts';
 import { ageText, spanText } from './number-words.ts';
+import type { StageSource } from './stages-tile.ts';
 import { part, setText, type Tile, type TileFrame } from './tile.ts';
-import { type TileKind, tileKinds } from './tile-kinds.ts';
+import { STAGES_TILE, type TileKind, tileKinds } from './tile-kinds.ts';
 
 export interface TileActions {
   move(by: -1 | 1): void;
@@ -115,6 +116,7 @@ export interface DashboardParts {
   readonly recorder: TelemetryRecorder;
   readonly mapTiles: MapTiles | null;
   readonly alarms: ReadonlySignal<readonly Words[]>;
+  stages(): StageSource;
   session(): RobotSession;
   /** The instant whose values are shown now. @param nowMs page's clock */
   momentAt(nowMs: number): Moment;
@@ -156,6 +158,12 @@ export class Dashboard {
       cancelAnimationFrame(this.#frame);
       this.#frame = null;
     } else if (visible && this.#frame === null) this.#frame = requestAnimationFrame(() => this.#draw());
+  }
+
+  /** Shows the tile with where the time goes, also if it was hidden. */
+  showStages(): void {
+    this.#change(STAGES_TILE, { shown: true });
+    this.#views.get(STAGES_TILE)?.element.scrollIntoView({ block: 'nearest' });
   }
 
   #draw(): void {

@@ -8,6 +8,7 @@ import { ChartTile } from './chart-tile.ts';
 import type { PlacedTile } from './layout.ts';
 import { MapTile } from './map-tile.ts';
 import { ageText } from './number-words.ts';
+import { type StageSource, stagesTile } from './stages-tile.ts';
 import { part, setText, type Tile } from './tile.ts';
 import { ownValues, valueTile } from './value-tile.ts';
 
@@ -111,6 +112,7 @@ export interface TileKind extends PlacedTile {
 export interface TileSources {
   readonly recorder: TelemetryRecorder;
   readonly mapTiles: MapTiles | null;
+  stages(): StageSource;
   session(): RobotSession;
 }
 
@@ -119,8 +121,11 @@ const SHOWN_CURVES: readonly string[] = [OWN.speed.key, OWN.charge.key];
 /** Of topics: what a tile or the map shows better, or what says less than another curve. */
 const HIDDEN_FIELDS: readonly string[] = ['latitude', 'longitude', 'altitude', 'voltage', 'current'];
 
+/** By which the line over the picture opens it. */
+export const STAGES_TILE = 'stages';
+
 /** @returns each as it is by default, in the default order */
-export function tileKinds({ recorder, mapTiles, session }: TileSources): TileKind[] {
+export function tileKinds({ recorder, mapTiles, stages, session }: TileSources): TileKind[] {
   const values = ownValues(recorder);
   const value = (id: string, title: string): TileKind => ({
     id,
@@ -152,6 +157,13 @@ export function tileKinds({ recorder, mapTiles, session }: TileSources): TileKin
       make: () => diagnosticsTile(session),
     },
     ...curves,
+    {
+      id: STAGES_TILE,
+      title: 'Where the time goes',
+      size: 'medium',
+      shown: false,
+      make: () => stagesTile(stages),
+    },
     { id: 'topics', title: 'Topics', size: 'medium', shown: true, make: () => topicsTile(session) },
   ];
 }
