@@ -1,7 +1,13 @@
 /** The real robot program with the real signaling service: processes, sockets, WebRTC. */
 import { join } from 'node:path';
 import { soleFingerprint, verifyIdentity } from '@farpoint/grants';
-import { readPictureFile } from '@farpoint/protocol';
+import {
+  type CommandTimes,
+  emptyPlacement,
+  emptyPointPacketHeader,
+  readCloudPayload,
+  readPictureFile,
+} from '@farpoint/protocol';
 import { eventually } from '@farpoint/service/testing/eventually';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { afterEach, describe, expect, it } from 'vitest';
@@ -94,6 +100,34 @@ describe('robot process', { timeout: 30_000 }, () => {
     await client.until(() => client.frames.has(answer.frameNumber + 2));
     const green = [...client.frames.values()].filter((frame) => frame.latencyTest);
     expect(green.map((frame) => frame.frameNumber)).toEqual([answer.frameNumber]);
+  });
+
+  it('tells when the clouds that it sends and the commands that it takes have passed its stations', async () => {
+    const { client } = await connect();
+    /** Capture times in the packets of clouds. */
+    const captured = new Set<number>();
+    client.onCloudPacket = (payload) => {
+      const placement = emptyPlacement();
+      const view = new DataView(payload.buffer, payload.byteOffset, payload.byteLength);
+      if (readCloudPayload(view, emptyPointPacketHeader(), placement) === null)
+        captured.add(placement.captureTimeUs);
+    };
+    const lease = await client.takeLease();
+    let taken: CommandTimes | undefined;
+    await driveUntil(client, lease, 0, () => {
+      taken ??= client.newest.stages?.commands.find(([, , , wheelsUs]) => wheelsUs !== null);
+      return taken !== undefined;
+    });
+    const [, , judgedUs = 0, wheelsUs] = taken ?? [];
+    expect(wheelsUs).toBeGreaterThanOrEqual(judgedUs);
+    // Of a frame of which something has come.
+    await client.until(() => captured.has(client.newest.stages?.frames.at(-1)?.[2] ?? -1));
+    const [sensor, , , memoryUs = 0, encodedUs = 0, , lastUs = 0] = client.newest.stages?.frames.at(-1) ?? [];
+    expect(sensor).toBe(0);
+    // The simulated camera is rendered after its capture time: it takes time until the cloud is there, and until it leaves.
+    expect(memoryUs).toBeGreaterThan(0);
+    expect(encodedUs).toBeGreaterThan(memoryUs);
+    expect(lastUs).toBeGreaterThan(encodedUs);
   });
 
   it('sends each operator no more clouds than its computer draws', async () => {
