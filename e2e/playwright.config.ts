@@ -49,6 +49,8 @@ export default defineConfig({
   use: {
     launchOptions: browser,
     viewport: { width: 960, height: 540 },
+    // Playwright's own browsers ask for light pages.
+    colorScheme: 'dark',
     // A trace has each WebSocket frame and each change of the page: it makes a page slow that draws in software.
     trace: isSecondRun ? { mode: 'on', screenshots: false } : 'off',
     screenshot: isSecondRun ? 'only-on-failure' : 'off',

@@ -153,7 +153,7 @@ test('a map with tiles, where they are configured and the robot knows its place 
     const svg = '<svg xmlns="http://www.w3.org/2000/svg" width="256" height="256"/>';
     return route.fulfill({ contentType: 'image/svg+xml', body: svg });
   });
-  const satellite = tile(page, 'Map').getByRole('button', { name: 'Where the position comes from' });
+  const satellite = tile(page, 'Map').getByTitle('Where the position comes from');
   const receive = async () => {
     await stage.script((stage) => {
       for (const [number, field] of ['latitude', 'longitude'].entries())
@@ -184,14 +184,11 @@ test('a map with tiles, where they are configured and the robot knows its place 
   await expect(tile(page, 'Map').locator('.attribution')).toBeHidden();
   expect(asked).toEqual([]);
 
-  await page.evaluate(() =>
-    localStorage.setItem(
-      'farpoint.settings',
-      JSON.stringify({ mapTiles: '/tiles/{z}/{x}/{y}.svg', mapAttribution: '© Mapmakers' }),
-    ),
-  );
-  await stage.reload();
-  await receive();
+  await page.locator('#settings-open').click();
+  await page.getByLabel(/^Map tiles/).fill('/tiles/{z}/{x}/{y}.svg');
+  await page.getByLabel('Attribution of the map').fill('© Mapmakers');
+  await page.getByRole('button', { name: 'Save' }).click();
+  await stage.run(500);
   await expect(tile(page, 'Map').locator('.attribution')).toHaveText('© Mapmakers');
   expect(asked.length).toBeGreaterThan(0);
   for (const path of asked) expect(path).toMatch(/^\/tiles\/19\/2790\d\d\/1819\d\d\.svg$/);

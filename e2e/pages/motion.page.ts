@@ -134,6 +134,19 @@ test('without cues, as chosen in the settings, nothing is heard', async ({ stage
   expect(await newTones(page)).toEqual([]);
 });
 
+test('cues that are switched off in the settings are silent at once', async ({ stage }) => {
+  const { page } = stage;
+  await listen(page);
+  await stage.open();
+  await page.getByRole('button', { name: 'Settings' }).click();
+  await page.getByLabel(/^Sound and vibration/).uncheck();
+  await page.getByRole('button', { name: 'Save' }).click();
+  await page.keyboard.press('KeyX');
+  await stage.run(500);
+  expect((await stage.state()).estop).toBe(true);
+  expect(await newTones(page)).toEqual([]);
+});
+
 test.describe('in the headset', () => {
   test.use({ viewport: headsetViewport });
 

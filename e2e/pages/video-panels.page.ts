@@ -192,7 +192,7 @@ test('one key lets a camera fill the screen and puts the cloud into its panel; d
   await expect(page.locator('#camera-stage')).toBeVisible();
   await page.getByRole('button', { name: 'Hide Front' }).click();
   await expect(page.locator('#camera-stage')).toBeHidden();
-  await expect(page.locator('body > #stage')).toBeVisible();
+  await expect(page.locator('main > #stage')).toBeVisible();
 });
 
 /** Opens what became of the frames, and chooses what comes first: all of it is legible, and the robot is told. */

@@ -1,3 +1,4 @@
+import './panels/ui/theme.css';
 import './panels/ui/style.css';
 import './panels/ui/cloud-panel.css';
 import './panels/ui/picture-panels.css';
@@ -8,9 +9,13 @@ import './panels/ui/banner.css';
 import './panels/ui/stop.css';
 import './panels/ui/messages.css';
 import './panels/ui/small-screens.css';
+import './panels/ui/settings.css';
 import { isSoftwareRenderer } from '@farpoint/cloud-view';
 import { transformSupport } from '@farpoint/operator';
 import { readBenchSettings } from './ground/bench-settings.ts';
+import { applyDisplay, displaySettings } from './ground/display/stored-display.ts';
+import { keepAwake } from './ground/display/wake-lock.ts';
+import { liveSettings } from './ground/live-settings.ts';
 import { readSettings } from './ground/settings.ts';
 import { hideToken, loadStored, pageOrigin } from './ground/stored-settings.ts';
 import { App } from './page/app.ts';
@@ -23,8 +28,9 @@ import { failureWords, forbiddenAddressWords } from './words/words.ts';
 const query = new URLSearchParams(window.location.search);
 // The deployed page leaves this out. `pnpm dev` and `vite build --mode testing` include it.
 const bench = import.meta.env.MODE === 'production' ? undefined : readBenchSettings(query);
-const settings = readSettings(query, loadStored(), pageOrigin(), bench);
+const settings = liveSettings(readSettings(query, loadStored(), pageOrigin(), bench), pageOrigin());
 hideToken(settings);
+applyDisplay();
 const notices = new Notices();
 
 function start(stage: OpenedStage | null): void {
@@ -42,6 +48,7 @@ function start(stage: OpenedStage | null): void {
     const app = new App(settings, transform, notices, stage?.openLink);
     stage?.attach(app);
     app.start();
+    keepAwake(app.state.link.live, () => displaySettings.value.awake);
     elements.noGpu.hidden = !isSoftwareRenderer(app.stage.gl);
     // The deployed page leaves this out, too.
     if (import.meta.env.MODE !== 'production')

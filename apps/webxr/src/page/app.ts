@@ -1,8 +1,8 @@
 /** The page: shows on the screen what the robot sends, and sends the robot what the operator's hands do. */
 import type { RobotClient, RobotClientOptions, TransformSupport } from '@farpoint/operator';
+import type { LiveSettings } from '../ground/live-settings.ts';
 import { PanelPlacements } from '../ground/panels/panel-placements.ts';
 import { loadPlacements, storePlacements } from '../ground/panels/stored-panels.ts';
-import type { Settings } from '../ground/settings.ts';
 import { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
 import { elements } from '../panels/ui/elements.ts';
 import { OperatorInputs } from '../panels/ui/operator-inputs.ts';
@@ -29,7 +29,7 @@ import { followRobot, type ShownParts, showPage } from './show-page.ts';
 import { SteadyWork } from './steady-work.ts';
 
 export class App implements ShownParts {
-  readonly settings: Settings;
+  readonly settings: LiveSettings;
   readonly state: PageState;
   readonly stage: Stage;
   readonly client: RobotClient;
@@ -52,7 +52,7 @@ export class App implements ShownParts {
 
   /** @param openLink of tests @throws {Error} without WebGL 2 */
   constructor(
-    settings: Settings,
+    settings: LiveSettings,
     transform: TransformSupport,
     notices: Notices,
     openLink?: RobotClientOptions['openLink'],
@@ -116,7 +116,7 @@ export class App implements ShownParts {
         onTalk: (control, held) => this.panels.sound.hold(control, held),
         mayDrive: () => this.state.link.live.value,
       },
-      this.settings.headset.driveHand,
+      this.settings.headset,
       notices,
     );
   }

@@ -3,7 +3,7 @@ import type { RobotClient } from '@farpoint/operator';
 import type { OperatorAccess } from '../ground/access/operator-access.ts';
 import { SignIn, tabStorage } from '../ground/access/sign-in.ts';
 import type { StoredRobots } from '../ground/access/stored-robots.ts';
-import type { Settings } from '../ground/settings.ts';
+import type { LiveSettings } from '../ground/live-settings.ts';
 import type { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
 import { DashboardOpener } from '../panels/dashboard/dashboard-opener.ts';
 import { AccessUi } from '../panels/ui/access-ui.ts';
@@ -13,6 +13,7 @@ import { ControlsUi } from '../panels/ui/controls-ui.ts';
 import { elements } from '../panels/ui/elements.ts';
 import { EstopUi } from '../panels/ui/estop-ui.ts';
 import { showNearWords } from '../panels/ui/near-panel.ts';
+import { showTitle } from '../panels/ui/page-title.ts';
 import { showPeople } from '../panels/ui/people-panel.ts';
 import { showPicturePanels } from '../panels/ui/picture-panels.ts';
 import { showRobotList, showRobotSwitcher } from '../panels/ui/robot-list.ts';
@@ -35,7 +36,7 @@ export interface PagePanelsParts {
   readonly knownRobots: StoredRobots;
   /** Of the signaling service. */
   readonly origin: string;
-  readonly settings: Settings;
+  readonly settings: LiveSettings;
   readonly state: PageState;
   readonly stage: Stage;
   readonly appearance: CloudAppearance;
@@ -87,6 +88,7 @@ export class PagePanels {
       toggleDashboard: () => dashboard.toggle(),
       nextHeadsetView: parts.nextHeadsetView,
       predicted,
+      settings,
     });
     const memory = { remembered, tell: state.notices.tell.bind(state.notices) };
     const { sensors, robot } = state;
@@ -106,6 +108,7 @@ export class PagePanels {
   /** Draws the state in the document from now on. */
   show(): void {
     const { client, state, vr, choose } = this.#parts;
+    showTitle(state.link);
     showStatus(state);
     showNearWords(state);
     showRobotList(state.link, choose);

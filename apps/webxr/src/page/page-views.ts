@@ -46,20 +46,19 @@ export class PageViews {
 
   constructor({ client, settings, stage, state, appearance, predicted, receiver }: PageViewsParts) {
     const { renderer, world } = stage;
-    const { synchronised } = settings;
     const { sensors, pointScale } = state;
     this.predicted = predicted;
     this.videos = new VideoFeed({
       client,
       views: state.videos,
-      synchronised,
+      settings,
       receiver,
       words: videoWords,
       presented: this.presented,
       now: () => performance.now(),
       onShown: (captureMs) => client.seen.onShown(captureMs),
     });
-    this.hold = new CloudHold(synchronised ? driverHold : noHold);
+    this.hold = new CloudHold((intervalMs) => (settings.synchronised ? driverHold : noHold)(intervalMs));
     this.held = new HeldClouds(client, this.hold, () => performance.now());
     const { held } = this;
     this.cloud = new CloudView(renderer, held);
@@ -73,7 +72,7 @@ export class PageViews {
       views: state.videos,
       clouds: this.clouds.all,
       wanted: appearance.paint,
-      synchronised,
+      settings,
     });
   }
 }

@@ -1,6 +1,7 @@
 /** Shows the state on the page and in the headset from now on, and lets the view follow the robot. */
 import type { RobotClient } from '@farpoint/operator';
 import { computed, effect, type ReadonlySignal, untracked } from '@preact/signals-core';
+import type { Hand, HeadsetSettings } from '../ground/headset-settings.ts';
 import type { Settings } from '../ground/settings.ts';
 import type { Switches } from '../ground/switches.ts';
 import { giveCues } from '../panels/cues/cues.ts';
@@ -79,13 +80,20 @@ export interface HeadsetOptions extends Omit<HeadsetParts, 'pointer' | 'state' |
   releaseProgress: ReadonlySignal<number>;
 }
 
+/** The hand that does not drive. */
+function otherHand({ driveHand }: Pick<HeadsetSettings, 'driveHand'>): Hand {
+  return driveHand === 'right' ? 'left' : 'right';
+}
+
 /** What a headset shows and reads: the panel on the wrist, pictures, and the controllers. */
 function openHeadset(options: HeadsetOptions): { panel: WristPanel; controls: HeadsetControls } {
   const { settings, state, appearance, stage, vr, releaseProgress } = options;
   const { renderer, rig, headset } = stage;
-  const { driveHand } = settings;
-  const panel = new WristPanel(renderer, rig, headset.front, driveHand === 'right' ? 'left' : 'right');
-  showOnWrist({ state, appearance, panel, headset, driveHand, active: vr.active, releaseProgress });
+  const panel = new WristPanel(renderer, rig, headset.front, otherHand(settings));
+  effect(() => {
+    panel.hand = otherHand(settings);
+  });
+  showOnWrist({ state, appearance, panel, headset, settings, active: vr.active, releaseProgress });
   const pointer = showPicturesInVr({ state, panel, stage, active: vr.active });
   return { panel, controls: new HeadsetControls({ ...options, pointer }) };
 }
@@ -119,7 +127,7 @@ export function followRobot({ client, settings, state, stage, views, stats, vr }
     views.clouds.ground = pose.position.z;
   });
   tellNotices(client, state.notices);
-  if (settings.cues) giveCues(client, vr, () => performance.now());
+  giveCues(client, vr, settings, () => performance.now());
 }
 
 /** @returns the headset's panel and controls */

@@ -141,7 +141,7 @@ export class WatchApp {
       client: watcher,
       views: this.views,
       words: videoWords,
-      synchronised,
+      settings,
       presented: null,
       // Its frames tell the timestamps with which the relay's were paired.
       receiver: videoReceiver('native'),

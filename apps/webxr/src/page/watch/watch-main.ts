@@ -1,7 +1,9 @@
+import '../../panels/ui/theme.css';
 import '../../panels/ui/style.css';
 import '../../panels/ui/picture-panels.css';
 import './watch.css';
 import { transformSupport } from '@farpoint/operator';
+import { applyDisplay } from '../../ground/display/stored-display.ts';
 import type { Failure } from '../../state/notices.ts';
 import { failureWords } from '../../words/words.ts';
 import { WatchApp } from './watch-app.ts';
@@ -24,6 +26,7 @@ function fail({ title, text }: Failure): void {
 }
 
 function start(): void {
+  applyDisplay();
   const settings = readWatchSettings(new URLSearchParams(window.location.search), window.location);
   const transform = transformSupport();
   if ('fault' in settings) {

@@ -1,5 +1,6 @@
 /** Lets the operator hear and feel that the robot does less than it is told, wherever they look. */
 import type { RobotClient } from '@farpoint/operator';
+import type { Settings } from '../../ground/settings.ts';
 import type { VrSession } from '../../scene/view/vr-session.ts';
 import { type Cue, CueJudge } from './cue-judge.ts';
 import { CueSound } from './cue-sound.ts';
@@ -41,7 +42,13 @@ function quietly(result: unknown): void {
   if (result instanceof Promise) result.catch(() => undefined);
 }
 
-export function giveCues(client: RobotClient, vr: VrSession, now: () => number): void {
+/** @param settings are read at each cue */
+export function giveCues(
+  client: RobotClient,
+  vr: VrSession,
+  settings: Pick<Settings, 'cues'>,
+  now: () => number,
+): void {
   let judge = new CueJudge();
   const sound = new CueSound();
   const look = () => {
@@ -57,7 +64,7 @@ export function giveCues(client: RobotClient, vr: VrSession, now: () => number):
       },
       now(),
     );
-    if (cue === null) return;
+    if (cue === null || !settings.cues) return;
     sound.play(cue);
     vibrate(cue, vr.active.value ? gamepadsOf(vr.inputSources) : (navigator.getGamepads?.() ?? []));
   };

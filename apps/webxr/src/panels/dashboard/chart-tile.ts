@@ -1,16 +1,15 @@
 /** A tile with a number over time, drawn by uPlot: at most two points a column, and no more often than it would show. */
 import uPlot from 'uplot';
+import { palette } from '../../ground/display/palette.ts';
 import { Curve } from '../../ground/telemetry/curve.ts';
 import { shownAt } from '../../ground/telemetry/moment.ts';
 import type { RecordedSeries } from '../../ground/telemetry/recorder.ts';
 import { ageText, numberText, spanText, withUnit } from './number-words.ts';
 import { part, setText, type Tile, type TileFrame } from './tile.ts';
 
-const GRID = { stroke: '#24303b', width: 1 };
-const TICKS = { stroke: '#24303b', width: 1, size: 4 };
-const TEXT = '#8fa3b3';
-const LINE = '#35c9b5';
-const STALE_LINE = '#5d6d7a';
+const GRID = { stroke: () => palette.line, width: 1 };
+const TICKS = { ...GRID, size: 4 };
+const quiet = () => palette.quiet;
 const FONT = '11px system-ui, sans-serif';
 /** Sizes in CSS pixels. Chosen by eye: an axis' numbers fit their column. */
 const HEIGHT = 130;
@@ -42,6 +41,7 @@ export class ChartTile implements Tile {
   #curveDueMs = 0;
   #columnMs = LEAST_MS;
   #drawnStale: boolean | null = null;
+  #drawnPalette = -1;
 
   /** @param recorded read anew each time, because a robot may describe it again */
   constructor(recorded: () => RecordedSeries | undefined) {
@@ -68,11 +68,13 @@ export class ChartTile implements Tile {
   update(frame: TileFrame): void {
     this.#writeNow(frame);
     this.#columnMs = Math.min(Math.max(frame.windowMs / this.#plot.width, LEAST_MS), MOST_MS);
-    // A window that was chosen just now, or a robot that returned, is shown at once.
-    const isSame = this.#windowS === frame.windowMs / 1000 && this.#drawnStale === this.#stale;
+    // A window or theme that was chosen just now, or a robot that returned, is shown at once.
+    const isDrawn = this.#drawnStale === this.#stale && this.#drawnPalette === palette.version;
+    const isSame = this.#windowS === frame.windowMs / 1000 && isDrawn;
     if (isSame && frame.nowMs < this.#curveDueMs) return;
     this.#curveDueMs = frame.nowMs + this.#columnMs;
     this.#drawnStale = this.#stale;
+    this.#drawnPalette = palette.version;
     this.#drawCurve(frame);
   }
 
@@ -126,7 +128,7 @@ function chartOptions(windowS: () => number, isStale: () => boolean): uPlot.Opti
     },
     axes: [
       {
-        stroke: TEXT,
+        stroke: quiet,
         grid: GRID,
         ticks: TICKS,
         font: FONT,
@@ -136,7 +138,7 @@ function chartOptions(windowS: () => number, isStale: () => boolean): uPlot.Opti
         incrs: [5, 10, 30, 60, 120, 300, 600, 1200],
       },
       {
-        stroke: TEXT,
+        stroke: quiet,
         grid: GRID,
         ticks: TICKS,
         font: FONT,
@@ -147,7 +149,12 @@ function chartOptions(windowS: () => number, isStale: () => boolean): uPlot.Opti
     ],
     series: [
       {},
-      { stroke: () => (isStale() ? STALE_LINE : LINE), width: 1.5, points: { show: false }, spanGaps: false },
+      {
+        stroke: () => (isStale() ? palette.stale : palette.good),
+        width: 1.5,
+        points: { show: false },
+        spanGaps: false,
+      },
     ],
   };
 }

@@ -83,7 +83,7 @@ export class DashboardOpener {
         this.#dashboard.value = new module.Dashboard({
           element: elements.dashboard,
           recorder,
-          mapTiles: settings.mapTiles,
+          mapTiles: () => settings.mapTiles,
           alarms: state.robot.alarms,
           stages: () => client.statistics,
           session: () => client.link.session,

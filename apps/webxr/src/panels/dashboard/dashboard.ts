@@ -114,7 +114,8 @@ function storeLayout(layout: Layout): void {
 export interface DashboardParts {
   readonly element: HTMLElement;
   readonly recorder: TelemetryRecorder;
-  readonly mapTiles: MapTiles | null;
+  /** Where tiles of the earth come from; an effect that asks runs again when it changes. */
+  mapTiles(): MapTiles | null;
   readonly alarms: ReadonlySignal<readonly Words[]>;
   stages(): StageSource;
   session(): RobotSession;
@@ -212,10 +213,12 @@ export class Dashboard {
   }
 
   #alarms(): HTMLElement {
+    const alert = document.createElement('div');
+    alert.setAttribute('role', 'alert');
     const list = document.createElement('ul');
     list.className = 'alarms';
     list.ariaLabel = 'Alarms';
-    list.setAttribute('role', 'alert');
+    alert.append(list);
     effect(() => {
       const alarms = this.#parts.alarms.value;
       list.hidden = alarms.length === 0;
@@ -227,7 +230,7 @@ export class Dashboard {
         item.dataset.tone = tone;
       });
     });
-    return list;
+    return alert;
   }
 
   /** Makes, moves and removes tiles, as the layout and what the robot measures ask for. */

@@ -1,4 +1,5 @@
 /** Draws the map on one canvas: tiles or nothing, a metric grid, the track, the robot and the scale. */
+import { palette } from '../../ground/display/palette.ts';
 import type { Track } from '../../ground/telemetry/track.ts';
 import {
   type EarthPlane,
@@ -23,11 +24,6 @@ export interface PaintedMap {
   readonly earth: { readonly plane: EarthPlane; readonly tiles: TileStore | null } | null;
 }
 
-const GRID = '#1b2630';
-const AXIS = '#33424f';
-const TRACK = '#35c9b5';
-const STALE = '#5d6d7a';
-const TEXT = '#dbe5ec';
 /** Sizes on the canvas, CSS pixels: the least mesh of the grid, the scale, the robot. Chosen by eye. */
 const LEAST_GRID_PX = 44;
 const SCALE_PX = 110;
@@ -44,7 +40,7 @@ const MOST_TILES = 80;
 export function paintMap(context: CanvasRenderingContext2D, map: PaintedMap, nowMs: number): void {
   const { projection } = map;
   const { width, height } = projection;
-  context.fillStyle = '#0b0f14';
+  context.fillStyle = palette.ground;
   context.fillRect(0, 0, width, height);
   const tiles = map.earth?.tiles ?? null;
   if (map.earth !== null && tiles !== null) paintTiles(context, projection, map.earth.plane, tiles, nowMs);
@@ -64,7 +60,7 @@ function paintGrid(context: CanvasRenderingContext2D, projection: MapProjection)
   context.lineWidth = 1;
   const line = (from: MapPlace, to: MapPlace, isAxis: boolean) => {
     const [a, b] = [projection.toScreen(from), projection.toScreen(to)];
-    context.strokeStyle = isAxis ? AXIS : GRID;
+    context.strokeStyle = isAxis ? palette.axis : palette.control;
     context.beginPath();
     context.moveTo(Math.round(a.left) + 0.5, Math.round(a.top) + 0.5);
     context.lineTo(Math.round(b.left) + 0.5, Math.round(b.top) + 0.5);
@@ -112,7 +108,7 @@ function paintTrack(
   { projection, track, placeOf, stale }: PaintedMap,
 ): void {
   if (track.length < 2) return;
-  context.strokeStyle = stale ? STALE : TRACK;
+  context.strokeStyle = stale ? palette.stale : palette.good;
   context.lineWidth = 2;
   context.lineJoin = 'round';
   context.beginPath();
@@ -133,8 +129,8 @@ function paintRobot(context: CanvasRenderingContext2D, { projection, robot, yaw,
   const { left, top } = projection.toScreen(robot);
   context.save();
   context.translate(left, top);
-  context.fillStyle = stale ? STALE : TEXT;
-  context.strokeStyle = '#0b0f14';
+  context.fillStyle = stale ? palette.stale : palette.text;
+  context.strokeStyle = palette.ground;
   context.lineWidth = 2;
   context.beginPath();
   if (yaw === null) context.arc(0, 0, ROBOT_PX * 0.7, 0, 2 * Math.PI);
@@ -155,7 +151,7 @@ function paintScale(context: CanvasRenderingContext2D, { height, metresPerPixel 
   const length = roundLength(SCALE_PX * metresPerPixel);
   const pixels = length / metresPerPixel;
   const [left, bottom] = [10.5, height - 10.5];
-  context.strokeStyle = TEXT;
+  context.strokeStyle = palette.text;
   context.lineWidth = 1.5;
   context.beginPath();
   context.moveTo(left, bottom - 5);
@@ -166,9 +162,9 @@ function paintScale(context: CanvasRenderingContext2D, { height, metresPerPixel 
   context.font = '11px system-ui, sans-serif';
   context.textBaseline = 'bottom';
   context.lineWidth = 3;
-  context.strokeStyle = '#0b0f14';
+  context.strokeStyle = palette.ground;
   context.strokeText(lengthText(length), left + 4, bottom - 3);
-  context.fillStyle = TEXT;
+  context.fillStyle = palette.text;
   context.fillText(lengthText(length), left + 4, bottom - 3);
 }
 

@@ -1,4 +1,6 @@
 /** The tile with the map: where the robot is and has been, by its odometry or by satellite. */
+import { effect } from '@preact/signals-core';
+import { palette } from '../../ground/display/palette.ts';
 import type { MapTiles } from '../../ground/telemetry/map-tiles.ts';
 import type { TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
 import { quietButton } from '../ui/panel-parts.ts';
@@ -97,17 +99,17 @@ export class MapTile implements Tile {
   readonly #attribution = part('attribution', 'p');
   readonly #projection = new MapProjection();
   readonly #robot: RobotOnMap;
-  readonly #store: TileStore | null;
+  #store: TileStore | null = null;
+  readonly #stopFollowing: () => void;
   readonly #resizing = new ResizeObserver(() => this.#fitCanvas());
   #follow = true;
   #dirty = true;
   /** What was painted last. */
   #painted = '';
 
-  /** @param tiles where the tiles of the earth come from; `null`: none are painted */
-  constructor(recorder: TelemetryRecorder, tiles: MapTiles | null) {
+  /** @param tiles where the tiles of the earth come from, an effect's source; `null`: none are painted */
+  constructor(recorder: TelemetryRecorder, tiles: () => MapTiles | null) {
     this.#robot = new RobotOnMap(recorder);
-    this.#store = tiles === null ? null : new TileStore(tiles);
     this.element.append(this.#canvas, this.#buttons, this.#attribution);
     this.#addButton('+', 'Zoom in', () => this.#projection.zoom(BUTTON_ZOOM));
     this.#addButton('−', 'Zoom out', () => this.#projection.zoom(1 / BUTTON_ZOOM));
@@ -117,11 +119,7 @@ export class MapTile implements Tile {
     this.#turning = this.#addButton('North up', 'Which direction is up', () => this.#turn());
     this.#source = this.#addButton('Odometry', 'Where the position comes from', () => this.#switchSource());
     this.#setFollow(true);
-    this.#showSource();
-    if (this.#store !== null)
-      this.#store.onReady = () => {
-        this.#dirty = true;
-      };
+    this.#stopFollowing = effect(() => this.#open(tiles()));
     listenToGestures(this.#canvas, this.#projection, (panned) => {
       if (panned) this.#setFollow(false);
       this.#dirty = true;
@@ -145,7 +143,19 @@ export class MapTile implements Tile {
 
   dispose(): void {
     this.#resizing.disconnect();
+    this.#stopFollowing();
     this.#store?.close();
+  }
+
+  #open(tiles: MapTiles | null): void {
+    this.#store?.close();
+    this.#store = tiles === null ? null : new TileStore(tiles);
+    if (this.#store !== null)
+      this.#store.onReady = () => {
+        this.#dirty = true;
+      };
+    this.#dirty = true;
+    this.#showSource();
   }
 
   #addButton(text: string, title: string, act: () => void): HTMLButtonElement {
@@ -153,7 +163,8 @@ export class MapTile implements Tile {
       act();
       this.#dirty = true;
     });
-    button.ariaLabel = title;
+    // A symbol says nothing to whoever hears it; a word is its own name (WCAG 2.2, 2.5.3).
+    if (text.length === 1) button.ariaLabel = title;
     this.#buttons.append(button);
     return button;
   }
@@ -207,7 +218,7 @@ export class MapTile implements Tile {
     const { plane, track } = robot;
     const stale = shown?.stale ?? true;
     const yaw = robot.yawAt(moment);
-    const key = `${place?.x} ${place?.y} ${yaw} ${stale} ${track.length}`;
+    const key = `${place?.x} ${place?.y} ${yaw} ${stale} ${track.length} ${palette.version}`;
     if (!this.#dirty && key === this.#painted) return;
     this.#dirty = false;
     this.#painted = key;

@@ -9,6 +9,7 @@ import {
   type StageSummary,
   type StreamStatistics,
 } from '@farpoint/operator';
+import { palette } from '../../ground/display/palette.ts';
 import {
   commandStageNames,
   frameStageNames,
@@ -113,7 +114,7 @@ function drawRows(canvas: HTMLCanvasElement, rows: readonly StageRow<FrameStage>
   for (const { endedMs, totalMs, stages } of rows) {
     const x = WIDTH * (1 - (nowMs - endedMs) / STAGES_KEPT_MS);
     const heightOf = (value: number | null) => (HEIGHT * Math.max(0, value ?? 0)) / most;
-    context.fillStyle = '#8fa3b3';
+    context.fillStyle = palette.quiet;
     context.fillRect(x, HEIGHT - heightOf(totalMs), 1, heightOf(totalMs));
     if (stages.link === null) continue;
     let bottom = HEIGHT;

@@ -111,7 +111,7 @@ export interface TileKind extends PlacedTile {
 
 export interface TileSources {
   readonly recorder: TelemetryRecorder;
-  readonly mapTiles: MapTiles | null;
+  mapTiles(): MapTiles | null;
   stages(): StageSource;
   session(): RobotSession;
 }

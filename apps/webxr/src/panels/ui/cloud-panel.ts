@@ -145,7 +145,12 @@ function boundLeftColumn(controls: HTMLElement): void {
     hud.style.maxHeight = `${roomOf(hud, 0)}px`;
     const given = giving.map((part) => Math.max(0, part.scrollHeight - part.clientHeight));
     // A box over the picture takes the mouse only while there is something in it to be scrolled to.
-    for (const [i, part] of giving.entries()) part.classList.toggle('cut', (given[i] ?? 0) > 1);
+    for (const [i, part] of giving.entries()) {
+      const isCut = (given[i] ?? 0) > 1;
+      part.classList.toggle('cut', isCut);
+      // By keys, too.
+      if (part === elements.facts) part.tabIndex = isCut ? 0 : -1;
+    }
     if (controls.hidden) return;
     // Controls are measured from where they would begin, had nothing above them given way.
     const inColumn = getComputedStyle(clouds).position !== 'fixed';

@@ -1,6 +1,7 @@
 /** Maps buttons, mouse, wheel and keys to actions. */
 import { LatencyError, type RobotClient } from '@farpoint/operator';
 import { effect } from '@preact/signals-core';
+import type { LiveSettings } from '../../ground/live-settings.ts';
 import type { PredictedView } from '../../scene/view/predicted-view.ts';
 import type { Stage } from '../../scene/view/stage.ts';
 import type { HeadsetMode, VrSession } from '../../scene/view/vr-session.ts';
@@ -32,6 +33,7 @@ export interface Controlled {
   nextHeadsetView(): void;
   readonly estop: EstopUi;
   readonly predicted: Pick<PredictedView, 'on'>;
+  readonly settings: Pick<LiveSettings, 'apply'>;
   choose(robotId: string): void;
   /** Opens or closes the dashboard. */
   toggleDashboard(): void;
@@ -56,7 +58,7 @@ export class ControlsUi {
     for (const button of document.querySelectorAll<HTMLButtonElement>('#bar button, #drive button')) {
       button.addEventListener('click', () => button.blur());
     }
-    initSettingsDialog(state.pointScale);
+    initSettingsDialog(state.pointScale, this.#parts.settings);
     this.#startVr();
     startLook(elements.stage, this.#parts.stage);
   }

@@ -6,6 +6,8 @@ function byId<T extends HTMLElement>(id: string, kind: new () => T): T {
 }
 
 export const elements = {
+  world: byId('world', HTMLElement),
+  pageTitle: byId('page-title', HTMLHeadingElement),
   stage: byId('stage', HTMLCanvasElement),
   blockedEdge: byId('blocked-edge', HTMLElement),
   cameraStage: byId('camera-stage', HTMLElement),
@@ -20,6 +22,8 @@ export const elements = {
   alarm: byId('alarm', HTMLButtonElement),
   settingsOpen: byId('settings-open', HTMLButtonElement),
   settings: byId('settings', HTMLDialogElement),
+  settingsSave: byId('settings-save', HTMLButtonElement),
+  fullScreen: byId('full-screen', HTMLButtonElement),
   people: byId('people', HTMLDetailsElement),
   peopleLine: byId('people-line', HTMLElement),
   peopleList: byId('people-list', HTMLUListElement),

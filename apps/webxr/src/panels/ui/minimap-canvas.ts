@@ -1,4 +1,5 @@
 /** The small map: what is remembered around the robot from above, the way that it has driven, and the robot. */
+import { palette } from '../../ground/display/palette.ts';
 import type { Track } from '../../ground/telemetry/track.ts';
 
 /** Side of what is shown, metres. A map that is turned still fills it. */
@@ -8,9 +9,6 @@ const REACH_M = SHOWN_M * Math.SQRT1_2;
 /** Two points of the track that are farther apart are not joined, metres. */
 const GAP_M = 1;
 const SCALE_M = 5;
-const TRAIL = '#35c9b5';
-const STALE = '#5d6d7a';
-const TEXT = '#dbe5ec';
 
 export interface MinimapPicture {
   /** What is remembered, its rows from the greatest y on; `null` for nothing. */
@@ -60,7 +58,7 @@ function drawTrail(
   { trail, x, y, stale }: MinimapPicture,
   width: number,
 ): void {
-  context.strokeStyle = stale ? STALE : TRAIL;
+  context.strokeStyle = stale ? palette.stale : palette.good;
   context.lineWidth = width;
   context.lineJoin = 'round';
   context.beginPath();
@@ -91,8 +89,8 @@ function drawRobot(context: CanvasRenderingContext2D, { yaw, stale }: MinimapPic
   context.lineTo(-0.4 * length, 0);
   context.lineTo(-0.8 * length, -0.75 * length);
   context.closePath();
-  context.fillStyle = stale ? STALE : TEXT;
-  context.strokeStyle = '#0b0f14';
+  context.fillStyle = stale ? palette.stale : palette.text;
+  context.strokeStyle = palette.ground;
   context.lineWidth = 0.3 * length;
   context.stroke();
   context.fill();
@@ -102,7 +100,7 @@ function drawScale(context: CanvasRenderingContext2D, size: number, perMetre: nu
   context.setTransform(1, 0, 0, 1, 0, 0);
   const margin = size / 24;
   const bottom = size - margin;
-  context.strokeStyle = TEXT;
+  context.strokeStyle = palette.text;
   context.lineWidth = Math.max(1, size / 90);
   context.beginPath();
   context.moveTo(margin, bottom);

@@ -2,9 +2,10 @@
 
 import { NEAR_SECTORS, type RobotBody } from '@farpoint/protocol';
 import { computed, effect } from '@preact/signals-core';
+import { palette } from '../../ground/display/palette.ts';
 import { radiusAt, reachOf } from '../../ground/near-field/around-footprint.ts';
 import type { NearView } from '../../ground/near-field/near-view.ts';
-import { hatchedStretch, hitColour, NEAR_COLOURS } from '../../scene/view/near-ring.ts';
+import { hatchedStretch, hitColour, type NearColours } from '../../scene/view/near-ring.ts';
 import type { PageState } from '../../state/page-state.ts';
 import { steady } from '../../state/sampler.ts';
 import { nearDetails, nearWords } from '../../words/near-words.ts';
@@ -18,11 +19,18 @@ const SHOWN_M = 1.5;
 const MARKS_M = [0.5, 1];
 const SECTOR = (2 * Math.PI) / NEAR_SECTORS;
 
+/** The theme's. */
+function nearColours(): NearColours {
+  const { near, far, drop, stale, quiet } = palette;
+  return { veryNear: palette['very-near'], near, far, drop, stale, unseen: quiet };
+}
+
 /** Draws the view; without one, only the robot. */
 function drawNear(canvas: HTMLCanvasElement, body: RobotBody, view: NearView | null): void {
   const context = canvas.getContext('2d');
   if (context === null) return;
   const { footprint } = body;
+  const colours = nearColours();
   const reach = reachOf(footprint);
   const middle = canvas.width / 2;
   const perMetre = (middle - 2) / (reach + SHOWN_M);
@@ -35,7 +43,7 @@ function drawNear(canvas: HTMLCanvasElement, body: RobotBody, view: NearView | n
       context.lineTo(middle - radius * Math.sin(i * SECTOR), middle - radius * Math.cos(i * SECTOR));
     }
   };
-  context.strokeStyle = '#24303b';
+  context.strokeStyle = palette.line;
   context.lineWidth = 1;
   for (const metres of [...MARKS_M, SHOWN_M]) {
     context.beginPath();
@@ -62,7 +70,7 @@ function drawNear(canvas: HTMLCanvasElement, body: RobotBody, view: NearView | n
     context.lineWidth = 3 * lineWidth;
     for (const [i, { hit }] of view.sectors.entries()) {
       if (hit === null || hit.metres > SHOWN_M) continue;
-      context.strokeStyle = hitColour(hit, view.stale);
+      context.strokeStyle = hitColour(hit, view.stale, colours);
       context.beginPath();
       trace(hit.metres + (1.5 * lineWidth) / perMetre, i - 0.5, i + 0.5);
       context.stroke();
@@ -71,7 +79,7 @@ function drawNear(canvas: HTMLCanvasElement, body: RobotBody, view: NearView | n
   context.beginPath();
   for (const { x, y } of footprint) context.lineTo(middle - y * perMetre, middle - x * perMetre);
   context.closePath();
-  context.fillStyle = view === null || view.stale ? NEAR_COLOURS.stale : '#35c9b5';
+  context.fillStyle = view === null || view.stale ? colours.stale : palette.good;
   context.fill();
 }
 
@@ -79,14 +87,15 @@ let [pattern, patternKey]: [CanvasPattern | null, string] = [null, ''];
 
 /** Diagonal stripes: not to be taken for free floor, even where colours are not told apart. */
 function hatching(context: CanvasRenderingContext2D, size: number, stale: boolean): CanvasPattern | string {
-  const key = `${size} ${stale}`;
+  const key = `${size} ${stale} ${palette.version}`;
   if (pattern !== null && key === patternKey) return pattern;
   const tile = document.createElement('canvas');
   const side = Math.max(4, Math.round(size / 20));
   [tile.width, tile.height] = [side, side];
   const lines = tile.getContext('2d');
-  if (lines === null) return NEAR_COLOURS.unseen;
-  lines.strokeStyle = stale ? '#6b768080' : '#8fa3b3b0';
+  if (lines === null) return palette.quiet;
+  lines.strokeStyle = stale ? palette.stale : palette.quiet;
+  lines.globalAlpha = stale ? 0.5 : 0.7;
   lines.lineWidth = side / 4;
   lines.beginPath();
   for (const at of [-side, 0, side]) {
@@ -96,7 +105,7 @@ function hatching(context: CanvasRenderingContext2D, size: number, stale: boolea
   lines.stroke();
   pattern = context.createPattern(tile, 'repeat');
   patternKey = key;
-  return pattern ?? NEAR_COLOURS.unseen;
+  return pattern ?? palette.quiet;
 }
 
 /** The words; the picture follows at its own rate. */
@@ -129,6 +138,7 @@ export class NearPicture {
   #shown: NearView['sectors'] | null = null;
   #stale = false;
   #body: RobotBody | null = null;
+  #version = 0;
   /** Side of the picture that was drawn, pixels. */
   #size = 0;
   /** Side of its place on the page, CSS pixels. */
@@ -146,11 +156,14 @@ export class NearPicture {
     const canvas = elements.nearRing;
     const size = Math.round(this.#side * Math.min(window.devicePixelRatio, 3));
     const [sectors, stale] = [view?.sectors ?? null, view?.stale ?? false];
-    const isSame = sectors === this.#shown && stale === this.#stale && body === this.#body;
+    const { version } = palette;
+    const isBefore = sectors === this.#shown && stale === this.#stale && body === this.#body;
+    const isSame = isBefore && version === this.#version;
     if (size === 0 || body === null || (isSame && size === this.#size)) return;
     this.#shown = sectors;
     this.#stale = stale;
     this.#body = body;
+    this.#version = version;
     if (size !== this.#size) [canvas.width, canvas.height, this.#size] = [size, size, size];
     drawNear(canvas, body, view);
   }

@@ -1,6 +1,6 @@
 /** Every input device of the page. Held inputs count as released when the page no longer receives their events. */
 import type { DriveInput, PressedButtons } from '@farpoint/operator';
-import type { Hand } from '../../ground/headset-settings.ts';
+import type { HeadsetSettings } from '../../ground/headset-settings.ts';
 import type { Notices } from '../../state/notices.ts';
 import { GamepadInput } from '../../take/drive/gamepad-input.ts';
 import { HeadsetInput, type Tracks, type XrController } from '../../take/drive/headset-input.ts';
@@ -82,11 +82,11 @@ export class OperatorInputs {
   readonly #notices: Pick<Notices, 'tell'>;
   readonly #pick = new PickGamepad();
 
-  /** @param driveHand the hand that drives in the headset */
-  constructor(port: InputPort, driveHand: Hand, notices: Pick<Notices, 'tell'>) {
+  /** @param headset with the hand that drives in the headset, which may become the other one */
+  constructor(port: InputPort, headset: Pick<HeadsetSettings, 'driveHand'>, notices: Pick<Notices, 'tell'>) {
     this.#port = port;
     this.#notices = notices;
-    this.#headset = new HeadsetInput(driveHand);
+    this.#headset = new HeadsetInput(headset);
     this.#touch = new TouchJoystick(elements.joystick, elements.knob, () => port.onChange());
     this.all = [this.#headset, this.#touch, this.#gamepad, this.#keyboard];
     window.addEventListener('keydown', (event) => this.#onKey(event, true));

@@ -74,14 +74,14 @@ function showStagedCamera(
   filling: ReadonlySignal<CameraView | null>,
   sampledAtMs: ReadonlySignal<number>,
 ): void {
-  const { stage, cameraStage } = elements;
+  const { world, stage, cameraStage } = elements;
   let shown: CameraView | null = null;
   effect(() => {
     const view = filling.value;
     if (view === shown) return;
     if (shown !== null) {
       stage.replaceWith(shown.canvas);
-      document.body.prepend(stage);
+      world.prepend(stage);
     }
     cameraStage.replaceChildren(label);
     shown = view;

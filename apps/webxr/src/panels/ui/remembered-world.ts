@@ -10,6 +10,7 @@ import {
   WorldMemory,
 } from '@farpoint/operator';
 import type { Camera, Object3D, WebGLRenderer } from 'three';
+import { palette } from '../../ground/display/palette.ts';
 import { writeTopView } from '../../ground/minimap/top-view-pixels.ts';
 import { Track } from '../../ground/telemetry/track.ts';
 import { JUMP_M } from '../../scene/pose-follower.ts';
@@ -52,6 +53,8 @@ class MinimapPanel {
   #oldestS: number | null = null;
   #lookedMs = Number.NEGATIVE_INFINITY;
   #size = 0;
+  /** Of the palette that the map was drawn with. */
+  #version = -1;
   #changed = true;
 
   constructor(client: RobotClient) {
@@ -117,7 +120,10 @@ class MinimapPanel {
     const map = this.#map;
     const stale = this.#client.link.interrupted;
     const isSame = x === map.x && y === map.y && yaw === map.yaw && stale === map.stale;
-    const changed = this.#changed || !isSame || map.headingUp !== this.headingUp;
+    const { version } = palette;
+    const isDrawn = !this.#changed && version === this.#version;
+    const changed = !isDrawn || !isSame || map.headingUp !== this.headingUp;
+    this.#version = version;
     map.x = x;
     map.y = y;
     map.yaw = yaw;

@@ -1,25 +1,44 @@
 import { parseSignalingUrl } from '@farpoint/operator';
 import type { Signal } from '@preact/signals-core';
+import { displaySettings } from '../../ground/display/stored-display.ts';
 import { type HeadsetSettings, parseHeadset } from '../../ground/headset-settings.ts';
-import { clampScale, ownSignalingUrl } from '../../ground/settings.ts';
+import type { LiveSettings } from '../../ground/live-settings.ts';
+import { clampScale, ownSignalingUrl, type StoredSettings } from '../../ground/settings.ts';
+import { needsReload } from '../../ground/settings-change.ts';
 import { tokenOrigin, withToken } from '../../ground/signaling-tokens.ts';
 import { forgetVisitTokens, loadStored, pageOrigin, store } from '../../ground/stored-settings.ts';
 import { parseTileTemplate } from '../../ground/telemetry/map-tiles.ts';
+import { saveWords, sliderWords } from '../../words/settings-words.ts';
+import { initDisplayFields } from './display-fields.ts';
 import { elements } from './elements.ts';
 import { openDialog } from './open-dialog.ts';
 
-/** Sets up the dialog. @param pointScale follows the slider while it moves */
-export function initSettingsDialog(pointScale: Signal<number>): void {
+/**
+ * Sets up the dialog.
+ *
+ * @param pointScale follows the slider while it moves
+ * @param live takes over what counts at once
+ */
+export function initSettingsDialog(pointScale: Signal<number>, live: Pick<LiveSettings, 'apply'>): void {
   const { settings: dialog, settingsOpen } = elements;
-  const form = new SettingsForm(dialog.querySelector('form')!);
+  const element = dialog.querySelector('form')!;
+  const form = new SettingsForm(element);
+  initDisplayFields(element, displaySettings);
+  let display = displaySettings.peek();
   settingsOpen.addEventListener('click', () => {
     form.fill();
+    display = displaySettings.peek();
     openDialog(dialog);
   });
+  // No submit button: Enter in a field saves.
+  element.querySelector('[value="cancel"]')?.addEventListener('click', () => dialog.close('cancel'));
   form.listen(pointScale);
   dialog.addEventListener('close', () => {
-    if (dialog.returnValue === 'save') form.save();
-    else pointScale.value = clampScale(loadStored().pointScale);
+    if (dialog.returnValue === 'save') form.save(live);
+    else {
+      pointScale.value = clampScale(loadStored().pointScale);
+      displaySettings.value = display;
+    }
   });
 }
 
@@ -27,6 +46,8 @@ export function initSettingsDialog(pointScale: Signal<number>): void {
 class SettingsForm {
   readonly #form: HTMLFormElement;
   #tokenTyped = false;
+  /** What the fields held when the dialog was opened. */
+  #before: StoredSettings = {};
 
   constructor(form: HTMLFormElement) {
     this.#form = form;
@@ -45,6 +66,8 @@ class SettingsForm {
     this.#field('mapAttribution').value = stored.mapAttribution ?? '';
     this.#tokenTyped = false;
     this.#showToken();
+    this.#before = this.#read();
+    this.#describe();
   }
 
   /** Checks fields while they change. */
@@ -65,14 +88,27 @@ class SettingsForm {
     this.#field('pointScale').addEventListener('input', () => {
       pointScale.value = Number(this.#field('pointScale').value);
     });
+    this.#form.addEventListener('input', () => this.#describe());
   }
 
-  /** Stores what is in the fields, and loads the page again. */
-  save(): void {
+  /** Stores what is in the fields. Only for a new connection, the page is loaded again. */
+  save(live: Pick<LiveSettings, 'apply'>): void {
+    const settings = this.#read();
+    store(settings);
+    live.apply(settings);
+    if (!needsReload(this.#before, settings)) return;
+    forgetVisitTokens();
+    // These parameters in the page's address would override what was just saved.
+    const address = new URL(location.href);
+    for (const name of ['signaling', 'token', 'name']) address.searchParams.delete(name);
+    location.replace(address);
+  }
+
+  #read(): StoredSettings {
     const at = this.#service();
     const { tokens = new Map() } = loadStored();
     const token = this.#field('token').value.trim();
-    store({
+    return {
       signaling: this.#field('signaling').value,
       tokens: 'url' in at ? withToken(tokens, tokenOrigin(at.url), token) : tokens,
       name: this.#field('name').value,
@@ -82,12 +118,16 @@ class SettingsForm {
       headset: readHeadsetFields(this.#form),
       mapTiles: this.#field('mapTiles').value.trim(),
       mapAttribution: this.#field('mapAttribution').value.trim(),
-    });
-    forgetVisitTokens();
-    // These parameters in the page's address would override what was just saved.
-    const address = new URL(location.href);
-    for (const name of ['signaling', 'token', 'name']) address.searchParams.delete(name);
-    location.replace(address);
+    };
+  }
+
+  /** Writes the sliders' values, and what the button does. */
+  #describe(): void {
+    for (const output of this.#form.querySelectorAll('output')) {
+      const name = output.htmlFor.value.replace('settings-', '');
+      output.value = sliderWords[name]?.(Number(this.#field(name).value)) ?? '';
+    }
+    elements.settingsSave.textContent = saveWords(needsReload(this.#before, this.#read()));
   }
 
   #field(name: string): HTMLInputElement {

@@ -98,13 +98,10 @@ class ViewHeading {
   /** How far turns about the head have moved the operator's origin, m. */
   shiftX = 0;
   shiftZ = 0;
-  readonly #followsRobot: boolean;
+  /** Whether ahead turns with the robot, from where it is. */
+  followsRobot = false;
   #base: number | null = null;
   #own = 0;
-
-  constructor(followsRobot: boolean) {
-    this.#followsRobot = followsRobot;
-  }
 
   /** The robot's next heading becomes the operator's. */
   align(): void {
@@ -116,7 +113,7 @@ class ViewHeading {
 
   /** @param robotYaw the robot's heading */
   follow(robotYaw: number): void {
-    if (this.#followsRobot || this.#base === null) this.#base = robotYaw;
+    if (this.followsRobot || this.#base === null) this.#base = robotYaw;
     this.yaw = this.#base + this.#own;
   }
 
@@ -166,18 +163,18 @@ export class HeadsetRig {
   /** To which side the robot's front is, in first person: −1 left, 1 right, 0 in view. */
   frontSide: -1 | 0 | 1 = 0;
   readonly #pose = new RigPose();
-  readonly #heading: ViewHeading;
+  readonly #heading = new ViewHeading();
   readonly #turn: OperatorTurn;
   readonly #amount: VignetteAmount;
   readonly #settings: HeadsetSettings;
   /** Whether the view is where it was in the last frame, but for motion: not after a jump. */
   #moves = false;
 
+  /** @param settings are read in each frame */
   constructor(settings: HeadsetSettings) {
     this.#settings = settings;
-    this.#heading = new ViewHeading(settings.turn === 'robot');
     this.#turn = new OperatorTurn(settings);
-    this.#amount = new VignetteAmount(settings.vignette);
+    this.#amount = new VignetteAmount(settings);
   }
 
   /** Where ahead in the room points in the world, radians. */
@@ -235,6 +232,7 @@ export class HeadsetRig {
     const pose = this.#pose;
     const { x, y, z, yaw } = pose;
     const by = this.#turn.by(this.turnStick, elapsedMs);
+    this.#heading.followsRobot = this.#settings.turn === 'robot';
     this.#heading.follow(camera.yaw);
     this.#turnView(by, head);
     this.#setPose(camera, ground);

@@ -21,14 +21,13 @@ export const STEADY_RATE = Math.PI / 3;
 const MOST_FRAME_MS = 50;
 
 export class OperatorTurn {
-  readonly #turn: HeadsetSettings['turn'];
-  readonly #step: number;
+  readonly #settings: Pick<HeadsetSettings, 'turn' | 'snapDegrees'>;
   /** A stick that is already deflected when a session begins turns nothing. */
   #armed = false;
 
-  constructor({ turn, snapDegrees }: Pick<HeadsetSettings, 'turn' | 'snapDegrees'>) {
-    this.#turn = turn;
-    this.#step = (snapDegrees * Math.PI) / 180;
+  /** @param settings are read at each call */
+  constructor(settings: Pick<HeadsetSettings, 'turn' | 'snapDegrees'>) {
+    this.#settings = settings;
   }
 
   /** Nothing turns before the stick has been centred. */
@@ -42,18 +41,20 @@ export class OperatorTurn {
    * @returns by how much the view turns now, radians, positive to the left
    */
   by(stick: number, elapsedMs: number): number {
+    const { turn, snapDegrees } = this.#settings;
     const deflection = Math.abs(stick);
     if (!(deflection > ARMED_BELOW)) {
       this.#armed = true;
-      if (this.#turn !== 'smooth') return 0;
+      if (turn !== 'smooth') return 0;
     }
     if (!this.#armed) return 0;
-    if (this.#turn === 'smooth') {
+    if (turn === 'smooth') {
       const seconds = Math.min(Math.max(elapsedMs, 0), MOST_FRAME_MS) / 1000;
       return -shapeAxis(stick, DEFAULT_STICK_RESPONSE) * STEADY_RATE * seconds + 0;
     }
-    if (this.#turn !== 'snap' || deflection < STEP_AT) return 0;
+    if (turn !== 'snap' || deflection < STEP_AT) return 0;
     this.#armed = false;
-    return stick > 0 ? -this.#step : this.#step;
+    const step = (snapDegrees * Math.PI) / 180;
+    return stick > 0 ? -step : step;
   }
 }

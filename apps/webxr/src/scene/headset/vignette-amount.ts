@@ -1,4 +1,5 @@
 /** How dark the edge of the view is while the view is moved by something else than the operator's own body. Pure. */
+import type { HeadsetSettings } from '../../ground/headset-settings.ts';
 
 /**
  * From these on, it is as dark as it is set to become: turning, rad/s, and moving, m/s. Chosen: three
@@ -19,11 +20,11 @@ const LEAST = 0.01;
 export class VignetteAmount {
   /** 0 (not drawn) … 1. */
   value = 0;
-  readonly #strength: number;
+  readonly #settings: Pick<HeadsetSettings, 'vignette'>;
 
-  /** @param strength 0 … 1 */
-  constructor(strength: number) {
-    this.#strength = strength;
+  /** @param settings are read at each call */
+  constructor(settings: Pick<HeadsetSettings, 'vignette'>) {
+    this.#settings = settings;
   }
 
   clear(): void {
@@ -37,7 +38,7 @@ export class VignetteAmount {
    */
   update(turnRate: number, speed: number, elapsedMs: number): void {
     const motion = Math.max(Math.abs(turnRate) / FULL_TURN, Math.abs(speed) / FULL_SPEED);
-    const wanted = Number.isFinite(motion) ? this.#strength * Math.min(motion, 1) : 0;
+    const wanted = Number.isFinite(motion) ? this.#settings.vignette * Math.min(motion, 1) : 0;
     const tau = wanted > this.value ? COMES_MS : GOES_MS;
     this.value += (wanted - this.value) * (1 - Math.exp(-Math.max(elapsedMs, 0) / tau));
     if (this.value < LEAST && wanted < LEAST) this.value = 0;

@@ -20,21 +20,29 @@ const CURTAIN_M = 1;
 const CURTAIN_WITHIN_M = 1.2;
 const CORNERS = 4;
 
-export const NEAR_COLOURS = {
+/** Colours of what is near. */
+export type NearColours = Readonly<Record<'veryNear' | 'near' | 'far' | 'drop' | 'stale' | 'unseen', string>>;
+
+/** On the floor of the scene, which is dark in all themes. */
+export const NEAR_COLOURS: NearColours = {
   veryNear: '#e5484d',
   near: '#f2b134',
   far: '#7f9db0',
   drop: '#b57bff',
   stale: '#6b7680',
   unseen: '#8fa3b3',
-} as const;
+};
 
 /** How a sector's hit is coloured. */
-export function hitColour({ kind, metres }: NonNullable<NearSector['hit']>, stale: boolean): string {
-  if (stale) return NEAR_COLOURS.stale;
-  if (kind === 'drop') return NEAR_COLOURS.drop;
-  if (metres < VERY_NEAR_M) return NEAR_COLOURS.veryNear;
-  return metres < NEAR_M ? NEAR_COLOURS.near : NEAR_COLOURS.far;
+export function hitColour(
+  { kind, metres }: NonNullable<NearSector['hit']>,
+  stale: boolean,
+  colours: NearColours = NEAR_COLOURS,
+): string {
+  if (stale) return colours.stale;
+  if (kind === 'drop') return colours.drop;
+  if (metres < VERY_NEAR_M) return colours.veryNear;
+  return metres < NEAR_M ? colours.near : colours.far;
 }
 
 /** Hatching, a bar and a curtain in each sector at most. */

@@ -42,7 +42,11 @@ export interface PanelLine {
 
 export class WristPanel {
   readonly #group = new Group();
-  readonly #hand: Hand;
+  #hand: Hand;
+  readonly #front: Group;
+  /** Of each hand whose controller is there. */
+  readonly #grips = new Map<string, Group>();
+  readonly #beside: Object3D[] = [];
   readonly #context: CanvasRenderingContext2D;
   readonly #texture: CanvasTexture;
   #shown = '';
@@ -57,6 +61,7 @@ export class WristPanel {
    */
   constructor(renderer: WebGLRenderer, rig: Group, front: Group, hand: Hand) {
     this.#hand = hand;
+    this.#front = front;
     const canvas = document.createElement('canvas');
     canvas.width = WIDTH;
     canvas.height = HEIGHT;
@@ -69,34 +74,45 @@ export class WristPanel {
     );
     this.#group.add(mesh);
     this.#group.visible = false;
-    const rest = (): void => {
-      front.add(this.#group);
-      this.#group.position.set(0, -0.32, -0.7);
-      this.#group.rotation.set(-0.5, 0, 0);
-      this.#group.scale.setScalar(1.6);
-    };
-    rest();
+    this.#place();
     for (const index of [0, 1]) {
       const grip = renderer.xr.getControllerGrip(index);
       rig.add(grip);
       grip.addEventListener('connected', ({ data }) => {
-        if (data.handedness !== hand) return;
-        grip.add(this.#group);
-        this.#group.position.set(0, 0.03, 0.06);
-        this.#group.rotation.set(-1.0, 0, 0);
-        this.#group.scale.setScalar(1);
+        this.#grips.set(data.handedness, grip);
+        this.#place();
       });
       grip.addEventListener('disconnected', () => {
-        if (this.#group.parent === grip) rest();
+        for (const [side, own] of this.#grips) if (own === grip) this.#grips.delete(side);
+        this.#place();
       });
     }
   }
 
+  /** On whose wrist it is. */
+  set hand(hand: Hand) {
+    this.#hand = hand;
+    this.#place();
+  }
+
+  /** On the wrist, or before the operator while there is no controller on it. */
+  #place(): void {
+    const grip = this.#grips.get(this.#hand);
+    (grip ?? this.#front).add(this.#group);
+    if (grip === undefined) this.#group.position.set(0, -0.32, -0.7);
+    else this.#group.position.set(0, 0.03, 0.06);
+    this.#group.rotation.set(grip === undefined ? -0.5 : -1, 0, 0);
+    this.#group.scale.setScalar(grip === undefined ? 1.6 : 1);
+    const inwards = this.#hand === 'left' ? 1 : -1;
+    for (const { position } of this.#beside)
+      position.set(inwards * (PANEL_M + GAP_M), (-PANEL_M * HEIGHT) / WIDTH / 2, 0);
+  }
+
   /** Adds an object beside the panel, on the inner side. It moves with the panel. */
   addBeside(object: Object3D): void {
-    const inwards = this.#hand === 'left' ? 1 : -1;
-    object.position.set(inwards * (PANEL_M + GAP_M), (-PANEL_M * HEIGHT) / WIDTH / 2, 0);
+    this.#beside.push(object);
     this.#group.add(object);
+    this.#place();
   }
 
   /** What it shows; `null` while it is hidden. */

@@ -1,6 +1,6 @@
 /** Shows the page's state in VR: the status on the wrist. */
 import { effect, type ReadonlySignal } from '@preact/signals-core';
-import type { Hand } from '../../ground/headset-settings.ts';
+import type { HeadsetSettings } from '../../ground/headset-settings.ts';
 import type { CloudAppearance } from '../../state/cloud-appearance.ts';
 import type { PageState } from '../../state/page-state.ts';
 import { alarmLine } from '../../words/alarm-words.ts';
@@ -17,7 +17,7 @@ export interface WristStatusParts {
   readonly appearance: Pick<CloudAppearance, 'hazards'>;
   readonly panel: WristPanel;
   readonly headset: Pick<HeadsetRig, 'view' | 'model'>;
-  readonly driveHand: Hand;
+  readonly settings: Pick<HeadsetSettings, 'driveHand'>;
   /** Whether VR is active. */
   readonly active: ReadonlySignal<boolean>;
   /** Progress of the hold that releases the emergency stop, 0–1. */
@@ -29,7 +29,7 @@ export function showOnWrist({
   appearance,
   panel,
   headset,
-  driveHand,
+  settings,
   active,
   releaseProgress,
 }: WristStatusParts): void {
@@ -53,7 +53,7 @@ export function showOnWrist({
         near: robot.tellsNear.value ? nearWords(robot.near.value) : null,
         estopAtRobot: robot.estopAtRobot.value,
         stop: stopWords[robot.stop.value],
-        driveHand,
+        driveHand: settings.driveHand,
         view: viewFact(headset.view.value, headset.model.scale),
         hazards: hazardHint(appearance.hazards.value, robot.heights.value),
         alarm: alarmLine(robot.alarms.value),

@@ -150,7 +150,7 @@ describe('HeadsetInput', () => {
     right.read([controller('left', 1, -1, 1), controller('right', 1, 0.5, -1)], 0, tracked);
     expect([right.held, right.wish.forward, right.turnStick]).toEqual([true, 1, -1]);
     expect(right.wish.left).toBeLessThan(0);
-    const left = new HeadsetInput('left');
+    const left = new HeadsetInput({ driveHand: 'left' });
     left.read([controller('left', 1, 0, -1), controller('right', 1, 0.8, 1)], 0, tracked);
     expect([left.held, left.wish, left.turnStick]).toEqual([true, { forward: 1, left: 0 }, 0.8]);
     left.read([controller('left', 0, 0, 0), controller('right', 1, 0.8, 1)], 0, tracked);
@@ -173,6 +173,23 @@ describe('HeadsetInput', () => {
     pushed([controller('right', 0, 0, -1)]);
     input.release();
     expect(input.pushed).toBe(false);
+  });
+
+  test('where the driving hand is another one now, both hands must open before one drives', () => {
+    const settings: { driveHand: 'right' | 'left' } = { driveHand: 'right' };
+    const input = new HeadsetInput(settings);
+    const both = (left: number, right: number) =>
+      input.read([controller('left', left, 0, -1), controller('right', right, 0, -1)], 0, tracked);
+    both(1, 1);
+    expect(input.held).toBe(true);
+    settings.driveHand = 'left';
+    both(1, 1);
+    expect([input.held, input.wish.forward]).toEqual([false, 0]);
+    both(1, 0);
+    expect(input.held).toBe(false);
+    both(0, 1);
+    both(1, 1);
+    expect([input.held, input.wish.forward]).toEqual([true, 1]);
   });
 
   test('a hand that is not tracked turns nothing, nor does one without a stick', () => {

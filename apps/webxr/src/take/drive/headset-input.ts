@@ -5,7 +5,7 @@
  */
 
 import type { DriveInput, DriveWish, PressedButtons } from '@farpoint/operator';
-import type { Hand } from '../../ground/headset-settings.ts';
+import { DEFAULT_HEADSET, type Hand, type HeadsetSettings } from '../../ground/headset-settings.ts';
 import { DEFAULT_STICK_RESPONSE, shapeAxis } from './dead-zone.ts';
 import type { GamepadState } from './gamepad-input.ts';
 
@@ -70,14 +70,16 @@ export class HeadsetInput implements DriveInput {
   /** Deflection to the right of the other hand's stick, −1…1; 0 while that hand is not tracked. */
   turnStick = 0;
   readMs = Number.NEGATIVE_INFINITY;
-  readonly #otherHand: Hand;
+  readonly #settings: Pick<HeadsetSettings, 'driveHand'>;
+  #driveHand: Hand;
   #mustOpen = false;
   #hand: string | null = null;
   #heldBefore: Readonly<HeldButtons> = NOTHING_HELD;
 
-  /** @param driveHand the hand that drives. A controller that is of no hand drives, too. */
-  constructor(driveHand: Hand = 'right') {
-    this.#otherHand = driveHand === 'right' ? 'left' : 'right';
+  /** @param settings the hand that drives, as it is at each reading. A controller that is of no hand drives, too. */
+  constructor(settings: Pick<HeadsetSettings, 'driveHand'> = DEFAULT_HEADSET) {
+    this.#settings = settings;
+    this.#driveHand = settings.driveHand;
   }
 
   /**
@@ -97,6 +99,10 @@ export class HeadsetInput implements DriveInput {
   ): HeadsetButtons {
     const held = { ...NOTHING_HELD };
     this.turnStick = 0;
+    const { driveHand } = this.#settings;
+    // A grip that is held already was not meant to drive.
+    if (driveHand !== this.#driveHand) this.release();
+    this.#driveHand = driveHand;
     let driving = this.#readSources(sources, tracks, held);
     this.#mustOpen = (this.#mustOpen || grabbing) && driving !== null;
     if (this.#mustOpen) driving = null;
@@ -110,6 +116,11 @@ export class HeadsetInput implements DriveInput {
     this.wish.forward = -shapeAxis(axes?.[3], DEFAULT_STICK_RESPONSE) + 0;
     this.wish.left = -shapeAxis(axes?.[2], DEFAULT_STICK_RESPONSE) + 0;
     return this.#pressedSince(held);
+  }
+
+  /** The hand that does not drive. */
+  get #otherHand(): Hand {
+    return this.#driveHand === 'right' ? 'left' : 'right';
   }
 
   /** Notes which buttons are held, and the other hand's stick. @returns the controller that is squeezed to drive */

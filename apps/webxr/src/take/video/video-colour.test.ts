@@ -39,7 +39,8 @@ class Bench extends RobotVoice {
   constructor({ synchronised = true, videos = [FRONT, DEPTH] } = {}) {
     super();
     this.colour = new VideoColour({
-      ...{ client: this as unknown as RobotClient, feed: this.feed, hold: this.hold, synchronised },
+      ...{ client: this as unknown as RobotClient, feed: this.feed, hold: this.hold },
+      settings: { synchronised },
       ...{ views: { switches: this.switches }, wanted: this.wanted },
       clouds: signal([this.view as unknown as CloudView]),
     });

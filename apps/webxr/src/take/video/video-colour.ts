@@ -49,8 +49,8 @@ export interface VideoColourParts {
   readonly views: Pick<VideoViews, 'switches'>;
   /** What draws each sensor's cloud, by sensor number. */
   readonly clouds: ReadonlySignal<readonly Pick<CloudView, 'paint' | 'isSurface' | 'colouring'>[]>;
-  /** Whether videos and clouds are shown in step. */
-  readonly synchronised: boolean;
+  /** Whether videos and clouds are shown in step: follows a setting that is a signal. */
+  readonly settings: { readonly synchronised: boolean };
   /** Whether the operator wants it. */
   readonly wanted: ReadonlySignal<boolean>;
 }
@@ -69,7 +69,7 @@ export class VideoColour {
 
   constructor(parts: VideoColourParts) {
     this.#parts = parts;
-    const { client, feed, clouds, synchronised, wanted } = parts;
+    const { client, feed, clouds, settings, wanted } = parts;
     client.on('session', () => {
       this.#videos = [];
       this.#pictures = {};
@@ -83,7 +83,7 @@ export class VideoColour {
     client.on('cloud', (batch) => this.#expect(batch));
     feed.onFrame = (video, image, captureMs, nowMs) => this.#take(video, image, captureMs, nowMs);
     effect(() => {
-      for (const { paint } of clouds.value) paint.on = synchronised && wanted.value;
+      for (const { paint } of clouds.value) paint.on = settings.synchronised && wanted.value;
     });
   }
 
@@ -115,13 +115,13 @@ export class VideoColour {
   }
 
   get #state(): VideoColourState {
-    const { clouds, views, synchronised, wanted } = this.#parts;
+    const { clouds, views, settings, wanted } = this.#parts;
     const all = clouds.peek();
     const sensor = all.findIndex((_, number) => this.#videoOf(number) >= 0);
     const view = all[sensor];
     if (view === undefined) return 'not-offered';
     if (!wanted.peek()) return 'switched-off';
-    if (!synchronised) return 'not-in-step';
+    if (!settings.synchronised) return 'not-in-step';
     if ((this.#share ?? 0) > LEAST_SHARE) return 'painted';
     if (!views.switches.wanted.peek().includes(this.#videoOf(sensor))) return 'not-watched';
     if (!view.isSurface) return 'no-surface';
@@ -140,10 +140,10 @@ export class VideoColour {
   }
 
   #take(video: number, { image, width, height }: VideoImage, captureMs: number, nowMs: number): void {
-    const { clouds, synchronised, wanted } = this.#parts;
+    const { clouds, settings, wanted } = this.#parts;
     const sensor = this.#videos[video]?.ofSensor;
     const view = sensor === undefined ? undefined : clouds.peek()[sensor];
-    if (view === undefined || !synchronised || !wanted.peek()) return;
+    if (view === undefined || !settings.synchronised || !wanted.peek()) return;
     this.#cameMs = nowMs;
     const use = view.paint.take({ image, width, height }, stampUs(captureMs));
     this.#use = use;

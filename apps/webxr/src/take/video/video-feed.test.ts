@@ -30,7 +30,7 @@ class Bench extends RobotVoice {
       client: client as unknown as RobotClient,
       views: this.views,
       words: { tooOld: 'Update it.', noCodec: 'No codec.' },
-      synchronised: options.synchronised ?? true,
+      settings: { synchronised: options.synchronised ?? true },
       presented: this.presented,
       now: () => this.nowMs,
       receiver:

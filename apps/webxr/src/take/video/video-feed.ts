@@ -65,8 +65,8 @@ export interface VideoFeedParts {
   readonly views: VideoViews;
   /** Why this browser cannot show a video. */
   readonly words: Readonly<Record<'tooOld' | 'noCodec', string>>;
-  /** Whether frames wait for what was captured at the same time. */
-  readonly synchronised: boolean;
+  /** Whether frames wait for what was captured at the same time: follows a setting that is a signal. */
+  readonly settings: { readonly synchronised: boolean };
   /** `null` if this browser cannot read videos. */
   readonly receiver: VideoReceiver | null;
   /** Told when the newest frame that is now shown was captured, ms on the robot's clock. */
@@ -104,11 +104,13 @@ export class VideoFeed {
   /** Make it before anything that takes the `cloud` event's batches. */
   constructor(parts: VideoFeedParts) {
     this.#parts = parts;
-    const { client, views, synchronised } = parts;
+    const { client, views, settings } = parts;
     this.#compositor = new Compositor({
-      synchronised,
       onDrop: ({ payload }) => payload?.close(),
       holds: (source) => source.startsWith(VIDEO),
+    });
+    effect(() => {
+      this.#compositor.synchronised = settings.synchronised;
     });
     client.on('session', () => this.#reset());
     client.on('videos', (videos) => this.#onList(videos));

@@ -1,0 +1,61 @@
+/** No state of the page breaks a rule of accessibility that a program can check, in any theme and on any screen. */
+import type { StageStateName } from '@farpoint/webxr/stage-states';
+import type { Page } from '@playwright/test';
+import { expectAccessible } from '../src/stage/accessibility.ts';
+import { test } from '../src/stage/page-test.ts';
+
+const SCREENS = [
+  { width: 1280, height: 720, isTouched: false },
+  { width: 360, height: 740, isTouched: true },
+  { width: 667, height: 320, isTouched: true },
+] as const;
+const THEMES = ['dark', 'light', 'contrast'] as const;
+
+interface Audited {
+  readonly what: string;
+  readonly state: StageStateName;
+  /** When the state has come about, ms. */
+  readonly forMs?: number;
+  /** More than there is room for on a phone: its panels are reached by scrolling. */
+  readonly onLaptopsOnly?: true;
+  open?(page: Page): Promise<void>;
+}
+
+const openSettings = (page: Page) => page.locator('#settings-open').click();
+
+const AUDITED: readonly Audited[] = [
+  { what: 'the list of robots', state: 'disconnected' },
+  { what: 'the settings', state: 'live', open: openSettings },
+  {
+    what: 'the grants',
+    state: 'live',
+    async open(page) {
+      await openSettings(page);
+      await page.locator('#access-open').click();
+    },
+  },
+  { what: 'driving', state: 'driving', forMs: 1000 },
+  { what: 'an emergency stop that is latched', state: 'stop-latched', forMs: 1000 },
+  { what: 'the dashboard', state: 'alarm', open: (page) => page.locator('#dashboard-open').click() },
+  { what: 'everything at once', state: 'everything', forMs: 1500, onLaptopsOnly: true },
+];
+
+for (const { what, state, forMs, onLaptopsOnly = false, open } of AUDITED)
+  for (const theme of THEMES)
+    test(`axe finds nothing wrong with ${what}: ${theme}`, async ({ stage }) => {
+      const stored = { 'farpoint.display': { theme } };
+      const page = await stage.open({
+        state,
+        canvas: '64x36',
+        stored,
+        ...(forMs === undefined ? {} : { forMs }),
+      });
+      await open?.(page);
+      for (const { width, height, isTouched } of SCREENS) {
+        if (isTouched && onLaptopsOnly) continue;
+        await stage.touched(isTouched);
+        await stage.resize(width, height);
+        await stage.run(500);
+        await expectAccessible(stage, `${what}, ${theme}, ${width} × ${height}`);
+      }
+    });
