@@ -13,7 +13,7 @@ import { ControlsUi } from '../panels/ui/controls-ui.ts';
 import { elements } from '../panels/ui/elements.ts';
 import { EstopUi } from '../panels/ui/estop-ui.ts';
 import { showNearWords } from '../panels/ui/near-panel.ts';
-import { showTitle } from '../panels/ui/page-title.ts';
+import { keepRobotInAddress, showTitle } from '../panels/ui/page-title.ts';
 import { showPeople } from '../panels/ui/people-panel.ts';
 import { showPicturePanels } from '../panels/ui/picture-panels.ts';
 import { showRobotList, showRobotSwitcher } from '../panels/ui/robot-list.ts';
@@ -107,11 +107,12 @@ export class PagePanels {
 
   /** Draws the state in the document from now on. */
   show(): void {
-    const { client, state, vr, choose } = this.#parts;
+    const { client, state, vr, choose, origin } = this.#parts;
     showTitle(state.link);
+    keepRobotInAddress(state.link);
     showStatus(state);
     showNearWords(state);
-    showRobotList(state.link, choose);
+    showRobotList(state.link, new URL(origin).host, choose);
     showRobotSwitcher(state.link, choose);
     showPeople(state, client);
     showSensorSwitches(state.sensors);

@@ -41,6 +41,8 @@ export function linkState({ client, samples, signalingFault, isOnline }: LinkSta
     chosenRobotId,
     /** A robot is chosen. The page connects to it whenever possible. */
     connected: computed(() => phase.value !== 'none'),
+    /** The state of the connection to the signaling service. */
+    signaling: samples.of(() => link.signaling),
     /** A session is established. */
     live: computed(() => phase.value === 'live'),
     silence,

@@ -2,6 +2,7 @@
 import type { RobotListing } from '@farpoint/protocol';
 import { effect } from '@preact/signals-core';
 import type { LinkState } from '../../state/link-state.ts';
+import { emptyListWords } from '../../words/robots-words.ts';
 import { elements } from './elements.ts';
 
 /** The list of robots in the bar. It shows the chosen robot, and switches to another one in a single action. */
@@ -27,7 +28,12 @@ export function showRobotSwitcher(link: LinkState, onChoose: (robotId: string) =
   });
 }
 
-export function showRobotList({ robots }: LinkState, onChoose: (robotId: string) => void): void {
+/** @param host of the signaling service, for people */
+export function showRobotList(
+  { robots, signaling }: LinkState,
+  host: string,
+  onChoose: (robotId: string) => void,
+): void {
   effect(() => {
     const { robotList, robotsEmpty } = elements;
     const { activeElement } = document;
@@ -38,6 +44,9 @@ export function showRobotList({ robots }: LinkState, onChoose: (robotId: string)
       if (button.dataset.robot === focused) button.focus();
     }
     robotsEmpty.hidden = robots.value.length > 0;
+    const words = emptyListWords(signaling.value, host);
+    robotsEmpty.textContent = words.text;
+    robotsEmpty.dataset.tone = words.tone;
   });
 }
 
