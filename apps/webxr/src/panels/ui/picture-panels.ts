@@ -103,7 +103,7 @@ function showStagedCamera(
 }
 
 /** On a smaller screen panels stay in their strip: there is no room to move them to, pixels. As in the style sheet. */
-const NARROW = '(max-width: 640px) and (min-height: 561px)';
+const NARROW = '(max-width: 640px) and (min-height: 481px)';
 
 /** @returns `null` while panels cannot be moved; follows the window's size */
 function panelArea(): ReadonlySignal<Box | null> {
