@@ -18,7 +18,7 @@ const STATES: Readonly<Record<StageStateName, readonly string[]>> = {
   still: ['estop', 'holder'],
   driving: ['estop', 'holder', 'release'],
   'other-drives': ['estop', 'holder', 'take'],
-  'stop-latched': ['estop', 'estop-release', 'stop-state', 'stop-band'],
+  'stop-latched': ['estop', 'estop-release', 'stop-band'],
   'stopped-at-robot': ['estop', 'estop-release', 'stop-band'],
   'stop-unconfirmed': ['estop', 'stop-state', 'banner'],
   'stop-by-other': ['estop', 'stop-band'],
@@ -39,7 +39,8 @@ const STATES: Readonly<Record<StageStateName, readonly string[]>> = {
   watching: ['estop', 'holder'],
   people: ['estop', 'people'],
   alarm: ['estop', 'alarm'],
-  playback: ['estop', 'alarm'],
+  playback: ['estop', 'alarm', 'about'],
+  recorded: ['estop', 'about'],
   'two-sensors': ['estop'],
   videos: ['estop', 'pictures'],
   cameras: ['estop', 'pictures'],
@@ -94,10 +95,10 @@ const SCREENS = [
   { width: 427, height: 240, isTouched: false },
   { width: 320, height: 180, isTouched: false },
 ] as const;
-/** On a phone the figures are one line that opens with what is below it, and the band says that STOP is confirmed. */
-function onPhone(id: string, _: number, seen: readonly string[]): readonly string[] {
+/** On a phone the figures are one line that opens with what is below it. */
+function onPhone(id: string): readonly string[] {
   if (id === 'facts') return ['facts-fold'];
-  return id === 'people' || (id === 'stop-state' && seen.includes('stop-band')) ? [] : [id];
+  return id === 'people' ? [] : [id];
 }
 /** On less, something of a state may open only when it is asked for, pixels. */
 const LOW = 481;

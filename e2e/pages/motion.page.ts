@@ -72,9 +72,9 @@ test('a robot that is held before something says so, in words, at the speed and 
   await expect(edge).toBeVisible();
   expect((await stage.state()).near.blocked).toBeCloseTo(0, 1);
   // Whoever looks to the left has it at the right.
-  await page.mouse.move(160, 60);
+  await page.mouse.move(480, 200);
   await page.mouse.down();
-  await page.mouse.move(260, 60, { steps: 5 });
+  await page.mouse.move(580, 200, { steps: 5 });
   await page.mouse.up();
   await stage.run(100);
   expect((await stage.state()).near.blocked).toBeLessThan(-0.2);

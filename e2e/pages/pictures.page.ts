@@ -126,7 +126,7 @@ test.describe('on a phone held upright', () => {
     for (const each of [0, 1]) await stage.picture(each, bars);
     await stage.run(400);
     expect(await expectNothingCovered(page, 'two pictures')).toEqual(
-      expect.arrayContaining(['estop', 'joystick', 'facts', 'pictures']),
+      expect.arrayContaining(['estop', 'joystick', 'facts-fold', 'pictures']),
     );
     for (const name of ['Gripper', 'Mast']) {
       const box = await panel(page, name).boundingBox();

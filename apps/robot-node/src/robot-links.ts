@@ -21,6 +21,7 @@ import { openReferenceProfile, type ReferenceProfile } from './serve/reference/r
 import { RobotStreams, type StreamsAudience } from './serve/robot-streams.ts';
 import type { OperatorSession } from './serve/session/operator-session.ts';
 import type { OperatorSessions } from './serve/session/operator-sessions.ts';
+import { robotAbout } from './serve/session/robot-about.ts';
 import type { RobotSessionHost } from './serve/session/robot-session-host.ts';
 import { welcome } from './serve/session/welcome.ts';
 import { MeasurementLogs } from './tell/measurement-logs.ts';
@@ -114,8 +115,9 @@ export function linkSessions(
   { host, paths }: DriveCore,
 ): OperatorSessions {
   const { options, parts, signaling, counters, logs, board, log } = context;
-  const { grants, robotKey, audit, videos } = parts;
-  return openSessions(options, {
+  const { grants, robotKey, audit, videos, recording } = parts;
+  const about = () => robotAbout(options, recording?.writes ?? false);
+  const sessions = openSessions(options, {
     grants,
     robotKey,
     audit,
@@ -133,10 +135,15 @@ export function linkSessions(
     log,
     welcome: (operator) => {
       const { quantities, alarms } = board;
-      const told = { ...options, quantities, alarms: alarms.raised, nowS: Date.now() / 1000 };
+      const told = { ...options, about: about(), quantities, alarms: alarms.raised, nowS: Date.now() / 1000 };
       welcome(operator, told, streams.sensors, streams.cameras.videos);
     },
   });
+  if (recording !== null)
+    recording.onEnded = () => {
+      for (const { messages } of sessions.operators.values()) messages.send(about());
+    };
+  return sessions;
 }
 
 /** The interface to the reference system's operators; `null` if it is not enabled. */

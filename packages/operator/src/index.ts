@@ -47,6 +47,7 @@ export type {
   Quaternion,
   Reading,
   ReadingLevel,
+  RobotAbout,
   RobotBody,
   RobotListing,
   RobotStop,

@@ -79,6 +79,7 @@ export * from './quantity.ts';
 export * from './reading.ts';
 export * from './reference-bridge.ts';
 export * from './return-state.ts';
+export { type RobotAbout, shownSources } from './robot-about.ts';
 export { type BodyHeights, OWN_BODY_M, type RobotBody } from './robot-body.ts';
 export {
   type JointPositions,

@@ -17,6 +17,7 @@ import { MAX_CAMERAS } from './picture-chunk.ts';
 import { MAX_SENSORS } from './placement.ts';
 import { operatorsSchema, roles } from './present-operators.ts';
 import { quantitySchema } from './quantity.ts';
+import { robotAboutSchema } from './robot-about.ts';
 import { robotModelSchema } from './robot-model.ts';
 import { sensorRingsSchema, sensorSchema } from './sensor-rings.ts';
 import {
@@ -163,6 +164,7 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
       ),
     }),
     estopCauseSchema,
+    robotAboutSchema,
     sensorRingsSchema,
     robotModelSchema,
     quantitySchema,

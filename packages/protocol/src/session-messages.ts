@@ -8,6 +8,7 @@ import type { EstopCause } from './estop-cause.ts';
 import type { Handover } from './handover.ts';
 import type { Operators, Role } from './present-operators.ts';
 import type { Quantity } from './quantity.ts';
+import type { RobotAbout } from './robot-about.ts';
 import type { RobotBody } from './robot-body.ts';
 import type { RobotModelParts } from './robot-model.ts';
 import type { SensorRings } from './sensor-rings.ts';
@@ -262,6 +263,7 @@ export type RobotSessionMessage =
   | CommandRejected
   | EstopState
   | EstopCause
+  | RobotAbout
   | LatencyFrame
   | CloudStream
   | Cameras

@@ -559,6 +559,10 @@ robot_session.spoil(tall, ("body.heights.clearanceM", -0.01), ("body.heights.cle
                     ("body.heights.widthM", 1, "body.heights"), ("body.heights", None))
 for role in ["watch", "supervise"]:
     robot_session.good(changed(admitted, "access.role", role), "welcome, role: " + role)
+about = robot_session.good({"type": "about", "drives": True, "shows": "sensors", "recorded": False})
+robot_session.good({"type": "about", "drives": True, "shows": "simulation", "recorded": True}, "about a simulated robot")
+robot_session.good({"type": "about", "drives": False, "shows": "files", "recorded": False}, "about a robot that plays files")
+robot_session.spoil(about, ("drives", 1), ("drives", None), ("shows", "camera"), ("recorded", "no"))
 caused = robot_session.good({"type": "estopCause", "latch": 7, "pressedBy": "Ada", "yours": True, "heldBy": ["gpio", "key"], "start": "was-latched", "release": "latcher"})
 for start in "unclean-exit", "unreadable", "unwritable":
     robot_session.good({"type": "estopCause", "latch": 1, "yours": False, "start": start, "release": "driver"}, "estopCause: " + start)

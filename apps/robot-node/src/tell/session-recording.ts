@@ -59,6 +59,9 @@ export class SessionRecording implements VideoTaker {
   readonly #options: SessionOutputs;
   readonly #log: Logger;
   readonly #keyFramesMs = new Map<number, number>();
+  /** Called once nothing is written to a file any more, although the robot goes on. */
+  onEnded: (() => void) | null = null;
+  #ended = false;
 
   private constructor(recorder: SessionRecorder, options: SessionOutputs, log: Logger) {
     this.#recorder = recorder;
@@ -88,15 +91,30 @@ export class SessionRecording implements VideoTaker {
             ownNames: foxglove.ownNames,
           };
     const recorder = await SessionRecorder.open({ path, compression, robotId, epochNs, mostBytes, live });
-    recorder.onFailure = (error) => log.error({ err: error }, 'the recording ends; the robot goes on');
-    recorder.onFull = () =>
+    const recording = new SessionRecording(recorder, options, log);
+    recorder.onFailure = (error) => {
+      log.error({ err: error }, 'the recording ends; the robot goes on');
+      recording.#end();
+    };
+    recorder.onFull = () => {
       log.warn(
         { path, bytes: recorder.bytes, remedy: MORE_ROOM },
         `the recording has reached ${sizeWords(mostBytes)} and is closed, whole; the robot goes on`,
       );
-    const recording = new SessionRecording(recorder, options, log);
+      recording.#end();
+    };
     recording.#logLive();
     return recording;
+  }
+
+  /** Whether the session is being written to a file now. */
+  get writes(): boolean {
+    return this.#options.record !== null && !this.#ended;
+  }
+
+  #end(): void {
+    this.#ended = true;
+    this.onEnded?.();
   }
 
   /** Logs how fast the recording will grow, and where it ends. */

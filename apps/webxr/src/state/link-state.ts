@@ -87,7 +87,7 @@ function bannerOf(
 function lineOf({ link, pointsAtMs }: RobotClient, signalingFault: string | null, atMs: number): Words {
   if (signalingFault !== null && link.phase === 'none')
     return { text: `Signaling address: ${signalingFault}`, tone: 'bad' };
-  const { grantEndsAtMs, telemetry } = link.session;
+  const { grantEndsAtMs, telemetry, about } = link.session;
   return linkWords({
     phase: link.phase,
     signaling: link.signaling,
@@ -99,6 +99,7 @@ function lineOf({ link, pointsAtMs }: RobotClient, signalingFault: string | null
     silentMs: link.silentMs(atMs),
     silence: robotSilence(link, atMs),
     pointsSilentMs: atMs - pointsAtMs,
+    plays: about?.shows === 'files',
     rateByReports: telemetry?.stream.feedback === 'reports',
   });
 }

@@ -9,17 +9,22 @@ import {
   rejectionWords,
   type Tone,
   type Words,
+  wordsOfLoss,
   wordsOfRejection,
 } from '../words/words.ts';
 import { Takeover } from './takeover.ts';
 
-/** Tells people what happens to the session and to their commands, as short notices. Of a loss, the banner tells. */
+/** Tells people what happens to the session and to their commands, as short notices. The banner tells of a loss. */
 export function tellNotices(client: RobotClient, notices: Notices): void {
   const takeover = new Takeover();
   const { driver, link } = client;
   // What follows from a takeover must not hide it.
   const isDisplaced = () => takeover.by(driver.isGripped) !== null;
   client.on('session', () => takeover.reset());
+  client.on('loss', (loss) => {
+    // The page does not try again, so that there is no banner.
+    if (loss === 'ended-by-supervisor') notices.tell(wordsOfLoss(loss, link), 'warning');
+  });
   client.on('lease', ({ holder, driver: name = null }) => {
     if (takeover.onLease(holder, name)) notices.tell(takenOverWords(name), 'warning');
   });
@@ -36,7 +41,9 @@ export function tellNotices(client: RobotClient, notices: Notices): void {
   });
   client.on('gripMissing', (device) => {
     const role = link.session.welcome?.access?.role ?? null;
-    if (link.phase === 'live') notices.tell(missingGripWords(device, driver.holder, role), 'warning');
+    const drives = link.session.about?.drives ?? true;
+    if (link.phase === 'live' && drives)
+      notices.tell(missingGripWords(device, driver.holder, role), 'warning');
   });
   client.on('gripLost', (loss) => notices.tell(gripLossWords[loss], 'warning'));
   client.on('robotFault', (message) => notices.tell(`The robot reports: ${message}`, 'warning'));

@@ -28,8 +28,7 @@ export function robotState(client: RobotClient, samples: Sampler) {
   return {
     /** Whether points come as they should: otherwise no figure of them is live. */
     pointsHeard: samples.of((atMs) => comesPoints(client, atMs)),
-    /** `null` before the robot's welcome. */
-    name: samples.of(() => link.session.welcome?.name ?? null),
+    ...aboutState(client, samples),
     telemetry: samples.of(() => link.session.telemetry),
     readings: samples.of((atMs) => readingsWithNavigation(link.session, atMs)),
     /** The alarms that are raised, the worst first. */
@@ -72,6 +71,18 @@ export function robotState(client: RobotClient, samples: Sampler) {
     }),
     /** The most that it drives, m/s. */
     maxLinear: samples.of(() => link.session.welcome?.limits.maxLinear ?? 0),
+  };
+}
+
+/** What the robot is. */
+function aboutState({ link }: RobotClient, samples: Sampler) {
+  return {
+    /** `null` before the robot's welcome. */
+    name: samples.of(() => link.session.welcome?.name ?? null),
+    /** Whether it plays files, and whether it records; `null` if it does not say. */
+    about: steady(samples.of(() => (link.phase === 'live' ? link.session.about : null))),
+    /** Whether it has anything that velocities move; one that does not say has. */
+    drives: samples.of(() => link.session.about?.drives ?? true),
   };
 }
 

@@ -207,7 +207,11 @@ const states = {
         ? { ...message, recorded: true as const }
         : message,
     );
-    robot.greeting = [...told, lowBattery(robot.nowMs, true)];
+    const about = { type: 'about', drives: false, shows: 'files', recorded: false } as const;
+    robot.greeting = [about, ...told, lowBattery(robot.nowMs, true)];
+  }),
+  recorded: robotThat('The robot records the session', ({ robot }) => {
+    robot.greeting = [{ type: 'about', drives: true, shows: 'sensors', recorded: true }];
   }),
   'two-sensors': {
     what: 'A camera and a LiDAR',

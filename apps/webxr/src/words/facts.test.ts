@@ -18,6 +18,7 @@ const open = { type: 'estop', latched: false } as const;
 const session = {
   heard: true,
   pointsHeard: true,
+  drives: true,
   name: 'Rover',
   telemetry,
   estop: open,
@@ -33,6 +34,7 @@ describe('the table of figures', () => {
     const seen = { ...figures, view: { state: 'predicted', aheadMs: 142 } } as const;
     expect(values(sessionFacts({ ...session, figures: seen })).View).toBe('Predicted 140 ms ahead');
     expect(values(sessionFacts({ ...session, figures: seen, telemetry: null })).View).toBeUndefined();
+    expect(values(sessionFacts({ ...session, figures: seen, drives: false })).View).toBeUndefined();
   });
 
   test('without a word from the robot no figure of it is live; without points none of them', () => {

@@ -75,6 +75,8 @@ export interface SessionFacts {
   heard: boolean;
   /** Points have come just now, as often as they should: otherwise no figure of them is live. */
   pointsHeard: boolean;
+  /** Whether it has anything that velocities move: otherwise nothing is predicted. */
+  drives: boolean;
   /** The robot's name; `null` before its welcome. */
   name: string | null;
   telemetry: Telemetry | null;
@@ -92,11 +94,11 @@ export function sessionFacts(session: SessionFacts): Fact[] {
   return allFacts(session).map((fact) => (isLive(fact.name) ? fact : { name: fact.name, value: NO_FIGURE }));
 }
 
-function allFacts({ name, telemetry, estop, maxLinear, readings, figures }: SessionFacts): Fact[] {
+function allFacts({ drives, name, telemetry, estop, maxLinear, readings, figures }: SessionFacts): Fact[] {
   const facts: Fact[] = [];
   if (name !== null) facts.push({ name: 'Robot', value: name });
   if (telemetry !== null) facts.push(...telemetryFacts(telemetry, estop, maxLinear));
-  if (telemetry !== null && figures.view !== undefined)
+  if (telemetry !== null && figures.view !== undefined && drives)
     facts.push({ name: 'View', value: viewWords(figures.view) });
   addReadings(facts, readings);
   facts.push(...streamFacts(figures));

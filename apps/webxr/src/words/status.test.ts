@@ -14,6 +14,7 @@ const live = {
   silentMs: 20,
   silence: 'heard',
   pointsSilentMs: 20,
+  plays: false,
   rateByReports: false,
 } as const;
 
@@ -45,6 +46,7 @@ describe('words', () => {
 
   test('the link’s line names the most serious problem', () => {
     expect(linkWords(live)).toEqual({ text: 'Live', tone: 'good' });
+    expect(linkWords({ ...live, plays: true }).text).toBe('Playback');
     expect(linkWords({ ...live, signaling: 'waiting' }).text).toContain('signaling offline');
     expect(linkWords({ ...live, rateByReports: true }).text).toContain('cautious rate');
     expect(linkWords({ ...live, pointsSilentMs: 3000 }).text).toContain('no points are arriving');

@@ -197,6 +197,8 @@ export interface LinkFacts {
   silence: Silence;
   /** Time since the last point, ms. */
   pointsSilentMs: number;
+  /** The robot plays files. */
+  plays: boolean;
   /** The robot learns the path's state from receiver reports only. */
   rateByReports: boolean;
 }
@@ -243,7 +245,7 @@ export function linkWords(facts: LinkFacts): Words {
           tone: 'warning',
         };
       }
-      return { text: 'Live', tone: 'good' };
+      return { text: facts.plays ? 'Playback' : 'Live', tone: 'good' };
     }
   }
 }

@@ -41,6 +41,8 @@ describe('RobotSession', () => {
     session.onMessage('session', '{"type":"lease","holder":"you","lease":"abc"}', 0);
     session.onMessage('session', '{"type":"estop","latched":true,"by":"robot"}', 0);
     session.onMessage('session', new TextEncoder().encode('{"type":"fault","message":"no"}'), 0);
+    session.onMessage('session', '{"type":"about","drives":false,"shows":"files","recorded":true}', 0);
+    expect(session.about).toMatchObject({ drives: false, shows: 'files', recorded: true });
     expect(session.lease).toEqual({ type: 'lease', holder: 'you', lease: 'abc' });
     expect(session.estop.latched).toBe(true);
     const videos =

@@ -23,6 +23,7 @@ import {
   ProtocolError,
   type Quantity,
   type Reading,
+  type RobotAbout,
   type RobotSessionMessage,
   robotControlCodec,
   robotSessionCodec,
@@ -130,6 +131,8 @@ export class RobotSession {
   estop: EstopState = { type: 'estop', latched: false };
   /** Who pressed STOP, why else the robot stands, and who may release it; `null` if the robot has not said so of the present latch. */
   estopCause: EstopCause | null = null;
+  /** What must be known of the robot; `null` if it does not say. */
+  about: RobotAbout | null = null;
   /** The robot's latest telemetry; `null` before the first. */
   telemetry: Telemetry | null = null;
   /** What is near the robot, in each direction. */
@@ -188,6 +191,9 @@ export class RobotSession {
     // The `estop` message that it explains comes next.
     estopCause: (cause) => {
       this.estopCause = cause;
+    },
+    about: (about) => {
+      this.about = about;
     },
     latencyFrame: (frame) => this.#events.onLatencyFrame(frame),
     cloudStream: (stream) => this.#events.onCloudStream(stream),

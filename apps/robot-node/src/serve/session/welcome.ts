@@ -4,6 +4,7 @@ import {
   type DriveLimits,
   PROTOCOL_VERSION,
   type Quantity,
+  type RobotAbout,
   type RobotBody,
 } from '@farpoint/protocol';
 import { FLOOR_SLOPE } from '@farpoint/safety';
@@ -27,6 +28,7 @@ export interface WelcomeFacts {
   resumeWithinMs: number;
   sensors: readonly CloudSensorOptions[];
   motion: MotionLimits;
+  about: RobotAbout;
   obstacleGuard: ObstacleGuardConfiguration;
   quantities: readonly Quantity[];
   /** Those that are raised. */
@@ -62,7 +64,7 @@ export function welcome(
   });
   messages.sendLease();
   messages.sendEstop();
-  for (const message of [...quantities, ...alarms]) messages.send(message);
+  for (const message of [facts.about, ...quantities, ...alarms]) messages.send(message);
   if (cameras.length > 0) messages.send({ type: 'cameras', cameras: cameras.map(({ name }) => ({ name })) });
   if (sensors.all.length > 1) {
     messages.send({ type: 'sensors', sensors: sensors.all.map(({ name }) => ({ name })) });

@@ -19,6 +19,7 @@ export const elements = {
   vrReason: byId('vr-reason', HTMLElement),
   dashboardOpen: byId('dashboard-open', HTMLButtonElement),
   dashboard: byId('dashboard', HTMLElement),
+  about: byId('about', HTMLElement),
   alarm: byId('alarm', HTMLButtonElement),
   settingsOpen: byId('settings-open', HTMLButtonElement),
   settings: byId('settings', HTMLDialogElement),

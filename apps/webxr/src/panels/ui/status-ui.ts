@@ -1,6 +1,7 @@
 /** Shows the link, who drives, and the session's figures. */
 import { effect } from '@preact/signals-core';
 import type { PageState } from '../../state/page-state.ts';
+import { aboutWords, withoutWheelsWords } from '../../words/about-words.ts';
 import { alarmLine } from '../../words/alarm-words.ts';
 import type { Banner } from '../../words/banner-words.ts';
 import { sessionFacts } from '../../words/facts.ts';
@@ -33,18 +34,28 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
     elements.hud.dataset.stale = String(!link.heard.value);
   });
   effect(() => {
-    setPill(elements.holder, driving.line.value);
+    const words = aboutWords(robot.about.value);
+    elements.about.hidden = words.length === 0;
+    elements.about.replaceChildren(...words.map(pillOf));
+  });
+  effect(() => {
+    const drives = robot.drives.value;
+    setPill(elements.holder, drives ? driving.line.value : withoutWheelsWords);
     // Neither can be asked of a robot that does not hear.
     elements.take.disabled = !link.heard.value;
     elements.release.disabled = !link.heard.value;
-    elements.take.hidden = !driving.mayTake.value;
+    elements.take.hidden = !drives || !driving.mayTake.value;
     elements.release.hidden = driving.holder.value !== 'you';
-    const watches = driving.role.value === 'watch';
+    const watches = !drives || driving.role.value === 'watch';
     elements.joystick.hidden = watches;
     elements.driveHint.hidden = watches;
   });
   effect(() => showWords(elements.motionState, robot.motion.value));
   effect(() => showWords(elements.obstacleGuard, robot.obstacleGuard.value));
+  showFigures({ link, robot, figures });
+}
+
+function showFigures({ link, robot, figures }: Pick<PageState, 'link' | 'robot' | 'figures'>): void {
   effect(() => {
     if (!link.live.value) return;
     const { name, telemetry, estop, readings, componentTopics } = robot;
@@ -55,6 +66,7 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
       sessionFacts({
         heard: link.heard.value,
         pointsHeard: robot.pointsHeard.value,
+        drives: robot.drives.value,
         name: name.value,
         telemetry: telemetry.value,
         estop: estop.value,
@@ -77,6 +89,13 @@ function showBanner(banner: Banner | null): void {
 function showWords(element: HTMLElement, words: Words | null): void {
   element.hidden = words === null;
   if (words !== null) setPill(element, words);
+}
+
+function pillOf(words: Words): HTMLElement {
+  const pill = document.createElement('span');
+  pill.className = 'pill';
+  setPill(pill, words);
+  return pill;
 }
 
 function setPill(element: HTMLElement, words: Words): void {

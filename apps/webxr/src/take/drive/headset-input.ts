@@ -104,10 +104,11 @@ export class HeadsetInput implements DriveInput {
     if (driveHand !== this.#driveHand) this.release();
     this.#driveHand = driveHand;
     let driving = this.#readSources(sources, tracks, held);
+    const isOpen = driving === null;
     this.#mustOpen = (this.#mustOpen || grabbing) && driving !== null;
     if (this.#mustOpen) driving = null;
     if (driving === null || tracks(driving)) this.readMs = nowMs;
-    this.pushed = driving === null && !grabbing && this.#isAnyPushed(sources, tracks);
+    this.pushed = isOpen && !grabbing && this.#isAnyPushed(sources, tracks);
     this.talks = driving !== null && pullsOther(sources, driving);
     this.held = driving !== null;
     this.#hand = driving?.handedness ?? null;
