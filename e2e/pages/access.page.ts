@@ -39,7 +39,7 @@ test('whoever may drive can take over, once, from somebody else', async ({ stage
   await stage.run(300);
   expect((await stage.sent('leaseRequest')).filter(({ take }) => take)).toHaveLength(1);
   await expect(page.locator('#holder')).toHaveText('You have control');
-  await page.getByRole('button', { name: 'Hand over' }).click();
+  await page.getByRole('button', { name: 'Give up the drive' }).click();
   await stage.run(300);
   expect((await stage.state()).holder).toBe('nobody');
 });
@@ -149,6 +149,7 @@ test('a robot with another key is not taken for the one that this browser knows'
 
 test('a supervisor sees who is here, and ends a driver’s session', async ({ stage }) => {
   const page = await stage.open({ state: 'people' });
+  await stage.resize(1280, 720);
   await page.getByText('3 are here: Bo drives').click();
   await expect(page.getByText('Anna (you, supervisor)')).toBeVisible();
   await page.getByRole('button', { name: 'End the session of Bo…' }).click();

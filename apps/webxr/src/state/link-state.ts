@@ -27,8 +27,7 @@ export interface LinkStateParts {
 export function linkState({ client, samples, signalingFault, isOnline }: LinkStateParts) {
   const { link } = client;
   const takeover = new Takeover();
-  client.on('lease', ({ holder, driver: name = null }) => takeover.onLease(holder, name));
-  client.on('session', () => takeover.reset());
+  takeover.follow(client);
   const silence = samples.of((atMs) => robotSilence(link, atMs));
   const phase = samples.of(() => link.phase);
   const robots = samples.of(() => link.robots);
@@ -79,7 +78,8 @@ function bannerOf(
     maxOperators: link.maxOperators,
     lossDetail: link.lossDetail,
     gripped: driver.isGripped,
-    gripLost: driver.lost,
+    // A hand that holds on after it has handed the drive over has agreed to that.
+    gripLost: takeover.isDisplaced(driver.isGripped) ? null : driver.lost,
     takenOverBy: takeover.by(driver.isGripped),
   });
 }

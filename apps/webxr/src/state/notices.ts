@@ -3,6 +3,8 @@
 import type { RobotClient } from '@farpoint/operator';
 import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
 import { missingGripWords, takenOverWords } from '../words/driving-words.ts';
+import { handoverEndWords } from '../words/handover-words.ts';
+import { presserWords } from '../words/stop-notices.ts';
 import {
   failureWords,
   gripLossWords,
@@ -19,14 +21,21 @@ export function tellNotices(client: RobotClient, notices: Notices): void {
   const takeover = new Takeover();
   const { driver, link } = client;
   // What follows from a takeover must not hide it.
-  const isDisplaced = () => takeover.by(driver.isGripped) !== null;
-  client.on('session', () => takeover.reset());
-  client.on('loss', (loss) => {
-    // The page does not try again, so that there is no banner.
-    if (loss === 'ended-by-supervisor') notices.tell(wordsOfLoss(loss, link), 'warning');
+  const isDisplaced = () => takeover.isDisplaced(driver.isGripped);
+  takeover.follow(client, (name) => notices.tell(takenOverWords(name), 'warning'));
+  client.on('handover', ({ ended, ...handover }) => {
+    const { estopCause, operators } = link.session;
+    if (ended === undefined) return;
+    // Whoever has taken over while its own request was open has what it asked for.
+    if (ended === 'driver-changed' && driver.holder === 'you') return;
+    const words = handoverEndWords({ ...handover, ended }, presserWords(estopCause, operators));
+    if (words !== null) notices.tell(words.text, words.tone);
   });
-  client.on('lease', ({ holder, driver: name = null }) => {
-    if (takeover.onLease(holder, name)) notices.tell(takenOverWords(name), 'warning');
+  // Then no robot is chosen, of which a banner could tell.
+  client.on('loss', (loss) => {
+    const { maxOperators, lossDetail } = link;
+    if (loss === 'ended-by-supervisor')
+      notices.tell(wordsOfLoss(loss, { maxOperators, lossDetail }), 'warning');
   });
   client.on('grantExpires', (inS) => notices.tell(`Your grant ends in ${inS} s.`, 'warning'));
   client.on('refused', (message) => notices.tell(message, 'warning'));
@@ -45,7 +54,9 @@ export function tellNotices(client: RobotClient, notices: Notices): void {
     if (link.phase === 'live' && drives)
       notices.tell(missingGripWords(device, driver.holder, role), 'warning');
   });
-  client.on('gripLost', (loss) => notices.tell(gripLossWords[loss], 'warning'));
+  client.on('gripLost', (loss) => {
+    if (!isDisplaced()) notices.tell(gripLossWords[loss], 'warning');
+  });
   client.on('robotFault', (message) => notices.tell(`The robot reports: ${message}`, 'warning'));
   client.on('failed', ({ detail }) => {
     console.error('cloud worker:', detail);

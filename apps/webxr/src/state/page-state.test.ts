@@ -4,6 +4,7 @@ import {
   Readings,
   type RobotClient,
   type RobotEvents,
+  RobotPeople,
   type StopStatus,
 } from '@farpoint/operator';
 import type { EstopState, LeaseState, RobotListing, Telemetry, Welcome } from '@farpoint/protocol';
@@ -30,6 +31,7 @@ class Client extends RobotVoice {
     readings: new Readings(),
     alarms: new Map(),
     components: new ComponentReports(),
+    people: new RobotPeople(),
   };
   readonly link = {
     phase: 'none' as Phase,

@@ -11,15 +11,18 @@ import type { CameraView } from '../ground/pictures/camera-view.ts';
 import type { Settings } from '../ground/settings.ts';
 import { Switches } from '../ground/switches.ts';
 import { VideoViews } from '../take/video/video-views.ts';
+import { driverWords } from '../words/handover-words.ts';
 import type { PageStats } from '../words/page-stats.ts';
 import { holderWords } from '../words/words.ts';
 import { Enlarged } from './enlarged.ts';
 import { LinkPriority } from './link-priority.ts';
 import { type LinkState, linkState, robotSilence } from './link-state.ts';
 import type { Notices } from './notices.ts';
+import { PeopleState } from './people-state.ts';
 import { comesPoints, type RobotState, robotState } from './robot-state.ts';
 import { Sampler } from './sampler.ts';
 import { SoundState } from './sound-state.ts';
+import { StopNews } from './stop-news.ts';
 
 /** Which camera has changed places with the cloud: it fills the screen, and the cloud is in its panel. */
 export class Staged {
@@ -67,7 +70,7 @@ function drivingState({ driver, link }: RobotClient, samples: Sampler) {
       holderWords({
         heard: link.phase !== 'live' || (robotSilence(link, atMs) === 'heard' && !link.interrupted),
         holder: driver.holder,
-        driver: link.session.lease.driver ?? null,
+        driver: driverWords(link.session.lease, link.session.operators),
         role: link.session.welcome?.access?.role ?? null,
         device: driver.stream.held ? (driver.input?.name ?? '') : null,
         gripLost: driver.lost,
@@ -89,6 +92,8 @@ const SAMPLED = [
   'path',
   'session',
   'lease',
+  'operators',
+  'handover',
   'estop',
   'stop',
   'alarm',
@@ -113,6 +118,9 @@ export class PageState {
   readonly link: LinkState;
   readonly robot: RobotState;
   readonly driving: DrivingState;
+  readonly people: PeopleState;
+  /** Tells of STOPs and releases by others. */
+  readonly stopNews: StopNews;
   readonly figures: ReadonlySignal<PageStats>;
   /** The sensors of a robot that has several, and which of them should send clouds. */
   readonly sensors = new Switches();
@@ -151,6 +159,8 @@ export class PageState {
     this.link = linkState({ client, samples: this.#samples, signalingFault, isOnline });
     this.robot = robotState(client, this.#samples);
     this.driving = drivingState(client, this.#samples);
+    this.people = new PeopleState(client, this.#samples);
+    this.stopNews = new StopNews(client, notices);
     this.figures = this.#samples.of(figures);
     this.sampledAtMs = this.#samples.atMs;
     this.pictures = new CameraPictures(this.cameras, this.sampledAtMs, newCanvas);

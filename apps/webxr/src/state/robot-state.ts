@@ -4,6 +4,7 @@ import { nearView } from '../ground/near-field/near-view.ts';
 import { arePointsHeard } from '../ground/silence.ts';
 import { alarmWords, raisedFirst } from '../words/alarm-words.ts';
 import { latchedStop } from '../words/estop-words.ts';
+import { driverWords, listedNameWords } from '../words/handover-words.ts';
 import { motionWords, obstacleGuardWords, speedWords } from '../words/motion-words.ts';
 import { readingsWithNavigation } from '../words/navigation-words.ts';
 import { robotSilence } from './link-state.ts';
@@ -94,9 +95,12 @@ function estopState({ link, stops, driver }: RobotClient, samples: Sampler) {
     latchedStop: steady(
       samples.of(() => {
         if (link.phase !== 'live') return null;
-        const { estop, estopCause: cause, lease, welcome } = link.session;
+        const { estop, estopCause, lease, welcome, operators } = link.session;
         const role = welcome?.access?.role ?? null;
-        return latchedStop({ estop, cause, holder: driver.holder, driver: lease.driver ?? null, role });
+        const pressedBy = estopCause?.pressedBy && listedNameWords(estopCause.pressedBy, operators);
+        const cause = estopCause && { ...estopCause, pressedBy };
+        const named = driverWords(lease, operators);
+        return latchedStop({ estop, cause, holder: driver.holder, driver: named, role });
       }),
     ),
     /**

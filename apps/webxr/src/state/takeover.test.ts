@@ -31,3 +31,38 @@ test('one without a name counts, and getting the lease back ends it', () => {
   takeover.onLease('you', null);
   expect(takeover.by(true)).toBeNull();
 });
+
+const own = {
+  type: 'handover',
+  id: 1,
+  kind: 'offer',
+  from: { number: 1, name: 'Ada' },
+  to: { number: 2, name: 'Grace' },
+  yours: true,
+} as const;
+
+test('an offer that is accepted is no takeover, also if others end with it', () => {
+  const takeover = new Takeover();
+  takeover.onLease('you', null);
+  expect(takeover.onLease('other', 'Grace', true)).toBe(false);
+  expect(takeover.by(true)).toBeNull();
+  expect(takeover.onHandover({ ...own, kind: 'ask', yours: false, ended: 'driver-changed' }, true)).toBe(
+    false,
+  );
+  expect(takeover.onHandover({ ...own, ended: 'accepted' }, false)).toBe(false);
+  expect(takeover.by(true)).toBeNull();
+  expect([takeover.isDisplaced(true), takeover.isDisplaced(false), takeover.isDisplaced(true)]).toEqual([
+    true,
+    false,
+    false,
+  ]);
+});
+
+test('whoever takes over in spite of an open offer is told once the offer has ended', () => {
+  const takeover = new Takeover();
+  takeover.onLease('you', null);
+  takeover.onLease('other', 'Sue', true);
+  expect(takeover.onHandover({ ...own, ended: 'driver-changed' }, false)).toBe(true);
+  expect(takeover.by(true)).toBe('Sue');
+  expect(takeover.onHandover({ ...own, ended: 'driver-changed' }, false)).toBe(false);
+});

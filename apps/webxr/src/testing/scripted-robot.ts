@@ -18,6 +18,7 @@ import type {
   Twist,
   Welcome,
 } from '@farpoint/protocol';
+import { ScriptedPeople } from './scripted-people.ts';
 
 const TELEMETRY_MS = 50;
 /** From the request to the session, ms. */
@@ -61,6 +62,8 @@ export class ScriptedRobot implements LinkScript {
   delayMs = 0;
   pose: { x: number; y: number; z: number; yaw: number } = { x: 0, y: 0, z: 0, yaw: 0 };
   velocity = { linear: 0, angular: 0 };
+  /** The other operators. */
+  readonly people = new ScriptedPeople(this);
   #link: ScriptedLink | null = null;
   #sequence = 0;
   #commandMs = Number.NEGATIVE_INFINITY;
@@ -105,6 +108,7 @@ export class ScriptedRobot implements LinkScript {
     this.lease = { type: 'lease', holder, ...(holder === 'you' ? { lease: LEASE } : {}) };
     if (driver !== undefined) this.lease.driver = driver;
     this.tell(this.lease);
+    this.people.list();
   }
 
   /** The emergency stop is in this state now. @param cause who or what stopped it, and who may release that */
@@ -118,6 +122,7 @@ export class ScriptedRobot implements LinkScript {
     const { latched, latch } = this.estop;
     if (latched && latch !== undefined) this.tell({ type: 'estopCause', latch, ...this.cause });
     this.tell(this.estop);
+    if (latched) this.people.interrupt('estop');
   }
 
   #later(act: () => void): void {
@@ -138,6 +143,7 @@ export class ScriptedRobot implements LinkScript {
     for (const message of [welcome, this.lease]) this.tell(message);
     this.#tellStop();
     for (const message of this.greeting) this.tell(message);
+    this.people.list();
     this.#report();
   }
 
@@ -163,6 +169,18 @@ export class ScriptedRobot implements LinkScript {
       case 'command':
         this.#commandMs = performance.now();
         this.#wish = message.lease === LEASE ? message.twist : null;
+        return;
+      case 'driveAsk':
+        this.people.request('ask', undefined);
+        return;
+      case 'driveOffer':
+        this.people.request('offer', message.to);
+        return;
+      case 'driveAnswer':
+        this.people.close(message.id, message.accept ? 'accepted' : 'refused');
+        return;
+      case 'driveWithdraw':
+        this.people.close(message.id, 'withdrawn');
     }
   }
 

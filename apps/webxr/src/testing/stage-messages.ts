@@ -5,6 +5,7 @@ import {
   NEAR_SECTORS,
   type NearSector,
   nearFieldText,
+  type PresentOperator,
   type Videos,
 } from '@farpoint/protocol';
 
@@ -93,3 +94,9 @@ export const people: ToldMessage = {
     { number: 3, name: 'Cy', role: 'watch', drives: false, you: false },
   ],
 };
+/** At a robot without grants: nothing proves their names. */
+export const threePeople: readonly Omit<PresentOperator, 'drives'>[] = [
+  { number: 1, name: 'Anna', claimed: true, role: 'drive', you: true },
+  { number: 2, name: 'Bo', claimed: true, role: 'drive', you: false },
+  { number: 3, name: 'Cy', claimed: true, role: 'drive', you: false, away: true },
+];

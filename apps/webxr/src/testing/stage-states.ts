@@ -11,6 +11,7 @@ import {
   sound,
   telemetryOf,
   thingAt,
+  threePeople,
   twoCameras,
   twoSensors,
   twoVideos,
@@ -197,6 +198,21 @@ const states = {
   people: robotThat('Several people are here', ({ robot }) => {
     robot.access = { role: 'supervise', name: 'Anna', expiresInS: 3600 };
     robot.greeting = [people];
+  }),
+  'asked-to-drive': afterwards('You drive, and another asks you for the drive', ({ robot }) => {
+    robot.people.here = threePeople;
+    robot.giveLease('you');
+    robot.people.wants('ask', 'Bo');
+  }),
+  'offered-the-drive': afterwards('The driver offers you the drive', ({ robot }) => {
+    robot.people.here = threePeople;
+    robot.giveLease('other', 'Bo');
+    robot.people.wants('offer', 'Bo');
+  }),
+  'own-request': afterwards('You have asked the driver for the drive', ({ robot, app }) => {
+    robot.people.here = threePeople;
+    robot.giveLease('other', 'Bo');
+    app.client.people.askToDrive();
   }),
   alarm: robotThat('The battery is low', ({ robot }) => {
     robot.greeting = [...telemetryOf(robot.nowMs), lowBattery(robot.nowMs)];

@@ -53,7 +53,6 @@ export class ControlsUi {
     elements.latency.addEventListener('click', ({ timeStamp }) => this.act('latency-test', timeStamp));
     elements.view.addEventListener('click', () => this.act('view', performance.now()));
     elements.take.addEventListener('click', () => client.takeOver());
-    elements.release.addEventListener('click', () => client.driver.releaseLease());
     // A button that kept the focus would take the space bar, which is the drive grip.
     for (const button of document.querySelectorAll<HTMLButtonElement>('#bar button, #drive button')) {
       button.addEventListener('click', () => button.blur());

@@ -18,13 +18,15 @@ export class EstopUi {
   readonly #robot: PageState['robot'];
   readonly #link: PageState['link'];
   readonly #notices: Pick<Notices, 'tell'>;
+  readonly #stopNews: PageState['stopNews'];
   readonly #hold: ReleaseHold;
 
-  constructor(client: RobotClient, { robot, link, notices }: PageState, hold: ReleaseHold) {
+  constructor(client: RobotClient, { robot, link, notices, stopNews }: PageState, hold: ReleaseHold) {
     this.#client = client;
     this.#robot = robot;
     this.#link = link;
     this.#notices = notices;
+    this.#stopNews = stopNews;
     this.#hold = hold;
     // What is below the band makes room for it. Observers are told in the order in which they were made: this one comes first.
     followHeight(elements.stopBand, '--stop-band');
@@ -75,7 +77,9 @@ export class EstopUi {
   update(nowMs: number, away: boolean): void {
     if (away) this.#hold.letGo();
     const mayRelease = this.#robot.latchedStop.peek()?.mayRelease === true;
-    if (this.#hold.advance(nowMs, mayRelease)) this.#client.releaseEstop();
+    if (!this.#hold.advance(nowMs, mayRelease)) return;
+    this.#stopNews.onOwnRelease();
+    this.#client.releaseEstop();
   }
 }
 

@@ -1,43 +1,71 @@
-/** Who has a session with the robot; for supervisors, also a way to end another's. */
+/** Who has a session with the robot, and what this operator may do with each: offer the drive, end the session. */
 import type { RobotClient } from '@farpoint/operator';
 import { computed, effect } from '@preact/signals-core';
 import type { PageState } from '../../state/page-state.ts';
 import { steady } from '../../state/sampler.ts';
 import { type ShownPerson, shownPeople } from '../../words/people-words.ts';
 import { elements } from './elements.ts';
+import { showHandOver } from './hand-over-dialog.ts';
+import { showHandovers } from './handover-panel.ts';
 import { openDialog } from './open-dialog.ts';
 
-export function showPeople({ robot, driving }: PageState, client: Pick<RobotClient, 'endSession'>): void {
-  const { people, peopleLine, peopleList } = elements;
+type PeopleClient = Pick<RobotClient, 'endSession' | 'people' | 'driver'>;
+
+export function showPeople(state: PageState, client: PeopleClient): void {
+  const { robot, driving, people: dealings } = state;
+  const { people, peopleLine, peopleList, peopleAsk } = elements;
   // A button that is made anew loses the focus.
   const shown = steady(
-    computed(() => shownPeople(robot.operators.value, driving.role.value === 'supervise')),
+    computed(() =>
+      shownPeople({
+        operators: robot.operators.value,
+        role: driving.role.value,
+        holder: driving.holder.value,
+        waits: dealings.own.value !== null,
+        stopped: robot.estopLatched.value,
+        drivesMinutes: dealings.drivesMinutes.value,
+      }),
+    ),
   );
   effect(() => {
-    const { line, persons } = shown.value;
+    const { line, persons, mayAsk } = shown.value;
     people.hidden = line === null;
     peopleLine.textContent = line ?? '';
+    peopleAsk.hidden = !mayAsk;
+    const focused = peopleList.contains(document.activeElement) ? document.activeElement?.ariaLabel : null;
     peopleList.replaceChildren(...persons.map((person) => itemOf(person, client)));
+    for (const button of peopleList.querySelectorAll('button'))
+      if (button.ariaLabel === focused) button.focus();
   });
+  peopleAsk.addEventListener('click', () => {
+    peopleAsk.blur();
+    client.people.askToDrive();
+  });
+  showHandOver({ shown, drives: computed(() => driving.holder.value === 'you'), client });
+  showHandovers(state, client.people);
 }
 
-function itemOf(person: ShownPerson, client: Pick<RobotClient, 'endSession'>): HTMLLIElement {
+function itemOf({ number, name, text, mayOffer, mayEnd }: ShownPerson, client: PeopleClient): HTMLLIElement {
   const [item, label] = [document.createElement('li'), document.createElement('span')];
-  label.textContent = person.text;
+  label.textContent = text;
   item.append(label);
-  const { number, name } = person;
-  if (person.mayEnd) {
+  const add = (words: string, ariaLabel: string, act: () => void) => {
     const button = document.createElement('button');
     button.type = 'button';
     button.className = 'quiet';
-    button.textContent = 'End session…';
-    button.ariaLabel = `End the session of ${name}…`;
+    button.textContent = words;
+    button.ariaLabel = ariaLabel;
     button.addEventListener('click', () => {
       button.blur();
-      confirmEnd(name, (block) => client.endSession(number, { block }));
+      act();
     });
     item.append(button);
-  }
+  };
+  if (mayOffer) add('Offer the drive', `Offer the drive to ${name}`, () => client.people.offerDrive(number));
+  if (mayEnd)
+    add('End session…', `End the session of ${name}…`, () =>
+      confirmEnd(name, (block) => client.endSession(number, { block })),
+    );
   return item;
 }
 
