@@ -19,7 +19,7 @@ export interface DriveCoreOptions extends DriveOptions, Pick<RobotOptions, 'sile
 /** Its ends: the wheels, the operators, and those who are told. */
 export interface DriveCoreParts
   extends Omit<DriveParts, 'heard' | 'count' | 'audit'>,
-    Pick<RobotSessionHostParts, 'audit' | 'budgets' | 'sensors' | 'videos' | 'commandLog' | 'now'>,
+    Pick<RobotSessionHostParts, 'audit' | 'budgets' | 'sensors' | 'videos' | 'commandLog' | 'traces' | 'now'>,
     Pick<PathKeeperOptions, 'signaling'> {
   operators: () => ReadonlyMap<string, HostedOperator & KeptOperator>;
   /** Operators besides those. */
@@ -35,7 +35,7 @@ export class DriveCore {
 
   constructor(options: DriveCoreOptions, parts: DriveCoreParts) {
     const { operators, alsoHeard, counters, signaling, budgets, sensors, videos, commandLog, now } = parts;
-    const { recording, audit, log } = parts;
+    const { recording, audit, traces, log } = parts;
     const count = (reason: Intervention) => counters.interventions.add(reason);
     const heard = () => [...operators().values(), alsoHeard()];
     this.driving = openDrive(options, { ...parts, heard, count });
@@ -47,6 +47,7 @@ export class DriveCore {
       recording,
       audit,
       commandLog,
+      traces,
       log,
       operators,
       budgets,

@@ -27,6 +27,7 @@ import { welcome } from './serve/session/welcome.ts';
 import { MeasurementLogs } from './tell/measurement-logs.ts';
 import { openBoard } from './tell/open-board.ts';
 import { RobotReports } from './tell/robot-reports.ts';
+import { SpanExporter } from './tell/spans/span-exporter.ts';
 import type { TelemetryBoard } from './tell/telemetry-board.ts';
 import { TelemetrySender } from './tell/telemetry-sender.ts';
 
@@ -38,6 +39,8 @@ export interface RobotContext {
   counters: RobotCounters;
   stages: StageTimer;
   logs: MeasurementLogs;
+  /** `null`: nothing is exported. */
+  spans: SpanExporter | null;
   board: TelemetryBoard;
   log: Logger;
 }
@@ -50,7 +53,8 @@ export function openContext(
 ): RobotContext {
   const board = openBoard(options, parts.captures[0] as Capture, parts.recording, log);
   const logs = new MeasurementLogs(options.measurementFolder);
-  return { options, parts, signaling, counters, stages: new StageTimer(), logs, board, log };
+  const spans = options.spans === undefined ? null : new SpanExporter(options.spans, log);
+  return { options, parts, signaling, counters, stages: new StageTimer(), logs, spans, board, log };
 }
 
 /** Sensors, cameras and sound, on their way to those who watch. @param ends what they tell to systems that come later */
@@ -89,7 +93,7 @@ export function linkStreams(
 
 /** All that decides whether the robot moves. */
 export function linkCore(
-  { options, parts, counters, signaling, logs, log }: RobotContext,
+  { options, parts, counters, signaling, logs, spans, log }: RobotContext,
   { budgets, sensors, cameras }: RobotStreams,
   audience: StreamsAudience,
 ): DriveCore {
@@ -99,6 +103,7 @@ export function linkCore(
     counters,
     signaling,
     commandLog: logs.commands,
+    traces: spans?.traces,
     operators: () => audience.operators,
     alsoHeard: () => audience.reference?.operator,
     sensors: () => sensors,
@@ -210,7 +215,7 @@ function peerOptions({ options, counters }: RobotContext) {
 
 /** Closes what is left once the wheels stand and the sessions have ended. */
 export async function closeLinked(
-  { parts: { sink, base, obstacles, recording }, signaling, logs }: RobotContext,
+  { parts: { sink, base, obstacles, recording }, signaling, logs, spans }: RobotContext,
   streams: RobotStreams,
   { returns }: Drive,
   stops: RobotStops,
@@ -218,6 +223,6 @@ export async function closeLinked(
   for (const part of [sink, base]) await part?.close();
   streams.sendLoop.close();
   await signaling.close();
-  for (const part of [stops, obstacles, returns, streams, recording]) await part?.close();
+  for (const part of [stops, obstacles, returns, streams, recording, spans]) await part?.close();
   logs.write();
 }

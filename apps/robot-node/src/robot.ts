@@ -98,6 +98,11 @@ export class Robot implements StreamsAudience {
     return this.driving.station;
   }
 
+  /** What exports spans; `null` if nothing does. */
+  get spans(): link.RobotContext['spans'] {
+    return this.#context.spans;
+  }
+
   /** Time since the capture thread last gave a sign of life, ms; 0 before the first. */
   get captureSilenceMs(): number {
     return this.#captureSeenMs === null ? 0 : monotonicMs() - this.#captureSeenMs;

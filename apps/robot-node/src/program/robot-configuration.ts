@@ -20,6 +20,7 @@ import type { VideoCameraOptions } from '../serve/cameras/open-video-cameras.ts'
 import type { OperatorPlacesOptions } from '../serve/session/operator-places.ts';
 import type { AlarmRule } from '../tell/alarms/alarm-board.ts';
 import type { LiveOptions, RecordingOptions } from '../tell/recording-options.ts';
+import type { SpanOptions } from '../tell/spans/span-exporter.ts';
 
 /** Everything that a robot is made of. */
 export interface RobotOptions extends RateControlOptions {
@@ -96,6 +97,8 @@ export interface RobotOptions extends RateControlOptions {
   record?: RecordingOptions | undefined;
   /** Where the same is served live; if undefined, nowhere. */
   foxglove?: LiveOptions | undefined;
+  /** Where spans of clouds and commands go; if undefined, nowhere. */
+  spans?: SpanOptions | undefined;
 }
 
 export function hasSound({ sound: { microphone, loudspeaker } }: Pick<RobotOptions, 'sound'>): boolean {

@@ -9,6 +9,7 @@ import type { ReferenceProfile } from '../../serve/reference/reference-profile.t
 import type { RobotStreams } from '../../serve/robot-streams.ts';
 import type { OperatorSession } from '../../serve/session/operator-session.ts';
 import type { SessionRecording } from '../../tell/session-recording.ts';
+import type { SpanExporter } from '../../tell/spans/span-exporter.ts';
 
 /** The parts of a robot that have metrics; `null` for those that it does not have. */
 export interface MeasuredRobot {
@@ -25,4 +26,5 @@ export interface MeasuredRobot {
   readonly driving: Drive;
   readonly streams: RobotStreams;
   readonly reference: ReferenceProfile | null;
+  readonly spans: SpanExporter | null;
 }

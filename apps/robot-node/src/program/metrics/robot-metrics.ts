@@ -42,6 +42,15 @@ function addLiveMetrics(metrics: PulledMetrics, { recording }: MeasuredRobot['pa
   );
 }
 
+/** Metrics of the spans. None if no endpoint takes them. */
+function addSpanMetrics(metrics: PulledMetrics, { spans }: Pick<MeasuredRobot, 'spans'>): void {
+  if (spans === null) return;
+  metrics.sums('spans', 'Spans of clouds and commands, by what became of them', 'outcome', () => [
+    ...spans.outcomes.entries(),
+    ['dropped', spans.traces.overwrittenSpans],
+  ]);
+}
+
 /** Registers all of the robot's counts for `/metrics`. */
 export function registerRobotMetrics(registry: Registry, robot: MeasuredRobot): void {
   const metrics = new PulledMetrics(registry, 'farpoint_robot');
@@ -59,4 +68,5 @@ export function registerRobotMetrics(registry: Registry, robot: MeasuredRobot): 
   addRecordingMetrics(metrics, robot.parts);
   addLiveMetrics(metrics, robot.parts);
   addReferenceMetrics(metrics, robot);
+  addSpanMetrics(metrics, robot);
 }

@@ -34,6 +34,7 @@ import { toMotion } from './motion.ts';
 import { readCertificates, readText } from './read-text.ts';
 import { type RobotOptionKey, type RobotOptionValues, robotProgram } from './robot-program.ts';
 import { rosKindOf } from './sink.ts';
+import { tracesUrl } from './spans.ts';
 import { toStateFolder } from './state.ts';
 import { toFence } from './to-fence.ts';
 import { toGraph } from './to-graph.ts';
@@ -111,6 +112,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     ...toStreams(values),
     ...toConnections(values),
     ...toFiles(values),
+    spans: toSpans(values, ca),
     sensors: toSensors(values, topics),
     base: toBase(values),
     sink: toSink(values),
@@ -214,6 +216,12 @@ function toFiles(values: RobotOptionValues) {
     measurementFolder: values.measure ?? undefined,
     record: toRecording(values),
   } satisfies Partial<RobotOptions>;
+}
+
+function toSpans(values: RobotOptionValues, ca: string | null): RobotOptions['spans'] {
+  if (values.otlpEndpoint === null) return undefined;
+  const url = tracesUrl(values.otlpEndpoint);
+  return { url, ca: ca ?? undefined, robotId: values.id, version: robotProgram.version };
 }
 
 function toFoxglove(values: RobotOptionValues): RobotOptions['foxglove'] {

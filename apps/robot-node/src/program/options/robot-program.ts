@@ -23,6 +23,7 @@ import { identityOptions, modelOptions, signalingOptions } from './signaling.ts'
 import { simOptions } from './sim.ts';
 import { sinkOptions } from './sink.ts';
 import { shmOptions, sourceOptions } from './source.ts';
+import { spanOptions } from './spans.ts';
 import { auditOptions, stateOptions } from './state.ts';
 import { stopsOptions } from './stops.ts';
 import { picturesOptions, streamOptions } from './stream.ts';
@@ -50,7 +51,7 @@ const groups = {
   'Broadcast through Janus': broadcastOptions,
   'Network paths': networkOptions,
   'Recordings and Foxglove': { ...recordingOptions, ...foxgloveOptions },
-  'Health, metrics and measurement': { ...adminOptions(9400), ...measurementOptions },
+  'Health, metrics and measurement': { ...adminOptions(9400), ...spanOptions, ...measurementOptions },
 } satisfies Record<string, OptionTable>;
 
 const options = mergeGroups(groups);

@@ -23,7 +23,8 @@ import {
 import type { CommandVerdict, RejectedCommand } from '@farpoint/safety';
 import { type Access, mayDrive, openAccess, supervises } from '../../admit/access/access.ts';
 import type { DriveStation } from '../../motion/drive/drive-station.ts';
-import { StageBoard } from '../../tell/stage-board.ts';
+import type { SentFrame, TimedCommand } from '../../tell/spans/trace-queue.ts';
+import { type FrameStations, StageBoard } from '../../tell/stage-board.ts';
 import { CommandPipeline, NOT_PERMITTED } from './command-pipeline.ts';
 import { EstopRequests } from './estop-requests.ts';
 import { MessageRates, type RatedMessage } from './message-rates.ts';
@@ -53,6 +54,10 @@ export interface SessionHost {
   commandRejected(rejection: RejectedCommand): void;
   /** For a recording: each command, and the guard's verdict. */
   commandJudged?(session: OperatorMessages, command: Command, verdict: CommandVerdict): void;
+  /** For its spans: when a frame that was sent to an operator passed the robot's stations. */
+  frameTimed?(session: OperatorMessages, frame: SentFrame, at: Readonly<FrameStations>): void;
+  /** For its spans: when a command did. */
+  readonly commandTimed?: TimedCommand | undefined;
   /** For a recording: what an operator measured. */
   latencyMeasured?(session: OperatorMessages, measured: LatencyMeasured): void;
   /** For the audit log: a request that was refused. */
@@ -104,7 +109,10 @@ export class OperatorMessages {
       mayDrive: () => mayDrive(this.access),
       judged: (command, verdict) => host.commandJudged?.(this, command, verdict),
       accepted: () => host.commandAccepted(),
-      timed: (...command) => this.stages.command(...command),
+      timed: (sequence, receivedMs, judgedMs, wheelsMs) => {
+        this.stages.command(sequence, receivedMs, judgedMs, wheelsMs);
+        host.commandTimed?.(this, sequence, receivedMs, judgedMs, wheelsMs);
+      },
       rejected: (verdict) => host.commandRejected(verdict),
       latencyTestRequested: (test, commandMs) => host.latencyTestRequested(this, test, commandMs),
       report: (rejected) => this.send(rejected),

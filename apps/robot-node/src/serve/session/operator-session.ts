@@ -301,10 +301,12 @@ export class OperatorSession extends FrameReceiver {
   #noteStages(shared: SharedFrame, sender: StreamSender): void {
     const departure = sender.departureOf(shared);
     if (departure === null) return;
-    const { sensor, frameNumber, capturedAtMs, inMemoryMs, readyMs } = shared.frame;
+    const { frame } = shared;
+    const { sensor, frameNumber, capturedAtMs, inMemoryMs, readyMs } = frame;
     const { firstMs: firstLeftMs, lastMs: lastLeftMs } = departure;
     const at = { capturedAtMs, inMemoryMs, readyMs, firstLeftMs, lastLeftMs };
     this.messages.stages.frame(sensor, frameNumber, at);
+    this.#host.frameTimed?.(this.messages, frame, at);
   }
 
   #sendPictures(): void {

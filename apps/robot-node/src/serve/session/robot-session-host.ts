@@ -21,6 +21,8 @@ import type { CloudSensors } from '../../send/clouds/cloud-sensors.ts';
 import { isUnintended, type PeerEnd } from '../../send/transport/peer-events.ts';
 import type { VideoHub } from '../../sense/video/video-hub.ts';
 import type { CommandLog } from '../../tell/command-log.ts';
+import type { SentFrame, TimedCommand, TraceQueue } from '../../tell/spans/trace-queue.ts';
+import type { FrameStations } from '../../tell/stage-board.ts';
 import { EstopStory } from './estop-story.ts';
 import type { RatedMessage } from './message-rates.ts';
 import type { OperatorMessages, SessionHost } from './operator-messages.ts';
@@ -41,6 +43,8 @@ export interface RobotSessionHostParts {
   recording: DriveRecording | null;
   audit: RobotAudit;
   commandLog: CommandLog | undefined;
+  /** Without it, nothing is exported. */
+  traces?: TraceQueue | undefined;
   log: Logger;
   now: () => number;
   /** Who drove last has left on purpose. */
@@ -180,6 +184,14 @@ export class RobotSessionHost implements SessionHost {
     this.#parts.recording?.command(session.id, command, verdict);
     this.#parts.commandLog?.add(command, verdict.accepted, session.heardMs);
   }
+
+  frameTimed(session: OperatorMessages, frame: SentFrame, at: Readonly<FrameStations>): void {
+    this.#parts.traces?.cloud(session, frame, at);
+  }
+
+  readonly commandTimed: TimedCommand = (session, sequence, receivedMs, judgedMs, wheelsMs) => {
+    this.#parts.traces?.command(session, sequence, receivedMs, judgedMs, wheelsMs);
+  };
 
   latencyMeasured(session: OperatorMessages, measured: LatencyMeasured): void {
     this.#parts.recording?.latencyMeasured(session.id, measured);
