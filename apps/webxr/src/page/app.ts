@@ -7,6 +7,7 @@ import { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
 import { elements } from '../panels/ui/elements.ts';
 import { OperatorInputs } from '../panels/ui/operator-inputs.ts';
 import { NearFieldDisplay } from '../panels/ui/show-near-field.ts';
+import type { NoticeSign } from '../scene/headset/notice-sign.ts';
 import { PredictedView } from '../scene/view/predicted-view.ts';
 import { showRobot } from '../scene/view/show-robot.ts';
 import { Stage } from '../scene/view/stage.ts';
@@ -46,6 +47,8 @@ export class App implements ShownParts {
   readonly panels: PagePanels;
   /** The panel on the wrist in VR. */
   wrist: WristPanel | null = null;
+  /** The sign before the eyes in VR. */
+  sign: NoticeSign | null = null;
   #headset: HeadsetControls | null = null;
   readonly #release = new ReleaseHold();
   readonly releaseProgress = this.#release.progress;
@@ -127,8 +130,9 @@ export class App implements ShownParts {
     panels.start();
     client.start();
     if (settings.robot !== null) client.choose(settings.robot);
-    const { panel, controls } = showPage(this);
+    const { panel, sign, controls } = showPage(this);
     this.wrist = panel;
+    this.sign = sign;
     this.#headset = controls;
     const { estop, cloudPanel } = panels;
     const drawRobot = (nowMs: number) => showRobot(this, nowMs);

@@ -1,32 +1,33 @@
 /** Connects the headset with the page: what its hands and buttons do to the view, besides driving. */
 import { effect, untracked } from '@preact/signals-core';
-import { HEADSET_VIEWS, type HeadsetSettings, type HeadsetView } from '../ground/headset-settings.ts';
+import { HEADSET_VIEWS, type HeadsetView } from '../ground/headset-settings.ts';
 import type { OperatorInputs } from '../panels/ui/operator-inputs.ts';
 import { GrabbingHands } from '../scene/headset/grabbing-hands.ts';
-import { ViewSign } from '../scene/headset/view-sign.ts';
+import type { NoticeSign } from '../scene/headset/notice-sign.ts';
 import type { PicturePointer } from '../scene/view/picture-pointer.ts';
 import type { Stage } from '../scene/view/stage.ts';
 import type { VrSession } from '../scene/view/vr-session.ts';
 import type { PageState } from '../state/page-state.ts';
-import { HEADSET_VIEW_WORDS, viewHint } from '../words/headset-words.ts';
+import { viewNotice } from '../words/headset-words.ts';
 
 export interface HeadsetParts {
-  readonly settings: HeadsetSettings;
   readonly stage: Pick<Stage, 'renderer' | 'rig' | 'camera' | 'headset'>;
   readonly vr: VrSession;
   readonly inputs: OperatorInputs;
   readonly state: Pick<PageState, 'robot' | 'notices'>;
   readonly pointer: PicturePointer;
+  /** Before the operator's eyes. */
+  readonly sign: NoticeSign;
 }
 
 export class HeadsetControls {
   readonly #parts: HeadsetParts;
   readonly #hands: GrabbingHands;
-  readonly #sign = new ViewSign();
+  #readMs = 0;
 
   constructor(parts: HeadsetParts) {
     this.#parts = parts;
-    const { stage, vr, inputs, state, pointer } = parts;
+    const { stage, vr, inputs, state, pointer, sign } = parts;
     const { renderer, rig, camera, headset } = stage;
     // A hand that drives, a trigger that releases the emergency stop, or one that chooses a picture holds nothing.
     this.#hands = new GrabbingHands(
@@ -39,16 +40,13 @@ export class HeadsetControls {
         !state.robot.estopLatched.peek() &&
         !pointer.pointsAtPicture(index),
     );
-    camera.add(this.#sign.object);
+    camera.add(sign.object);
     vr.onHidden = () => {
       inputs.releaseAll();
       this.#hands.letGo();
     };
     vr.onRecentre = ({ position, orientation }) => headset.recentre(position, orientation);
     vr.onReset = () => headset.begin();
-    effect(() => {
-      if (!vr.active.value) this.#sign.object.visible = false;
-    });
     let before: HeadsetView | null = null;
     effect(() => {
       const passthrough = vr.passthrough.value;
@@ -68,7 +66,7 @@ export class HeadsetControls {
 
   /** Call this before each display frame in VR. */
   read(): void {
-    const { stage, vr, inputs, pointer } = this.#parts;
+    const { stage, vr, inputs, pointer, sign } = this.#parts;
     const { headset } = stage;
     vr.update();
     headset.floorY = vr.floorY;
@@ -79,7 +77,9 @@ export class HeadsetControls {
     inputs.readHeadset(vr.inputSources, this.#tracks, hands.hold);
     headset.turnStick = vr.hidden ? 0 : inputs.turnStick;
     pointer.update();
-    this.#sign.update(performance.now());
+    const nowMs = performance.now();
+    sign.update(nowMs - this.#readMs);
+    this.#readMs = nowMs;
   }
 
   /** The next view. Whoever drives lets go: what the hands do is about to look different. */
@@ -89,12 +89,11 @@ export class HeadsetControls {
   }
 
   show(view: HeadsetView): void {
-    const { stage, inputs, state, settings } = this.#parts;
+    const { stage, inputs, state } = this.#parts;
     inputs.releaseAll();
     this.#hands.letGo();
     stage.headset.show(view);
-    state.notices.tell(`View in the headset: ${HEADSET_VIEW_WORDS[view].toLowerCase()}`);
-    this.#sign.say(HEADSET_VIEW_WORDS[view], viewHint(view, settings.driveHand), performance.now());
+    state.notices.tell(viewNotice(view));
   }
 
   readonly #tracks = (source: XRInputSource): boolean => this.#parts.vr.tracks(source);

@@ -7,6 +7,8 @@ import type { Switches } from '../ground/switches.ts';
 import { giveCues } from '../panels/cues/cues.ts';
 import type { OperatorInputs } from '../panels/ui/operator-inputs.ts';
 import type { RememberedWorld } from '../panels/ui/remembered-world.ts';
+import { NoticeSign } from '../scene/headset/notice-sign.ts';
+import { showNoticesInVr } from '../scene/headset/show-notices.ts';
 import type { SensorClouds } from '../scene/view/sensor-clouds.ts';
 import { SensorFrusta } from '../scene/view/sensor-frusta.ts';
 import { showHazards } from '../scene/view/show-hazards.ts';
@@ -72,12 +74,24 @@ function applyAppearance(parts: AppearanceParts): void {
   });
 }
 
-export interface HeadsetOptions extends Omit<HeadsetParts, 'pointer' | 'state' | 'stage'> {
+export interface HeadsetOptions extends Omit<HeadsetParts, 'pointer' | 'sign' | 'state' | 'stage'> {
+  settings: HeadsetSettings;
   state: PageState;
   appearance: Pick<CloudAppearance, 'hazards'>;
   stage: Stage;
   /** How far the hold is that releases the emergency stop, 0…1. */
   releaseProgress: ReadonlySignal<number>;
+  /** The signaling service's host, for people. */
+  host: string;
+  /** Whether the operator holds a grip. */
+  isGripped(): boolean;
+}
+
+/** What the headset has of the page. */
+export interface OpenedHeadset {
+  readonly panel: WristPanel;
+  readonly sign: NoticeSign;
+  readonly controls: HeadsetControls;
 }
 
 /** The hand that does not drive. */
@@ -85,17 +99,20 @@ function otherHand({ driveHand }: Pick<HeadsetSettings, 'driveHand'>): Hand {
   return driveHand === 'right' ? 'left' : 'right';
 }
 
-/** What a headset shows and reads: the panel on the wrist, pictures, and the controllers. */
-function openHeadset(options: HeadsetOptions): { panel: WristPanel; controls: HeadsetControls } {
-  const { settings, state, appearance, stage, vr, releaseProgress } = options;
+/** What a headset shows and reads: the sign before the eyes, the panel on the wrist, pictures, and the controllers. */
+function openHeadset(options: HeadsetOptions): OpenedHeadset {
+  const { settings, state, appearance, stage, vr, releaseProgress, host, isGripped } = options;
   const { renderer, rig, headset } = stage;
   const panel = new WristPanel(renderer, rig, headset.front, otherHand(settings));
   effect(() => {
     panel.hand = otherHand(settings);
   });
-  showOnWrist({ state, appearance, panel, headset, settings, active: vr.active, releaseProgress });
-  const pointer = showPicturesInVr({ state, panel, stage, active: vr.active });
-  return { panel, controls: new HeadsetControls({ ...options, pointer }) };
+  const { active } = vr;
+  showOnWrist({ state, appearance, panel, headset, settings, active, releaseProgress, host });
+  const sign = new NoticeSign();
+  showNoticesInVr({ state, sign, headset, settings, active, host, isGripped });
+  const pointer = showPicturesInVr({ state, panel, stage, active });
+  return { panel, sign, controls: new HeadsetControls({ ...options, pointer, sign }) };
 }
 
 export interface ShownParts {
@@ -127,11 +144,10 @@ export function followRobot({ client, settings, state, stage, views, stats, vr }
     views.clouds.ground = pose.position.z;
   });
   tellNotices(client, state.notices);
-  giveCues(client, vr, settings, () => performance.now());
+  giveCues({ client, vr, settings, state, now: () => performance.now() });
 }
 
-/** @returns the headset's panel and controls */
-export function showPage(parts: ShownParts): ReturnType<typeof openHeadset> {
+export function showPage(parts: ShownParts): OpenedHeadset {
   const { client, settings, state, stage, appearance, views, vr, inputs, panels, releaseProgress } = parts;
   const { clouds, remembered, cloud } = views;
   state.sample();
@@ -155,6 +171,8 @@ export function showPage(parts: ShownParts): ReturnType<typeof openHeadset> {
     state,
     appearance,
     releaseProgress,
+    host: new URL(settings.signalingUrl).host,
+    isGripped: () => client.driver.isGripped,
   });
   effect(() => {
     cloud.sizeScale = state.pointScale.value;

@@ -15,6 +15,7 @@ import type {
 import type { DriveState, LatencyFrame } from '@farpoint/protocol';
 import type { HeadsetView } from '../ground/headset-settings.ts';
 import type { NearHit } from '../ground/near-field/directions.ts';
+import type { ShownNotice } from '../scene/headset/notice-sign.ts';
 import type { RobotFigures } from '../scene/robot-model/robot-figures.ts';
 import type { DrivePath } from '../scene/view/drive-path.ts';
 import type { NearRing } from '../scene/view/near-ring.ts';
@@ -156,6 +157,8 @@ export interface HeadsetProbe {
   darkness: number;
   /** The world on the table: the robot's place in the room, metres, and metres in the room of one metre. */
   model: { x: number; y: number; z: number; scale: number };
+  /** The sign before the eyes; `null` while it shows nothing. */
+  notice: ShownNotice | null;
 }
 
 export interface FarpointTestApi {

@@ -138,7 +138,7 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
     pointsHeard: true,
     ...{ link: words, driving: words, telemetry, estopLatched: false, figures, estopAtRobot: false },
     ...{ stop: null, driveHand: 'right' as const, view: null },
-    ...{ speed: null, near: null, hazards: null, alarm: null, nextRobot: null },
+    ...{ speed: null, near: null, hazards: null, alarm: null, nextRobot: null, noRobots: null },
   };
   const wrist = (more: Partial<Parameters<typeof wristLines>[0]> = {}) => wristLines({ ...facts, ...more });
   const lines = wrist({ nextRobot: { id: 'b', name: 'B' } });
@@ -161,6 +161,9 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
   expect(wrist({ telemetry: null }).at(-1)?.text).toBe('');
   const without = wrist({ live: false, estopLatched: true, nextRobot: { id: 'b', name: 'B' } });
   expect(without.map(({ text }) => text)).toEqual(['Live', 'press right stick: B']);
+  const noRobots = { text: 'No robots are online. They appear here.', tone: 'neutral' } as const;
+  const alone = wrist({ live: false, noRobots }).map(({ text }) => text);
+  expect(alone).toEqual(['Live', 'No robots are online.', '']);
   const unheard = wrist({ heard: false }).map(({ text }) => text);
   expect(unheard).toEqual(['Live', 'Live', 'points –', 'rtt –  view –  loss –', '']);
   const frozen = wrist({ pointsHeard: false }).map(({ text }) => text);

@@ -1,11 +1,16 @@
 /** What the headset says about its views. */
 import type { Hand, HeadsetView } from '../ground/headset-settings.ts';
 
-export const HEADSET_VIEW_WORDS: Readonly<Record<HeadsetView, string>> = {
+const HEADSET_VIEW_WORDS: Readonly<Record<HeadsetView, string>> = {
   'first-person': 'First person',
   'over-shoulder': 'Over the shoulder',
   tabletop: 'Tabletop',
 };
+
+/** Told when a view begins. */
+export function viewNotice(view: HeadsetView): string {
+  return `View in the headset: ${HEADSET_VIEW_WORDS[view].toLowerCase()}`;
+}
 
 /** What the hands do in a view. @param driveHand the hand that drives */
 export function viewHint(view: HeadsetView, driveHand: Hand): string {

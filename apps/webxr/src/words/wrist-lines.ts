@@ -27,6 +27,8 @@ export interface WristFacts {
   stop: Words | null;
   /** What the robot demands when commands come again after a gap that stopped it. */
   nextRobot: RobotListing | null;
+  /** Why there is no robot to choose; `null` if there is one, or one has been chosen. */
+  noRobots: Words | null;
   /** The hand that drives. */
   driveHand: Hand;
   /** The view, unless it is the usual one. */
@@ -39,8 +41,8 @@ export interface WristFacts {
 }
 
 export function wristLines(facts: WristFacts): Words[] {
-  const { live, heard, link, driving, telemetry, speed, near, stop, alarm } = facts;
-  if (!live) return [link, lastLine(facts)];
+  const { live, heard, link, noRobots, driving, telemetry, speed, near, stop, alarm } = facts;
+  if (!live) return [link, ...(noRobots === null ? [] : [firstSentence(noRobots)]), lastLine(facts)];
   const isKnown = heard && telemetry !== null;
   return [
     link,
@@ -52,6 +54,12 @@ export function wristLines(facts: WristFacts): Words[] {
     linkLine(facts),
     lastLine(facts),
   ];
+}
+
+/** The sign before the eyes says the rest. */
+function firstSentence({ text, tone }: Words): Words {
+  const end = text.indexOf('. ');
+  return { text: end < 0 ? text : text.slice(0, end + 1), tone };
 }
 
 function streamLine({ heard, pointsHeard, figures }: WristFacts): Words {

@@ -1,16 +1,29 @@
-/** Lets the operator hear and feel that the robot does less than it is told, wherever they look. */
+/**
+ * Lets the operator hear and feel that the robot does less than it is told, wherever they look; and in the headset feel that
+ * there is something to read.
+ */
 import type { RobotClient } from '@farpoint/operator';
+import { effect } from '@preact/signals-core';
 import type { Settings } from '../../ground/settings.ts';
 import type { VrSession } from '../../scene/view/vr-session.ts';
+import type { PageState } from '../../state/page-state.ts';
 import { type Cue, CueJudge } from './cue-judge.ts';
 import { CueSound } from './cue-sound.ts';
+import { NoticeJudge } from './notice-judge.ts';
 
-/** How hard, 0–1, and how long. */
-const cuePulses: Readonly<Record<Cue, { strength: number; ms: number }>> = {
+/** How hard, 0–1, and how long, ms. */
+interface Pulse {
+  readonly strength: number;
+  readonly ms: number;
+}
+
+const cuePulses: Readonly<Record<Cue, Pulse>> = {
   slower: { strength: 0.4, ms: 60 },
   held: { strength: 1, ms: 150 },
   stop: { strength: 1, ms: 400 },
 };
+/** Chosen: told from a robot that is only slower, and weaker than one that is held. */
+const NOTICE_PULSE: Pulse = { strength: 0.6, ms: 100 };
 
 /** What browsers know to vibrate: headset controllers, gamepads, phones. */
 interface Vibrating {
@@ -19,8 +32,7 @@ interface Vibrating {
 }
 
 /** Lets whatever the operator holds vibrate; what cannot stays silent. */
-export function vibrate(cue: Cue, controllers: Iterable<Vibrating | null | undefined>): void {
-  const { strength, ms } = cuePulses[cue];
+function vibrate({ strength, ms }: Pulse, controllers: Iterable<Vibrating | null | undefined>): void {
   let held = false;
   for (const controller of controllers) {
     const [actuator] = controller?.hapticActuators ?? [];
@@ -42,14 +54,22 @@ function quietly(result: unknown): void {
   if (result instanceof Promise) result.catch(() => undefined);
 }
 
-/** @param settings are read at each cue */
-export function giveCues(
-  client: RobotClient,
-  vr: VrSession,
-  settings: Pick<Settings, 'cues'>,
-  now: () => number,
-): void {
+export interface CueParts {
+  readonly client: RobotClient;
+  readonly vr: VrSession;
+  /** Are read at each cue. */
+  readonly settings: Pick<Settings, 'cues'>;
+  readonly state: {
+    readonly notices: Pick<PageState['notices'], 'last'>;
+    readonly link: Pick<PageState['link'], 'banner' | 'obstacle'>;
+  };
+  /** Page's clock, ms. */
+  now(): number;
+}
+
+export function giveCues({ client, vr, settings, state, now }: CueParts): void {
   let judge = new CueJudge();
+  const notices = new NoticeJudge();
   const sound = new CueSound();
   const look = () => {
     const { session, phase } = client.link;
@@ -66,13 +86,27 @@ export function giveCues(
     );
     if (cue === null || !settings.cues) return;
     sound.play(cue);
-    vibrate(cue, vr.active.value ? gamepadsOf(vr.inputSources) : (navigator.getGamepads?.() ?? []));
+    notices.onFelt(now());
+    const gamepads = vr.active.peek() ? gamepadsOf(vr.inputSources) : (navigator.getGamepads?.() ?? []);
+    vibrate(cuePulses[cue], gamepads);
   };
   client.on('session', () => {
     judge = new CueJudge();
   });
   client.on('telemetry', look);
   client.on('estop', look);
+  /** On the flat page, notices are before the eyes already. */
+  const feel = () => {
+    if (vr.active.peek() && settings.cues) vibrate(NOTICE_PULSE, gamepadsOf(vr.inputSources));
+  };
+  effect(() => {
+    const words = state.notices.last.value;
+    if (words !== null && notices.next(words, now())) feel();
+  });
+  effect(() => {
+    const { banner, obstacle } = state.link;
+    if (notices.onStanding((banner.value ?? obstacle.value) !== null, now())) feel();
+  });
 }
 
 function gamepadsOf(sources: Iterable<XRInputSource>): (Gamepad | undefined)[] {

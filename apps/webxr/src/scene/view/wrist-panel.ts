@@ -99,9 +99,10 @@ export class WristPanel {
   #place(): void {
     const grip = this.#grips.get(this.#hand);
     (grip ?? this.#front).add(this.#group);
-    if (grip === undefined) this.#group.position.set(0, -0.32, -0.7);
+    // Chosen by eye: below the sign before the eyes, which hides nothing of it unless a text is long.
+    if (grip === undefined) this.#group.position.set(0, -0.5, -0.62);
     else this.#group.position.set(0, 0.03, 0.06);
-    this.#group.rotation.set(grip === undefined ? -0.5 : -1, 0, 0);
+    this.#group.rotation.set(grip === undefined ? -0.68 : -1, 0, 0);
     this.#group.scale.setScalar(grip === undefined ? 1.6 : 1);
     const inwards = this.#hand === 'left' ? 1 : -1;
     for (const { position } of this.#beside)

@@ -1,5 +1,5 @@
 /** Shows the page's state in VR: the status on the wrist. */
-import { effect, type ReadonlySignal } from '@preact/signals-core';
+import { computed, effect, type ReadonlySignal } from '@preact/signals-core';
 import type { HeadsetSettings } from '../../ground/headset-settings.ts';
 import type { CloudAppearance } from '../../state/cloud-appearance.ts';
 import type { PageState } from '../../state/page-state.ts';
@@ -7,6 +7,7 @@ import { alarmLine } from '../../words/alarm-words.ts';
 import { hazardHint } from '../../words/hazard-words.ts';
 import { viewFact } from '../../words/headset-words.ts';
 import { nearWords } from '../../words/near-words.ts';
+import { emptyListWords } from '../../words/robots-words.ts';
 import { stopWords } from '../../words/words.ts';
 import { wristLines } from '../../words/wrist-lines.ts';
 import type { HeadsetRig } from '../headset/headset-rig.ts';
@@ -22,6 +23,8 @@ export interface WristStatusParts {
   readonly active: ReadonlySignal<boolean>;
   /** Progress of the hold that releases the emergency stop, 0–1. */
   readonly releaseProgress: ReadonlySignal<number>;
+  /** The signaling service's host, for people. */
+  readonly host: string;
 }
 
 export function showOnWrist({
@@ -32,8 +35,13 @@ export function showOnWrist({
   settings,
   active,
   releaseProgress,
+  host,
 }: WristStatusParts): void {
   const { link, driving, robot, figures } = state;
+  const noRobots = computed(() => {
+    const mayChoose = link.connected.value || link.nextRobot.value !== null;
+    return mayChoose ? null : emptyListWords(link.signaling.value, host);
+  });
   effect(() => {
     panel.visible = active.value;
   });
@@ -49,6 +57,7 @@ export function showOnWrist({
         telemetry: robot.telemetry.value,
         estopLatched: robot.estop.value.latched,
         nextRobot: link.nextRobot.value,
+        noRobots: noRobots.value,
         speed: robot.speed.value,
         near: robot.tellsNear.value ? nearWords(robot.near.value) : null,
         estopAtRobot: robot.estopAtRobot.value,

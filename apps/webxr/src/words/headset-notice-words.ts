@@ -1,0 +1,99 @@
+/** What stands before the operator's eyes in the headset: all that the flat page says in its middle and in its notices. */
+import type { RobotListing, SignalingState } from '@farpoint/operator';
+import type { Hand, HeadsetView } from '../ground/headset-settings.ts';
+import type { Banner } from './banner-words.ts';
+import { LATCHED_TITLE, type LatchedStop } from './estop-words.ts';
+import { viewHint, viewNotice } from './headset-words.ts';
+import { emptyListWords } from './robots-words.ts';
+import type { Words } from './words.ts';
+
+/** Something that keeps the page from working or from connecting. */
+interface Obstruction {
+  readonly title: string;
+  readonly text: string;
+}
+
+export interface HeadsetNoticeFacts {
+  /** What keeps the page from working. */
+  failure: Obstruction | null;
+  /** The link is gone, the robot does not hear, or a hand holds on in vain. */
+  banner: Banner | null;
+  /** What keeps the page from connecting. */
+  obstacle: Obstruction | null;
+  /** The emergency stop, while it is latched. */
+  stop: LatchedStop | null;
+  /** The operator holds the grip, and the robot stands still all the same: why; `null` if it does not. */
+  held: Words | null;
+  /** What the operator does to have a robot; `null` once one is chosen. */
+  choice: Words | null;
+  /** Disappears by itself. */
+  notice: Words | null;
+  view: HeadsetView;
+  /** The hand that drives. */
+  driveHand: Hand;
+}
+
+export interface HeadsetNotice {
+  /** What holds now; `null` if nothing does. */
+  readonly standing: {
+    readonly title: string | null;
+    readonly text: string;
+    readonly tone: Words['tone'];
+  } | null;
+  readonly passing: Words | null;
+  /** What the hands do now; `null` if that has not changed. */
+  readonly hint: string | null;
+}
+
+export function headsetNotice(facts: HeadsetNoticeFacts): HeadsetNotice {
+  const { notice, view, driveHand } = facts;
+  const standing = standingOf(facts);
+  const passing = notice === null || isIdle(notice, standing) ? null : notice;
+  const hint = passing?.text === viewNotice(view) ? viewHint(view, driveHand) : null;
+  return { standing, passing, hint };
+}
+
+/** When a link is lost, the notice and what stands say the same, and that it was just made is no news any more. */
+function isIdle({ text, tone }: Words, standing: HeadsetNotice['standing']): boolean {
+  if (standing === null) return false;
+  return standing.text.includes(text) || (tone === 'good' && standing.tone === 'bad');
+}
+
+function standingOf({
+  failure,
+  banner,
+  obstacle,
+  stop,
+  held,
+  choice,
+}: HeadsetNoticeFacts): HeadsetNotice['standing'] {
+  const severe = failure ?? banner;
+  if (severe !== null) return { title: severe.title, text: severe.text, tone: 'bad' };
+  if (obstacle !== null) return { title: obstacle.title, text: `${obstacle.text} ${OUTSIDE}`, tone: 'bad' };
+  if (stop !== null) return { title: LATCHED_TITLE, text: `${stop.why} ${releaseWords(stop)}`, tone: 'bad' };
+  if (held !== null) return { title: null, ...held };
+  return choice === null ? null : { title: 'No robot is chosen', ...choice };
+}
+
+/** The page's buttons are not in the headset. */
+const OUTSIDE = 'To answer, leave VR: the buttons are on the page.';
+
+function releaseWords({ mayRelease, release }: LatchedStop): string {
+  return mayRelease ? 'To release it, open both hands, then hold a trigger for one second.' : release;
+}
+
+export interface ChoiceFacts {
+  /** The robot that the stick chooses; `null` while none is listed. */
+  next: Pick<RobotListing, 'name'> | null;
+  signaling: SignalingState;
+  /** The signaling service's, for people. */
+  host: string;
+  /** The hand that drives. */
+  driveHand: Hand;
+}
+
+/** What an operator does who wears the headset and has chosen no robot, or why there is none to choose. */
+export function choiceWords({ next, signaling, host, driveHand }: ChoiceFacts): Words {
+  if (next === null) return emptyListWords(signaling, host);
+  return { text: `Press the ${driveHand} stick to connect to ${next.name}.`, tone: 'neutral' };
+}
