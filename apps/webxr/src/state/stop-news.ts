@@ -32,7 +32,8 @@ export class StopNews {
         : isOwnRelease
           ? null
           : releasedNotice(last, cause, { operators, holder: lease.holder });
-      if (text !== null) notices.tell(text, estop.latched ? 'warning' : 'neutral');
+      // The band and the cue say how urgent it is.
+      if (text !== null) notices.tell(text);
     });
   }
 

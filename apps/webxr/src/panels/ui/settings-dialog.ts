@@ -33,12 +33,12 @@ export function initSettingsDialog(pointScale: Signal<number>, live: Pick<LiveSe
   // No submit button: Enter in a field saves.
   element.querySelector('[value="cancel"]')?.addEventListener('click', () => dialog.close('cancel'));
   form.listen(pointScale);
+  // At once: a dialog tells that it was closed only in a later task, and a key may come before.
+  element.addEventListener('submit', () => form.save(live));
   dialog.addEventListener('close', () => {
-    if (dialog.returnValue === 'save') form.save(live);
-    else {
-      pointScale.value = clampScale(loadStored().pointScale);
-      displaySettings.value = display;
-    }
+    if (dialog.returnValue === 'save') return;
+    pointScale.value = clampScale(loadStored().pointScale);
+    displaySettings.value = display;
   });
 }
 
