@@ -18,9 +18,12 @@ export interface PlacedFrame {
   /** x, y, z, w of the camera's optical frame. */
   orientation: readonly [x: number, y: number, z: number, w: number];
   sensor: number;
+  /** Whether it answers a latency test: it is shown green. */
+  latencyTest: boolean;
 }
 
 const PLACEMENT_BYTES = 28;
+const FLAG_LATENCY_TEST = 1;
 const QUATERNION_SCALE = 32767;
 
 /** The payload with another place; docs/protocol.md has the layout. */
@@ -33,6 +36,7 @@ export function placed(payload: string, frame: PlacedFrame): ArrayBuffer {
   for (const [i, part] of frame.orientation.entries())
     view.setInt16(at + 12 + 2 * i, Math.round(part * QUATERNION_SCALE), true);
   view.setUint32(at + 20, frame.captureUs, true);
+  if (frame.latencyTest) view.setUint8(at + 24, view.getUint8(at + 24) | FLAG_LATENCY_TEST);
   view.setUint8(at + 25, frame.sensor);
   return buffer;
 }

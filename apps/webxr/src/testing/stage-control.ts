@@ -36,6 +36,8 @@ export interface CloudOptions {
   ageMs?: number;
   /** The camera's height over base_link, metres. */
   heightM?: number;
+  /** Whether it answers a latency test. */
+  latencyTest?: boolean;
 }
 
 /** A video that goes on. Without colours, each picture's tells its number, see {@link numbered}. */
@@ -127,13 +129,13 @@ export class StageControl {
   cloud(name: string, options: CloudOptions = {}): number {
     const file = this.#files.get(name);
     if (file === undefined) throw new Error(`the cloud ${name} is not loaded`);
-    const { lose = [], sensor = 0, ageMs = 0, heightM = CAMERA_HEIGHT_M } = options;
+    const { lose = [], sensor = 0, ageMs = 0, heightM = CAMERA_HEIGHT_M, latencyTest = false } = options;
     const frameNumber = this.#frameNumber++;
     this.#announce(file, sensor);
     const packets = file.frames[(options.frame ?? frameNumber) % file.frames.length] ?? [];
     const { x, y, z, yaw } = this.robot.pose;
     const place = {
-      ...{ frameNumber, sensor, captureUs: stampUsOf(this.robot.nowMs - ageMs) },
+      ...{ frameNumber, sensor, latencyTest, captureUs: stampUsOf(this.robot.nowMs - ageMs) },
       position: [x, y, z + heightM] as const,
       orientation: turned(yaw, file.axes === 'body' ? [0, 0, 0, 1] : AHEAD),
     };

@@ -86,6 +86,7 @@ export class DashboardOpener {
           mapTiles: () => settings.mapTiles,
           alarms: state.robot.alarms,
           stages: () => client.statistics,
+          testLatency: (startedAtMs) => client.latencyTest(startedAtMs),
           session: () => client.link.session,
           momentAt: (nowMs) => this.#momentAt(nowMs),
           close: () => {

@@ -21,7 +21,7 @@ import {
   WINDOWS_S,
 } from './layout.ts';
 import { ageText, spanText } from './number-words.ts';
-import type { StageSource } from './stages-tile.ts';
+import type { StageSources } from './stages-tile.ts';
 import { part, setText, type Tile, type TileFrame } from './tile.ts';
 import { STAGES_TILE, type TileKind, tileKinds } from './tile-kinds.ts';
 
@@ -111,13 +111,12 @@ function storeLayout(layout: Layout): void {
   }
 }
 
-export interface DashboardParts {
+export interface DashboardParts extends StageSources {
   readonly element: HTMLElement;
   readonly recorder: TelemetryRecorder;
   /** Where tiles of the earth come from; an effect that asks runs again when it changes. */
   mapTiles(): MapTiles | null;
   readonly alarms: ReadonlySignal<readonly Words[]>;
-  stages(): StageSource;
   session(): RobotSession;
   /** The instant whose values are shown now. @param nowMs page's clock */
   momentAt(nowMs: number): Moment;

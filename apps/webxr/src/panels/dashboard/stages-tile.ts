@@ -19,9 +19,16 @@ import {
   unknownWords,
 } from '../../words/stage-words.ts';
 import { quietButton } from '../ui/panel-parts.ts';
+import type { LatencyRunsPort } from './latency-runs.ts';
+import { latencyView } from './latency-view.ts';
+import { saveText } from './save-text.ts';
 import { part, setText, type Tile } from './tile.ts';
 
-export type StageSource = Pick<StreamStatistics, 'frameStages' | 'commands'>;
+/** What the tile shows, and what it measures. */
+export interface StageSources {
+  stages(): Pick<StreamStatistics, 'frameStages' | 'commands'>;
+  testLatency: LatencyRunsPort['test'];
+}
 
 /** How often the tile is written, ms: as often as the robot tells its times. */
 const UPDATE_MS = 250;
@@ -30,11 +37,12 @@ const COLOURS = ['#e69f00', '#56b4e9', '#009e73', '#f0e442', '#d55e00', '#cc79a7
 /** Of a picture of the last 30 s, pixels of the canvas. */
 const [WIDTH, HEIGHT] = [600, 144];
 
-export function stagesTile(source: () => StageSource): Tile {
+export function stagesTile({ stages: source, testLatency }: StageSources): Tile {
   const element = part('where-time');
   const canvas = document.createElement('canvas');
   [canvas.width, canvas.height] = [WIDTH, HEIGHT];
   canvas.ariaHidden = 'true';
+  const latency = latencyView(testLatency);
   const clouds = new StageList(frameStageNames);
   const commands = new StageList(commandStageNames);
   const rowsOf = (nowMs: number) => source().frameStages()?.window.rows(nowMs) ?? [];
@@ -46,7 +54,7 @@ export function stagesTile(source: () => StageSource): Tile {
   const saveCommands = save('Commands', (nowMs) =>
     stagesCsv(commandStages, source().commands.window.rows(nowMs), performance.timeOrigin),
   );
-  element.append(canvas, clouds.element, saveClouds, commands.element, saveCommands);
+  element.append(canvas, clouds.element, saveClouds, commands.element, saveCommands, latency.element);
   return {
     element,
     everyMs: () => UPDATE_MS,
@@ -57,7 +65,7 @@ export function stagesTile(source: () => StageSource): Tile {
       commands.show('Commands, from the hand to the wheels', source().commands.window.summary(nowMs));
       drawRows(canvas, rowsOf(nowMs), nowMs);
     },
-    dispose() {},
+    dispose: () => latency.dispose(),
   };
 }
 
@@ -125,12 +133,4 @@ function drawRows(canvas: HTMLCanvasElement, rows: readonly StageRow<FrameStage>
       bottom -= height;
     });
   }
-}
-
-function saveText(name: string, text: string): void {
-  const link = document.createElement('a');
-  link.href = URL.createObjectURL(new Blob([text], { type: 'text/csv' }));
-  link.download = `farpoint-${name}-${new Date().toISOString().slice(0, 19).replaceAll(':', '-')}.csv`;
-  link.click();
-  URL.revokeObjectURL(link.href);
 }

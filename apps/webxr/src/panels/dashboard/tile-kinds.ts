@@ -8,7 +8,7 @@ import { ChartTile } from './chart-tile.ts';
 import type { PlacedTile } from './layout.ts';
 import { MapTile } from './map-tile.ts';
 import { ageText } from './number-words.ts';
-import { type StageSource, stagesTile } from './stages-tile.ts';
+import { type StageSources, stagesTile } from './stages-tile.ts';
 import { part, setText, type Tile } from './tile.ts';
 import { ownValues, valueTile } from './value-tile.ts';
 
@@ -109,10 +109,9 @@ export interface TileKind extends PlacedTile {
   make(): Tile;
 }
 
-export interface TileSources {
+export interface TileSources extends StageSources {
   readonly recorder: TelemetryRecorder;
   mapTiles(): MapTiles | null;
-  stages(): StageSource;
   session(): RobotSession;
 }
 
@@ -125,7 +124,8 @@ const HIDDEN_FIELDS: readonly string[] = ['latitude', 'longitude', 'altitude', '
 export const STAGES_TILE = 'stages';
 
 /** @returns each as it is by default, in the default order */
-export function tileKinds({ recorder, mapTiles, stages, session }: TileSources): TileKind[] {
+export function tileKinds(sources: TileSources): TileKind[] {
+  const { recorder, mapTiles, session } = sources;
   const values = ownValues(recorder);
   const value = (id: string, title: string): TileKind => ({
     id,
@@ -162,7 +162,7 @@ export function tileKinds({ recorder, mapTiles, stages, session }: TileSources):
       title: 'Where the time goes',
       size: 'medium',
       shown: false,
-      make: () => stagesTile(stages),
+      make: () => stagesTile(sources),
     },
     { id: 'topics', title: 'Topics', size: 'medium', shown: true, make: () => topicsTile(session) },
   ];

@@ -1,0 +1,55 @@
+/** The part of the tile with where the time goes that measures motion to photon, once or again and again, as the paper's panel does. */
+import { effect } from '@preact/signals-core';
+import { lastTestWords, latencyCsv, testsWords } from '../../words/latency-words.ts';
+import { quietButton } from '../ui/panel-parts.ts';
+import { LatencyRuns, type LatencyRunsPort } from './latency-runs.ts';
+import { saveText } from './save-text.ts';
+import { part, setText } from './tile.ts';
+
+export interface LatencyView {
+  readonly element: HTMLElement;
+  dispose(): void;
+}
+
+/** @param test as {@link LatencyRunsPort.test} */
+export function latencyView(test: LatencyRunsPort['test']): LatencyView {
+  const element = part('latency');
+  const runs: LatencyRuns = new LatencyRuns({
+    test,
+    now: () => performance.now(),
+    epochMs: () => Date.now(),
+    after: (ms, act) =>
+      void setTimeout(() => {
+        // Behind a closed dashboard nobody sees why the cloud is green, nor ends it.
+        if (element.offsetParent === null) runs.abort();
+        else act();
+      }, ms),
+  });
+  const [last, tests] = [part('last', 'p'), part('tests', 'p')];
+  const single = quietButton('Single', 'Measure motion to photon once', () => void runs.single());
+  const continuous = quietButton('Continuous', 'Measure motion to photon again and again', () =>
+    runs.start(),
+  );
+  const abort = quietButton('Abort', 'Start no further test', () => runs.abort());
+  const save = quietButton('Tests as CSV', 'Save the last 100 tests as a table', () =>
+    saveText('latency', latencyCsv(runs.ends.peek(), runs.distribution())),
+  );
+  element.append(last, tests, single, continuous, abort, save);
+  const forget = effect(() => {
+    const ends = runs.ends.value;
+    const isOn = runs.continuous.value;
+    setText(last, lastTestWords(ends.at(-1)));
+    setText(tests, testsWords(ends, runs.distribution()));
+    single.disabled = isOn;
+    continuous.disabled = isOn;
+    abort.disabled = !isOn;
+    save.disabled = ends.length === 0;
+  });
+  return {
+    element,
+    dispose() {
+      forget();
+      runs.abort();
+    },
+  };
+}
