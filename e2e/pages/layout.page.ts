@@ -92,10 +92,9 @@ const SCREENS = [
   { width: 1280, height: 720, isTouched: false },
   { width: 3840, height: 2160, isTouched: false },
   { width: 360, height: 740, isTouched: true },
-  // A phone held sideways, and a laptop at 200, 300 and 400 %.
+  // A phone held sideways, and a laptop at 200 and 400 %.
   { width: 667, height: 320, isTouched: true },
   { width: 640, height: 360, isTouched: false },
-  { width: 427, height: 240, isTouched: false },
   { width: 320, height: 180, isTouched: false },
 ] as const;
 /** On a phone the figures are one line that opens with what is below it. */
