@@ -15,6 +15,10 @@ export type Posture = (typeof POSTURES)[number];
 export const HANDS = ['right', 'left'] as const;
 export type Hand = (typeof HANDS)[number];
 
+export function otherHand(hand: Hand): Hand {
+  return hand === 'right' ? 'left' : 'right';
+}
+
 export interface HeadsetSettings {
   readonly turn: Turn;
   /** Angle of a step, degrees. */

@@ -1,7 +1,7 @@
 /** Shows the state on the page and in the headset from now on, and lets the view follow the robot. */
 import type { RobotClient } from '@farpoint/operator';
 import { computed, effect, type ReadonlySignal, untracked } from '@preact/signals-core';
-import type { Hand, HeadsetSettings } from '../ground/headset-settings.ts';
+import { type HeadsetSettings, otherHand } from '../ground/headset-settings.ts';
 import type { Settings } from '../ground/settings.ts';
 import type { Switches } from '../ground/switches.ts';
 import { giveCues } from '../panels/cues/cues.ts';
@@ -94,18 +94,13 @@ export interface OpenedHeadset {
   readonly controls: HeadsetControls;
 }
 
-/** The hand that does not drive. */
-function otherHand({ driveHand }: Pick<HeadsetSettings, 'driveHand'>): Hand {
-  return driveHand === 'right' ? 'left' : 'right';
-}
-
 /** What a headset shows and reads: the sign before the eyes, the panel on the wrist, pictures, and the controllers. */
 function openHeadset(options: HeadsetOptions): OpenedHeadset {
   const { settings, state, appearance, stage, vr, releaseProgress, host, isGripped } = options;
   const { renderer, rig, headset } = stage;
-  const panel = new WristPanel(renderer, rig, headset.front, otherHand(settings));
+  const panel = new WristPanel(renderer, rig, headset.front, otherHand(settings.driveHand));
   effect(() => {
-    panel.hand = otherHand(settings);
+    panel.hand = otherHand(settings.driveHand);
   });
   const { active } = vr;
   showOnWrist({ state, appearance, panel, headset, settings, active, releaseProgress, host });

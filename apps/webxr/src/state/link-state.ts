@@ -15,6 +15,11 @@ export function robotSilence(link: Pick<RobotLink, 'phase' | 'silentMs'>, atMs: 
   return link.phase === 'live' ? silenceOf(link.silentMs(atMs)) : 'lost';
 }
 
+/** Whether something has come from the robot just now: otherwise nothing of it is live. @param atMs page's clock */
+export function isRobotHeard(link: Pick<RobotLink, 'phase' | 'silentMs'>, atMs: number): boolean {
+  return robotSilence(link, atMs) === 'heard';
+}
+
 export interface LinkStateParts {
   readonly client: RobotClient;
   readonly samples: Sampler;

@@ -16,7 +16,7 @@ import type { PageStats } from '../words/page-stats.ts';
 import { holderWords } from '../words/words.ts';
 import { Enlarged } from './enlarged.ts';
 import { LinkPriority } from './link-priority.ts';
-import { type LinkState, linkState, robotSilence } from './link-state.ts';
+import { isRobotHeard, type LinkState, linkState, robotSilence } from './link-state.ts';
 import type { Notices } from './notices.ts';
 import { PeopleState } from './people-state.ts';
 import { comesPoints, type RobotState, robotState } from './robot-state.ts';
@@ -68,7 +68,7 @@ function drivingState({ driver, link }: RobotClient, samples: Sampler) {
     /** Who drives, in a few words. */
     line: samples.of((atMs) =>
       holderWords({
-        heard: link.phase !== 'live' || (robotSilence(link, atMs) === 'heard' && !link.interrupted),
+        heard: link.phase !== 'live' || (isRobotHeard(link, atMs) && !link.interrupted),
         holder: driver.holder,
         driver: driverWords(link.session.lease, link.session.operators),
         role: link.session.welcome?.access?.role ?? null,

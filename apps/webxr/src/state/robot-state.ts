@@ -7,7 +7,7 @@ import { latchedStop } from '../words/estop-words.ts';
 import { driverWords, listedNameWords } from '../words/handover-words.ts';
 import { motionWords, obstacleGuardWords, speedWords } from '../words/motion-words.ts';
 import { readingsWithNavigation } from '../words/navigation-words.ts';
-import { robotSilence } from './link-state.ts';
+import { isRobotHeard } from './link-state.ts';
 import { type Sampler, steady } from './sampler.ts';
 
 export type RobotState = ReturnType<typeof robotState>;
@@ -25,7 +25,7 @@ export function robotState(client: RobotClient, samples: Sampler) {
   const { link, driver } = client;
   /** What is true only while the robot says it. */
   const whileHeard = <T>(read: (atMs: number) => T) =>
-    samples.of((atMs) => (robotSilence(link, atMs) === 'heard' ? read(atMs) : null));
+    samples.of((atMs) => (isRobotHeard(link, atMs) ? read(atMs) : null));
   return {
     /** Whether points come as they should: otherwise no figure of them is live. */
     pointsHeard: samples.of((atMs) => comesPoints(client, atMs)),
@@ -55,7 +55,7 @@ export function robotState(client: RobotClient, samples: Sampler) {
       nearView(link.session.near, {
         nowMs: atMs,
         offsetMs: link.session.clock.offsetMs,
-        heard: robotSilence(link, atMs) === 'heard',
+        heard: isRobotHeard(link, atMs),
       }),
     ),
     /** Whether it is one that tells what is near it. */

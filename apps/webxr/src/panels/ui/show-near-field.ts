@@ -5,7 +5,7 @@ import { blockedBearing } from '../../ground/near-field/blocked-bearing.ts';
 import { nearView } from '../../ground/near-field/near-view.ts';
 import { BlockedArc } from '../../scene/view/blocked-edge.ts';
 import type { Stage } from '../../scene/view/stage.ts';
-import { robotSilence } from '../../state/link-state.ts';
+import { isRobotHeard } from '../../state/link-state.ts';
 import { NearPicture, showBlockedEdge } from './near-panel.ts';
 
 export class NearFieldDisplay {
@@ -33,7 +33,7 @@ export class NearFieldDisplay {
       ? nearView(session.near, {
           nowMs,
           offsetMs: session.clock.offsetMs,
-          heard: robotSilence(link, nowMs) === 'heard',
+          heard: isRobotHeard(link, nowMs),
         })
       : null;
     const body = (live ? session.welcome?.body : null) ?? null;

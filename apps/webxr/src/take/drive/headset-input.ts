@@ -5,7 +5,12 @@
  */
 
 import type { DriveInput, DriveWish, PressedButtons } from '@farpoint/operator';
-import { DEFAULT_HEADSET, type Hand, type HeadsetSettings } from '../../ground/headset-settings.ts';
+import {
+  DEFAULT_HEADSET,
+  type Hand,
+  type HeadsetSettings,
+  otherHand,
+} from '../../ground/headset-settings.ts';
 import { DEFAULT_STICK_RESPONSE, shapeAxis } from './dead-zone.ts';
 import type { GamepadState } from './gamepad-input.ts';
 
@@ -121,7 +126,7 @@ export class HeadsetInput implements DriveInput {
 
   /** The hand that does not drive. */
   get #otherHand(): Hand {
-    return this.#driveHand === 'right' ? 'left' : 'right';
+    return otherHand(this.#driveHand);
   }
 
   /** Notes which buttons are held, and the other hand's stick. @returns the controller that is squeezed to drive */
