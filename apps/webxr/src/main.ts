@@ -14,6 +14,7 @@ import './panels/ui/people.css';
 import { isSoftwareRenderer } from '@farpoint/cloud-view';
 import { transformSupport } from '@farpoint/operator';
 import { readBenchSettings } from './ground/bench-settings.ts';
+import { languageFor } from './ground/display/languages.ts';
 import { applyDisplay, displaySettings } from './ground/display/stored-display.ts';
 import { keepAwake } from './ground/display/wake-lock.ts';
 import { liveSettings } from './ground/live-settings.ts';
@@ -24,6 +25,7 @@ import { elements } from './panels/ui/elements.ts';
 import { showNotices } from './panels/ui/notice.ts';
 import { Notices } from './state/notices.ts';
 import type { OpenedStage } from './testing/open-stage.ts';
+import { speak } from './words/language.ts';
 import { failureWords, forbiddenAddressWords } from './words/words.ts';
 
 const query = new URLSearchParams(window.location.search);
@@ -67,8 +69,13 @@ function start(stage: OpenedStage | null): void {
 document.addEventListener('securitypolicyviolation', ({ effectiveDirective, blockedURI }) => {
   if (effectiveDirective === 'connect-src') notices.tell(forbiddenAddressWords(blockedURI), 'bad');
 });
-showNotices(notices);
-// The deployed page leaves this out, too. A page of tests can have a scripted link instead of a robot.
-if (import.meta.env.MODE !== 'production' && query.has('stage'))
-  void import('./testing/open-stage.ts').then(({ openStage }) => openStage()).then(start);
-else start(null);
+async function open(): Promise<void> {
+  await speak(languageFor('system', navigator.languages));
+  showNotices(notices);
+  // The deployed page leaves this out, too. A page of tests can have a scripted link instead of a robot.
+  if (import.meta.env.MODE !== 'production' && query.has('stage'))
+    start(await (await import('./testing/open-stage.ts')).openStage());
+  else start(null);
+}
+
+void open();

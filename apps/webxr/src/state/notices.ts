@@ -4,10 +4,10 @@ import type { RobotClient } from '@farpoint/operator';
 import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
 import { missingGripWords, takenOverWords } from '../words/driving-words.ts';
 import { handoverEndWords } from '../words/handover-words.ts';
+import { texts } from '../words/language.ts';
 import { presserWords } from '../words/stop-notices.ts';
 import {
   failureWords,
-  gripLossWords,
   rejectionWords,
   type Tone,
   type Words,
@@ -55,7 +55,7 @@ export function tellNotices(client: RobotClient, notices: Notices): void {
       notices.tell(missingGripWords(device, driver.holder, role), 'warning');
   });
   client.on('gripLost', (loss) => {
-    if (!isDisplaced()) notices.tell(gripLossWords[loss], 'warning');
+    if (!isDisplaced()) notices.tell(texts().driving.gripLost[loss], 'warning');
   });
   client.on('robotFault', (message) => notices.tell(`The robot reports: ${message}`, 'warning'));
   client.on('failed', ({ detail }) => {

@@ -5,6 +5,7 @@
 import { finalLosses, type SessionLoss, type SessionPhase, type SignalingState } from '@farpoint/operator';
 import type { Silence } from '../ground/silence.ts';
 import { type HandFacts, vainGripWords } from './driving-words.ts';
+import { texts } from './language.ts';
 import { type LossFacts, signalingWords, wordsOfLoss } from './words.ts';
 
 export interface Banner {
@@ -36,7 +37,6 @@ type Said = Omit<Banner, 'urgent'>;
 
 const STOPS = 'The robot stops by itself.';
 const RETRIES = 'This page keeps trying; a STOP that you press now is kept for then.';
-const LET_GO = ' Let go of the grip.';
 
 /** `null` while there is nothing to say. */
 export function bannerWords(facts: BannerFacts): Banner | null {
@@ -96,5 +96,5 @@ function afterLoss(facts: BannerFacts, loss: SessionLoss): Said {
 }
 
 function urgent({ title, text }: Said, gripped: boolean): Banner {
-  return { title, text: gripped ? text + LET_GO : text, urgent: true };
+  return { title, text: gripped ? `${text} ${texts().driving.letGo}` : text, urgent: true };
 }

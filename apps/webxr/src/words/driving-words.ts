@@ -1,15 +1,8 @@
 /** What the page says to a hand on the controls that moves nothing. */
 import type { DriveInput, GripLoss } from '@farpoint/operator';
 import type { LeaseState, Role } from '@farpoint/protocol';
-import { gripLossWords, rejectionWords } from './words.ts';
-
-const gripOf: Record<DriveInput['name'], string> = {
-  keyboard: 'Hold Space',
-  gamepad: 'Hold a shoulder button',
-  touch: 'Hold the joystick',
-  headset: 'Squeeze the grip',
-  script: 'Hold the grip',
-};
+import { texts } from './language.ts';
+import { rejectionWords } from './words.ts';
 
 /** A stick or key is pushed without a grip. @returns what has to be done first */
 export function missingGripWords(
@@ -19,12 +12,14 @@ export function missingGripWords(
 ): string {
   if (role === 'watch') return rejectionWords['not-permitted'];
   if (holder === 'other') return rejectionWords['not-lease-holder'];
-  return `${gripOf[device]}, too: the robot moves only while you do.`;
+  const { grip, gripMissing } = texts().driving;
+  return gripMissing(grip[device]);
 }
 
 /** Another has taken the lease. @param driver its name, by its grant; empty if it has none */
 export function takenOverWords(driver: string | null): string {
-  return `${driver || 'Another operator'} has taken over and drives now. You do not.`;
+  const { takenOver, anotherOperator } = texts().driving;
+  return takenOver(driver || anotherOperator);
 }
 
 export interface HandFacts {
@@ -36,7 +31,8 @@ export interface HandFacts {
 
 /** What a hand is told as long as it holds on in vain; `null` if it does not. */
 export function vainGripWords({ gripLost, takenOverBy }: HandFacts): { title: string; text: string } | null {
+  const said = texts().driving;
   if (takenOverBy !== null)
-    return { title: 'Taken over', text: `${takenOverWords(takenOverBy)} Let go of the grip.` };
-  return gripLost === null ? null : { title: 'Let go of the grip', text: gripLossWords[gripLost] };
+    return { title: said.takenOverTitle, text: `${takenOverWords(takenOverBy)} ${said.letGo}` };
+  return gripLost === null ? null : { title: said.letGoTitle, text: said.gripLost[gripLost] };
 }

@@ -71,14 +71,6 @@ export function wordsOfRejection(reason: CommandRejection, holder: LeaseState['h
   return rejectionWords[reason];
 }
 
-export const gripLossWords: Record<GripLoss, string> = {
-  'late-reading': 'The grip was not read for too long, so the robot stays. Let go of it, then drive.',
-  'hands-away': 'The page or the headset was left with the grip held. Let go of it, then drive.',
-  'path-lost': 'The connection was lost while you held the grip. Let go of it, then drive.',
-  'other-drives': 'Somebody else drove while you held the grip. Let go of it, then drive.',
-  'let-go': 'The robot was let go of. Let go of the grip, too, before you drive again.',
-};
-
 export const signalingWords: Record<SignalingState, Words> = {
   connecting: { text: 'Connecting to the signaling service…', tone: 'neutral' },
   ready: { text: 'Signaling connected', tone: 'good' },
