@@ -191,3 +191,19 @@ test.describe('in the headset', () => {
     expect(dead.join()).not.toMatch(/m\/s|Battery|Stationary|Driving|Live/);
   });
 });
+
+test('the band of a stop says that it is as last heard, and no control releases it, until the robot is back', async ({
+  stage,
+}) => {
+  const page = await stage.open({ state: 'stop-latched' });
+  const [band, release] = [page.locator('#stop-band'), page.locator('#estop-release')];
+  await expect(release).toBeVisible();
+  await stage.script((control) => control.cut());
+  await stage.run(DEAD_MS);
+  await expect(band).toContainText('before it fell silent');
+  await expect(release).toBeHidden();
+  await page.keyboard.down('KeyR');
+  await stage.run(1200);
+  await page.keyboard.up('KeyR');
+  expect((await stage.sent('estop')).filter((message) => 'latch' in message && !message.latch)).toEqual([]);
+});

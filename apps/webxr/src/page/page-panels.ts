@@ -107,12 +107,12 @@ export class PagePanels {
 
   /** Draws the state in the document from now on. */
   show(): void {
-    const { client, state, vr, choose, origin } = this.#parts;
+    const { client, state, vr, choose } = this.#parts;
     showTitle(state.link);
     keepRobotInAddress(state.link);
     showStatus(state);
     showNearWords(state);
-    showRobotList(state.link, new URL(origin).host, choose);
+    showRobotList(state.link, choose);
     showRobotSwitcher(state.link, choose);
     showPeople(state, client);
     showSensorSwitches(state.sensors);

@@ -81,8 +81,6 @@ export interface HeadsetOptions extends Omit<HeadsetParts, 'pointer' | 'sign' | 
   stage: Stage;
   /** How far the hold is that releases the emergency stop, 0…1. */
   releaseProgress: ReadonlySignal<number>;
-  /** The signaling service's host, for people. */
-  host: string;
   /** Whether the operator holds a grip. */
   isGripped(): boolean;
 }
@@ -96,16 +94,16 @@ export interface OpenedHeadset {
 
 /** What a headset shows and reads: the sign before the eyes, the panel on the wrist, pictures, and the controllers. */
 function openHeadset(options: HeadsetOptions): OpenedHeadset {
-  const { settings, state, appearance, stage, vr, releaseProgress, host, isGripped } = options;
+  const { settings, state, appearance, stage, vr, releaseProgress, isGripped } = options;
   const { renderer, rig, headset } = stage;
   const panel = new WristPanel(renderer, rig, headset.front, otherHand(settings.driveHand));
   effect(() => {
     panel.hand = otherHand(settings.driveHand);
   });
   const { active } = vr;
-  showOnWrist({ state, appearance, panel, headset, settings, active, releaseProgress, host });
+  showOnWrist({ state, appearance, panel, headset, settings, active, releaseProgress });
   const sign = new NoticeSign();
-  showNoticesInVr({ state, sign, headset, settings, active, host, isGripped });
+  showNoticesInVr({ state, sign, headset, settings, active, isGripped });
   const pointer = showPicturesInVr({ state, panel, stage, active });
   return { panel, sign, controls: new HeadsetControls({ ...options, pointer, sign }) };
 }
@@ -138,7 +136,7 @@ export function followRobot({ client, settings, state, stage, views, stats, vr }
     stage.setBody(pose);
     views.clouds.ground = pose.position.z;
   });
-  tellNotices(client, state.notices);
+  tellNotices(client, state.notices, state.takeover);
   giveCues({ client, vr, settings, state, now: () => performance.now() });
 }
 
@@ -166,7 +164,6 @@ export function showPage(parts: ShownParts): OpenedHeadset {
     state,
     appearance,
     releaseProgress,
-    host: new URL(settings.signalingUrl).host,
     isGripped: () => client.driver.isGripped,
   });
   effect(() => {

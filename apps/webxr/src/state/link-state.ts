@@ -6,7 +6,7 @@ import { obstacleOf } from '../words/access-words.ts';
 import { type Banner, bannerWords } from '../words/banner-words.ts';
 import { linkWords, type Words } from '../words/words.ts';
 import { type Sampler, steady } from './sampler.ts';
-import { Takeover } from './takeover.ts';
+import type { Takeover } from './takeover.ts';
 
 export type LinkState = ReturnType<typeof linkState>;
 
@@ -23,22 +23,25 @@ export function isRobotHeard(link: Pick<RobotLink, 'phase' | 'silentMs'>, atMs: 
 export interface LinkStateParts {
   readonly client: RobotClient;
   readonly samples: Sampler;
+  /** The signaling service's, for people. */
+  readonly host: string;
+  readonly takeover: Takeover;
   /** Why the given signaling address cannot be used; `null` if it can. */
   readonly signalingFault: string | null;
   /** Whether the browser believes that it has a network. */
   isOnline(): boolean;
 }
 
-export function linkState({ client, samples, signalingFault, isOnline }: LinkStateParts) {
+export function linkState({ client, samples, host, takeover, signalingFault, isOnline }: LinkStateParts) {
   const { link } = client;
-  const takeover = new Takeover();
-  takeover.follow(client);
   const silence = samples.of((atMs) => robotSilence(link, atMs));
   const phase = samples.of(() => link.phase);
   const robots = samples.of(() => link.robots);
   const chosenRobotId = samples.of(() => client.chosenRobotId);
   const signInUrl = samples.of(() => link.signInUrl);
   return {
+    /** The signaling service's host, for people. */
+    host,
     robots,
     /** Where operators sign in for a grant; `null` if the signaling service names no place. */
     signInUrl,

@@ -2,7 +2,7 @@
 
 import type { RobotClient } from '@farpoint/operator';
 import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
-import { missingGripWords, takenOverWords } from '../words/driving-words.ts';
+import { missingGripWords } from '../words/driving-words.ts';
 import { handoverEndWords } from '../words/handover-words.ts';
 import { texts } from '../words/language.ts';
 import { presserWords } from '../words/stop-notices.ts';
@@ -14,15 +14,13 @@ import {
   wordsOfLoss,
   wordsOfRejection,
 } from '../words/words.ts';
-import { Takeover } from './takeover.ts';
+import type { Takeover } from './takeover.ts';
 
 /** Tells people what happens to the session and to their commands, as short notices. The banner tells of a loss. */
-export function tellNotices(client: RobotClient, notices: Notices): void {
-  const takeover = new Takeover();
+export function tellNotices(client: RobotClient, notices: Notices, takeover: Takeover): void {
   const { driver, link } = client;
   // What follows from a takeover must not hide it.
   const isDisplaced = () => takeover.isDisplaced(driver.isGripped);
-  takeover.follow(client, (name) => notices.tell(takenOverWords(name), 'warning'));
   client.on('handover', ({ ended, ...handover }) => {
     const { estopCause, operators } = link.session;
     if (ended === undefined) return;

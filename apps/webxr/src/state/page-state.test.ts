@@ -85,7 +85,12 @@ class Bench {
     this.state = new PageState({
       placements: new PanelPlacements(new Map(), () => undefined),
       client: this.client as unknown as RobotClient,
-      settings: { signalingFault, pointScale: 1, barcode: false },
+      settings: {
+        signalingFault,
+        signalingUrl: 'wss://signaling.example/operator',
+        pointScale: 1,
+        barcode: false,
+      },
       notices: new Notices(),
       figures: () => ({ framesDrawn: this.nowMs }) as PageStats,
       now: () => this.nowMs,

@@ -11,6 +11,7 @@ import type { CameraView } from '../ground/pictures/camera-view.ts';
 import type { Settings } from '../ground/settings.ts';
 import { Switches } from '../ground/switches.ts';
 import { VideoViews } from '../take/video/video-views.ts';
+import { takenOverWords } from '../words/driving-words.ts';
 import { driverWords } from '../words/handover-words.ts';
 import type { PageStats } from '../words/page-stats.ts';
 import { holderWords } from '../words/words.ts';
@@ -23,6 +24,7 @@ import { comesPoints, type RobotState, robotState } from './robot-state.ts';
 import { Sampler } from './sampler.ts';
 import { SoundState } from './sound-state.ts';
 import { StopNews } from './stop-news.ts';
+import { Takeover } from './takeover.ts';
 
 /** Which camera has changed places with the cloud: it fills the screen, and the cloud is in its panel. */
 export class Staged {
@@ -101,7 +103,7 @@ const SAMPLED = [
 
 export interface PageStateParts {
   readonly client: RobotClient;
-  readonly settings: Pick<Settings, 'signalingFault' | 'pointScale' | 'barcode'>;
+  readonly settings: Pick<Settings, 'signalingFault' | 'signalingUrl' | 'pointScale' | 'barcode'>;
   readonly notices: Notices;
   readonly placements: PanelPlacements;
   /** Current figures of the stream and of the drawing. */
@@ -147,6 +149,8 @@ export class PageState {
   readonly pointScale: Signal<number>;
   /** Whether the page is visible to anybody. */
   readonly looking = signal(true);
+  /** Who has taken the drive from a hand that holds on. */
+  readonly takeover = new Takeover();
   readonly #samples = new Sampler();
   readonly #now: () => number;
   readonly #client: RobotClient;
@@ -155,8 +159,11 @@ export class PageState {
     this.#now = now;
     this.#client = client;
     this.notices = notices;
-    const { signalingFault } = settings;
-    this.link = linkState({ client, samples: this.#samples, signalingFault, isOnline });
+    const { signalingFault, signalingUrl } = settings;
+    const { takeover } = this;
+    takeover.follow(client, (name) => notices.tell(takenOverWords(name), 'warning'));
+    const { host } = new URL(signalingUrl);
+    this.link = linkState({ client, samples: this.#samples, host, takeover, signalingFault, isOnline });
     this.robot = robotState(client, this.#samples);
     this.driving = drivingState(client, this.#samples);
     this.people = new PeopleState(client, this.#samples);

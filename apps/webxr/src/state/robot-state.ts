@@ -93,14 +93,15 @@ function estopState({ link, stops, driver }: RobotClient, samples: Sampler) {
     estop: samples.of(() => link.session.estop),
     /** Who or what has stopped it, and who may release that; `null` while it is not latched, and without a session. */
     latchedStop: steady(
-      samples.of(() => {
+      samples.of((atMs) => {
         if (link.phase !== 'live') return null;
         const { estop, estopCause, lease, welcome, operators } = link.session;
         const role = welcome?.access?.role ?? null;
         const pressedBy = estopCause?.pressedBy && listedNameWords(estopCause.pressedBy, operators);
         const cause = estopCause && { ...estopCause, pressedBy };
         const named = driverWords(lease, operators);
-        return latchedStop({ estop, cause, holder: driver.holder, driver: named, role });
+        const heard = isRobotHeard(link, atMs);
+        return latchedStop({ estop, cause, holder: driver.holder, driver: named, role, heard });
       }),
     ),
     /**

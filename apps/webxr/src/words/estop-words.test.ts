@@ -6,7 +6,7 @@ const estop: EstopState = { type: 'estop', latched: true, by: 'operator', latch:
 const cause: EstopCause = { type: 'estopCause', latch: 7, pressedBy: 'Ada', yours: false, release: 'driver' };
 
 function facts(given: Partial<EstopFacts> = {}): EstopFacts {
-  return { estop, cause, holder: 'nobody', driver: null, role: null, ...given };
+  return { estop, cause, holder: 'nobody', driver: null, role: null, heard: true, ...given };
 }
 
 test('there is nothing to say while it is not latched', () => {
@@ -55,4 +55,10 @@ test.each([
   const stop = latchedStop(given);
   expect(stop?.mayRelease).toBe(words === null);
   expect(stop?.release).toContain(words ?? 'Hold the release control');
+});
+
+test('what the robot said before it fell silent is no longer offered as if it counted', () => {
+  const stop = latchedStop(facts({ heard: false, role: 'supervise' }));
+  expect(stop).toMatchObject({ why: 'Ada pressed STOP.', mayRelease: false, heard: false });
+  expect(stop?.release).toContain('before it fell silent');
 });

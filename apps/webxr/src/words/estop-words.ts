@@ -11,6 +11,8 @@ export interface EstopFacts {
   driver: string | null;
   /** What this operator's grant allows; `null` if the robot asks for none. */
   role: Role | null;
+  /** Whether something has come from the robot just now. */
+  heard: boolean;
 }
 
 /** The emergency stop while it is latched. */
@@ -21,12 +23,15 @@ export interface LatchedStop {
   release: string;
   /** Whether this operator may release it. */
   mayRelease: boolean;
+  /** Whether the robot says so now: otherwise it said so before it fell silent. */
+  heard: boolean;
 }
 
 export const LATCHED_TITLE = 'Emergency stop';
 /** Under the STOP button. */
 export const stopButtonWords = { latched: 'engaged', clear: 'emergency' } as const;
 
+const UNHEARD = 'So the robot said before it fell silent. It can be released when the robot is heard again.';
 const HOLD = 'Hold the release control for one second; then let go of the grip and drive.';
 
 const holderWords: Record<NonNullable<EstopCause['heldBy']>[number], string> = {
@@ -45,8 +50,9 @@ const startWords: Record<NonNullable<EstopCause['start']>, string> = {
 /** `null` while it is not latched. */
 export function latchedStop(facts: EstopFacts): LatchedStop | null {
   if (!facts.estop.latched) return null;
-  const others = whoElse(facts);
-  return { why: whyWords(facts), release: others ?? HOLD, mayRelease: others === null };
+  const { heard } = facts;
+  const others = heard ? whoElse(facts) : UNHEARD;
+  return { why: whyWords(facts), release: others ?? HOLD, mayRelease: others === null, heard };
 }
 
 function whyWords({ estop: { by, releasedAt }, cause }: EstopFacts): string {

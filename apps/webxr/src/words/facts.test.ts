@@ -171,6 +171,7 @@ test('on the wrist: how to release while the stop is on, otherwise the battery a
   expect(frozen).toContain('Stationary');
   const atRobot = wrist({ estopLatched: true, estopAtRobot: true });
   expect(atRobot.at(-1)).toEqual({ text: 'Released at the robot only', tone: 'bad' });
+  expect(wrist({ estopLatched: true, heard: false }).at(-1)?.text).toBe('STOP, as last heard');
   const stopped = wrist({ estopLatched: true });
   expect(stopped.at(-1)?.tone).toBe('bad');
   const alarm = { text: 'The battery is low', tone: 'bad' } as const;

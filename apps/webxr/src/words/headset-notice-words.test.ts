@@ -16,7 +16,7 @@ const quiet: HeadsetNoticeFacts = {
 const banner = { title: 'The robot is gone', text: 'The robot stops by itself.', urgent: true };
 const notice = { text: 'Someone else is driving.', tone: 'warning' } as const;
 const held = { text: 'Held: something is in the way', tone: 'bad' } as const;
-const stop = { why: 'Bo pressed STOP.', release: 'Hold the release control.', mayRelease: true };
+const stop = { why: 'Bo pressed STOP.', release: 'Hold the release control.', mayRelease: true, heard: true };
 
 test('says what the flat page says: what holds, and what passes', () => {
   expect(headsetNotice(quiet)).toEqual({ standing: null, passing: null, hint: null });
@@ -43,7 +43,8 @@ test('the stop says who pressed it, and how hands in the headset release it', ()
 
 test('a stop that this operator may not release says who releases it', () => {
   const release = 'It is released there, at the robot, and nowhere else.';
-  const text = headsetNotice({ ...quiet, stop: { ...stop, release, mayRelease: false } }).standing?.text;
+  const text = headsetNotice({ ...quiet, stop: { ...stop, release, mayRelease: false, heard: true } })
+    .standing?.text;
   expect(text).toBe(`Bo pressed STOP. ${release}`);
 });
 

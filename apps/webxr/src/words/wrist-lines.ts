@@ -91,6 +91,7 @@ function lastLine({
   hazards,
 }: WristFacts): Words {
   if (live && estopLatched) {
+    if (!heard) return { text: 'STOP, as last heard', tone: 'bad' };
     const text = estopAtRobot ? 'Released at the robot only' : 'Release: open hand, hold trigger 1 s';
     return { text, tone: 'bad' };
   }

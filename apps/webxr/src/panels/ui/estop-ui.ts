@@ -92,6 +92,7 @@ function showLatched(stop: LatchedStop | null, atRobot: boolean): void {
   // A stop at the robot keeps the control, which then says where it is released.
   estopRelease.hidden = !latched || !(stop.mayRelease || atRobot);
   stopBand.hidden = !latched;
+  stopBand.dataset.stale = String(stop?.heard === false);
   stopTitle.textContent = latched ? LATCHED_TITLE : '';
   stopWhy.textContent = stop?.why ?? '';
   stopHow.textContent = stop?.release ?? '';

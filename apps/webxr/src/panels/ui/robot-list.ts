@@ -28,10 +28,8 @@ export function showRobotSwitcher(link: LinkState, onChoose: (robotId: string) =
   });
 }
 
-/** @param host of the signaling service, for people */
 export function showRobotList(
-  { robots, signaling }: LinkState,
-  host: string,
+  { robots, signaling, host }: LinkState,
   onChoose: (robotId: string) => void,
 ): void {
   effect(() => {

@@ -113,6 +113,7 @@ describe.each(themes)('%s', (_, colours) => {
 
 /** Custom properties that are no colours. */
 const OTHERS = [
+  'stop-scale',
   'scale',
   'text-scale',
   'under-bar',

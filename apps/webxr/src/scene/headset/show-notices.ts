@@ -13,14 +13,12 @@ export interface NoticeParts {
   readonly settings: Pick<HeadsetSettings, 'driveHand'>;
   /** Whether VR is active. */
   readonly active: ReadonlySignal<boolean>;
-  /** The signaling service's host, for people. */
-  readonly host: string;
   /** Whether the operator holds a grip. */
   isGripped(): boolean;
 }
 
 export function showNoticesInVr(parts: NoticeParts): void {
-  const { state, sign, headset, settings, active, host, isGripped } = parts;
+  const { state, sign, headset, settings, active, isGripped } = parts;
   const { notices, link, robot, sampledAtMs } = state;
   const held = computed(() => {
     const motion = robot.motion.value;
@@ -29,7 +27,12 @@ export function showNoticesInVr(parts: NoticeParts): void {
   const choice = computed(() => {
     if (link.connected.value) return null;
     const { driveHand } = settings;
-    return choiceWords({ next: link.nextRobot.value, signaling: link.signaling.value, host, driveHand });
+    return choiceWords({
+      next: link.nextRobot.value,
+      signaling: link.signaling.value,
+      host: link.host,
+      driveHand,
+    });
   });
   effect(() => {
     if (!active.value) {

@@ -23,8 +23,6 @@ export interface WristStatusParts {
   readonly active: ReadonlySignal<boolean>;
   /** Progress of the hold that releases the emergency stop, 0–1. */
   readonly releaseProgress: ReadonlySignal<number>;
-  /** The signaling service's host, for people. */
-  readonly host: string;
 }
 
 export function showOnWrist({
@@ -35,12 +33,11 @@ export function showOnWrist({
   settings,
   active,
   releaseProgress,
-  host,
 }: WristStatusParts): void {
   const { link, driving, robot, figures } = state;
   const noRobots = computed(() => {
     const mayChoose = link.connected.value || link.nextRobot.value !== null;
-    return mayChoose ? null : emptyListWords(link.signaling.value, host);
+    return mayChoose ? null : emptyListWords(link.signaling.value, link.host);
   });
   effect(() => {
     panel.visible = active.value;
