@@ -22,7 +22,7 @@ with real key presses, with nothing set: everything that a newcomer gets. Softwa
   --headset     enters VR in an emulated headset, and drives with its right controller (Chromium)
 
 obeyed is the share of the time with a grip held in which the robot did what it was told, without the time in which its
-obstacle guard bounded it. view age is that of what is on the screen.`;
+obstacle guard bounded it. view age is that of what is on the screen. long tasks keep the main thread for more than 50 ms.`;
 
 const START_MS = 15 * 60_000;
 const END_MS = 10_000;
@@ -34,6 +34,8 @@ interface Row extends DriveFigures {
   /** Clouds that were drawn, and frames of the page, a second. */
   drawnFramesPerSecond: number;
   displayFramesPerSecond: number;
+  /** Tasks of the page's main thread of more than 50 ms, a minute, and the longest, ms; `null` where the browser does not tell. */
+  longTasks: { perMinute: number; longestMs: number } | null;
 }
 
 const OPTIONS = {
@@ -138,6 +140,8 @@ function print(rows: readonly Row[]): void {
       'clouds/s',
       'frames/s',
       'grips lost',
+      'long tasks/min',
+      'longest, ms',
     ],
     rows.map((row) => [
       row.size,
@@ -150,6 +154,8 @@ function print(rows: readonly Row[]): void {
       row.drawnFramesPerSecond,
       row.displayFramesPerSecond,
       row.gripsLost,
+      row.longTasks?.perMinute ?? '–',
+      row.longTasks?.longestMs ?? '–',
     ]),
   );
   for (const { size, whyNotS } of rows) console.log(`${size}: not obeyed, s: ${JSON.stringify(whyNotS)}`);
@@ -202,6 +208,12 @@ async function firstDrive(
     await pause(LOOK_MS);
     const before = await page.evaluate(() => {
       window.farpoint.recordDrive(true);
+      const tells = PerformanceObserver.supportedEntryTypes.includes('longtask');
+      window.benchLongMs = tells ? [] : null;
+      if (tells)
+        new PerformanceObserver((list) => {
+          for (const { duration } of list.getEntries()) window.benchLongMs?.push(duration);
+        }).observe({ type: 'longtask' });
       return { frames: window.farpoint.stats().framesDrawn, atMs: performance.now() };
     }, null);
     await driveAbout(page, hold, seconds * 1000);
@@ -209,7 +221,8 @@ async function firstDrive(
       const { framesDrawn, displayFramesPerSecond } = window.farpoint.stats();
       window.farpoint.recordDrive(false);
       const recording = window.farpoint.recordedDrive();
-      return { frames: framesDrawn, displayFramesPerSecond, recording, atMs: performance.now() };
+      const { benchLongMs: longMs = null } = window;
+      return { frames: framesDrawn, displayFramesPerSecond, recording, longMs, atMs: performance.now() };
     }, null);
     if (after.recording === null) throw new Error('the page has recorded nothing');
     const elapsedS = (after.atMs - before.atMs) / 1000;
@@ -217,8 +230,21 @@ async function firstDrive(
       ...driveFigures(after.recording),
       drawnFramesPerSecond: Number(((after.frames - before.frames) / elapsedS).toFixed(1)),
       displayFramesPerSecond: Number(after.displayFramesPerSecond.toFixed(1)),
+      longTasks: after.longMs === null ? null : longTasksOf(after.longMs, elapsedS),
     };
   } finally {
     await close();
+  }
+}
+
+function longTasksOf(tookMs: readonly number[], elapsedS: number): { perMinute: number; longestMs: number } {
+  const perMinute = Number(((tookMs.length * 60) / elapsedS).toFixed(1));
+  return { perMinute, longestMs: Math.round(Math.max(0, ...tookMs)) };
+}
+
+declare global {
+  interface Window {
+    /** How long each long task took, ms; `null` where the browser does not tell. */
+    benchLongMs?: number[] | null;
   }
 }

@@ -103,10 +103,11 @@ export async function startLiveStack(options: LiveStackOptions): Promise<LiveSta
   }
 }
 
-export function buildPage(): void {
+/** @param mode of Vite: that of tests and benchmarks, or that of the deployed page */
+export function buildPage(mode: 'testing' | 'production' = 'testing'): void {
   const vite = join(repositoryRoot, 'apps', 'webxr', 'node_modules', 'vite', 'bin', 'vite.js');
   const cwd = join(repositoryRoot, 'apps', 'webxr');
-  const result = spawnSync(process.execPath, [vite, 'build', '--mode', 'testing', '--logLevel', 'error'], {
+  const result = spawnSync(process.execPath, [vite, 'build', '--mode', mode, '--logLevel', 'error'], {
     cwd,
     encoding: 'utf8',
   });

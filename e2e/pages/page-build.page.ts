@@ -1,5 +1,5 @@
 /** What is in the built page, and what must not be. */
-import { globSync, readFileSync } from 'node:fs';
+import { existsSync, globSync, readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { repositoryRoot } from '@farpoint/local-stack';
 import { expect, test } from '@playwright/test';
@@ -40,4 +40,23 @@ test('the page has the small build of the schema library, with a single language
   expect(ofZod).toContain('mini/schemas.js');
   expect(ofZod.filter((module) => module.startsWith('classic/'))).toEqual([]);
   expect(ofZod.filter((module) => module.startsWith('locales/'))).toEqual(['locales/en.js']);
+});
+
+/** What is loaded before anybody enters VR, compressed with gzip, bytes. Aim of the project: 2 s at 10 Mbit/s with room to spare. */
+const MOST_BEFORE_VR = 350_000;
+
+test('each file of the deployed page is there compressed, and its scripts before VR are within their limit', () => {
+  const folder = join(repositoryRoot, 'apps/webxr/dist');
+  const files = globSync('**/*.{html,js,css,wasm}', { cwd: folder });
+  expect(files.filter((file) => ['.br', '.gz'].some((end) => !existsSync(join(folder, file + end))))).toEqual(
+    [],
+  );
+  const atOnce = [
+    ...readFileSync(join(folder, 'index.html'), 'utf8').matchAll(/(?:src|href)="\.\/(assets\/[^"]+\.js)"/g),
+  ].map(([, file]) => file as string);
+  const workers = files.filter((file) => /worker-/.test(file));
+  expect(atOnce.length).toBeGreaterThan(0);
+  expect(workers.length).toBeGreaterThan(2);
+  const bytes = [...atOnce, ...workers].map((file) => statSync(join(folder, `${file}.gz`)).size);
+  expect(bytes.reduce((sum, each) => sum + each, 0)).toBeLessThan(MOST_BEFORE_VR);
 });

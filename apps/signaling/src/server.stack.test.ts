@@ -2,6 +2,7 @@ import { mkdirSync, writeFileSync } from 'node:fs';
 import { request } from 'node:http';
 import { connect } from 'node:net';
 import { join } from 'node:path';
+import { brotliCompressSync, gzipSync } from 'node:zlib';
 import { createMetrics, Health, Secret } from '@farpoint/service';
 import { useFolder } from '@farpoint/service/testing/folder';
 import { selfSigned } from '@farpoint/service/testing/self-signed';
@@ -325,6 +326,9 @@ describe('HTTP', () => {
     mkdirSync(join(root, 'assets'), { recursive: true });
     writeFileSync(join(root, 'index.html'), '<title>Farpoint</title>');
     writeFileSync(join(root, 'assets/codec-abc.wasm'), '');
+    writeFileSync(join(root, 'assets/page-abc.js'), 'export {};');
+    writeFileSync(join(root, 'assets/page-abc.js.br'), brotliCompressSync('export {};'));
+    writeFileSync(join(root, 'assets/page-abc.js.gz'), gzipSync('export {};'));
     file('secret.txt', 'secret');
     const named = { connectOrigins: ['wss://janus.example:8989'], mapOrigins: ['https://tiles.example'] };
     await start({ webRoot: root, ...named });
@@ -346,6 +350,16 @@ describe('HTTP', () => {
     const wasm = await fetch(service.http('/assets/codec-abc.wasm'));
     expect(wasm.headers.get('content-type')).toBe('application/wasm');
     expect(wasm.headers.get('cache-control')).toContain('immutable');
+    // Compressed, for who takes it, where the build has left it so.
+    for (const encoding of ['br', 'gzip', 'identity']) {
+      const script = await fetch(service.http('/assets/page-abc.js'), {
+        headers: { 'accept-encoding': encoding },
+      });
+      expect(script.headers.get('content-encoding')).toBe(encoding === 'identity' ? null : encoding);
+      expect(script.headers.get('content-type')).toMatch(/^text\/javascript/);
+      expect(script.headers.get('vary')).toMatch(/accept-encoding/i);
+      expect(await script.text()).toBe('export {};');
+    }
     for (const path of ['/nothing', '/..%2fsecret.txt', '/%2e%2e/secret.txt', '/%']) {
       expect((await fetch(service.http(path))).status).toBe(404);
     }

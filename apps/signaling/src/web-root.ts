@@ -48,6 +48,9 @@ export function webRoot(
   const policy = contentSecurityPolicy(servers);
   return sirv(folder, {
     etag: true,
+    // Where the build has left compressed files beside the others.
+    brotli: true,
+    gzip: true,
     setHeaders(response, path) {
       // File names under assets/ carry a hash of the content.
       const fixed = path.startsWith('/assets/');
