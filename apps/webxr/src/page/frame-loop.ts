@@ -13,6 +13,7 @@ import type { Settings } from '../ground/settings.ts';
 import { followScene } from '../scene/view/follow-scene.ts';
 import type { Stage } from '../scene/view/stage.ts';
 import type { VrSession } from '../scene/view/vr-session.ts';
+import { warmUp } from '../scene/view/warm-up.ts';
 import type { PageStatistics } from '../words/page-stats.ts';
 import type { PageViews } from './page-views.ts';
 
@@ -40,6 +41,8 @@ export class FrameLoop {
   readonly #meter = new DisplayMeter();
   readonly #gaps = new WorstGap();
   #afterDrawing: (() => void)[] = [];
+  /** Whether all that this robot brings has been drawn once. */
+  #isWarm = false;
 
   constructor(parts: FrameLoopParts) {
     this.#parts = parts;
@@ -59,7 +62,10 @@ export class FrameLoop {
     }
     this.#thin();
     // Each session begins with a robot that knows nothing of this computer.
-    client.on('welcome', () => this.#tellDisplay());
+    client.on('welcome', () => {
+      this.#isWarm = false;
+      this.#tellDisplay();
+    });
     stage.renderer.setAnimationLoop((nowMs) => this.#frame(nowMs));
   }
 
@@ -136,6 +142,10 @@ export class FrameLoop {
     stage.predicted?.update(performance.now());
     stage.prepare(cloud, nowMs);
     remembered.update(stage.viewCamera, cloud.colouring);
+    if (!this.#isWarm && cloud.hasPoints && !inVr && !client.driver.isGripped) {
+      this.#isWarm = true;
+      warmUp(stage.renderer, stage.scene, stage.viewCamera);
+    }
     stage.renderer.render(stage.scene, stage.viewCamera);
     // Wait only when a time is being measured: waiting for the GPU costs frames.
     if (client.latency.wantsTime || settings.measure) {

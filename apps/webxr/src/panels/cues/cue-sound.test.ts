@@ -7,7 +7,7 @@ class Context {
   static mayRun: Promise<void> = Promise.resolve();
   readonly destination = {};
   currentTime = 0;
-  running = false;
+  running = true;
 
   constructor() {
     Context.made.push(this);
@@ -83,4 +83,17 @@ test('leaves out a cue that could not be heard at once, and rests', async () => 
   await vi.advanceTimersByTimeAsync(0);
   expect(Oscillator.started).toEqual([]);
   expect(Context.made[0]?.running).toBe(false);
+});
+
+test('is opened beforehand, rests, and is not opened again for a cue', async () => {
+  const sound = new CueSound();
+  sound.prepare();
+  await vi.advanceTimersByTimeAsync(0);
+  expect(Context.made).toHaveLength(1);
+  expect(Context.made[0]?.running).toBe(false);
+  sound.play('held');
+  sound.prepare();
+  await vi.advanceTimersByTimeAsync(0);
+  expect(Context.made[0]?.running).toBe(true);
+  expect(Context.made).toHaveLength(1);
 });

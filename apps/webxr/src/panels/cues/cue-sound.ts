@@ -35,9 +35,13 @@ export class CueSound {
   /** Tones that have not ended. */
   #sounding = 0;
 
+  /** Opens the loudspeaker, which takes a tenth of a second and more on a slow computer. Call it while nobody drives. */
+  prepare(): void {
+    if (this.#context === null) this.#rest(this.#open());
+  }
+
   play(cue: Cue): void {
-    this.#context ??= new AudioContext({ latencyHint: 'interactive' });
-    const context = this.#context;
+    const context = this.#open();
     const askedMs = performance.now();
     // It rests between two cues, and until the first press.
     context.resume().then(
@@ -48,6 +52,11 @@ export class CueSound {
       },
       () => undefined,
     );
+  }
+
+  #open(): AudioContext {
+    this.#context ??= new AudioContext({ latencyHint: 'interactive' });
+    return this.#context;
   }
 
   #sound(context: AudioContext, cue: Cue): void {

@@ -93,6 +93,9 @@ export function giveCues({ client, vr, settings, state, now }: CueParts): void {
   client.on('session', () => {
     judge = new CueJudge();
   });
+  client.on('welcome', () => {
+    if (settings.cues) sound.prepare();
+  });
   client.on('telemetry', look);
   client.on('estop', look);
   /** On the flat page, notices are before the eyes already. */
