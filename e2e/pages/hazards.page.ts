@@ -3,7 +3,7 @@ import { headsetViewport } from '../src/headset.ts';
 import { enterVr, wristOf } from '../src/stage/in-headset.ts';
 import { expect, test } from '../src/stage/page-test.ts';
 import { screenPlace } from '../src/stage/places.ts';
-import type { Rect, Rgb, Stage } from '../src/stage/stage.ts';
+import { FRAME_MS, type Rect, type Rgb, type Stage } from '../src/stage/stage.ts';
 import { SURFACES } from '../src/stored.ts';
 
 /** Grey, mixed with the tints. */
@@ -24,7 +24,7 @@ async function tints(stage: Stage, part?: Rect) {
 
 /** A grey room before a robot of these heights; it stands still. */
 async function openRoom(stage: Stage, heights = HEIGHTS): Promise<void> {
-  await stage.open({ state: 'blank', query: { every: '1' } });
+  await stage.open({ state: 'blank', query: { every: '1' }, frameMs: FRAME_MS });
   await connect(stage, heights);
 }
 
@@ -131,7 +131,12 @@ test.describe('in the headset', () => {
 
   test('both eyes see the tints, and the wrist says what they mean', async ({ stage }) => {
     const { page } = stage;
-    const headset = await enterVr(stage, { state: 'still', canvas: '320x180', query: { every: '1' } });
+    const headset = await enterVr(stage, {
+      state: 'still',
+      canvas: '320x180',
+      query: { every: '1' },
+      frameMs: FRAME_MS,
+    });
     await stage.script((stage, heights) => {
       const { welcome } = stage.link.session;
       if (welcome?.body !== undefined) stage.tell({ ...welcome, body: { ...welcome.body, heights } });

@@ -1,7 +1,7 @@
 /** A LiDAR's cloud in the colours of a quantity, cut at a height, and seen from above. */
 import { expect, test } from '../src/stage/page-test.ts';
 import { changedShare } from '../src/stage/pictures.ts';
-import type { Rgb, Stage } from '../src/stage/stage.ts';
+import { FRAME_MS, type Rgb, type Stage } from '../src/stage/stage.ts';
 
 /** Both ends of the colour map. */
 const FIRST: Rgb = [87, 40, 143];
@@ -12,7 +12,7 @@ const MARKER: Rgb = [45, 164, 149];
 const MIDDLE = { x: 0.44, y: 0.4, width: 0.12, height: 0.2 };
 
 async function openLidarOnly(stage: Stage) {
-  const page = await stage.open({ state: 'two-sensors', forMs: 1000 });
+  const page = await stage.open({ state: 'two-sensors', forMs: 1000, frameMs: FRAME_MS });
   await page.getByRole('button', { name: 'Camera', exact: true }).click();
   await stage.run(1500);
   return page;

@@ -4,7 +4,7 @@ import type { Download, Page } from '@playwright/test';
 import { expectNothingCovered } from '../src/stage/boxes.ts';
 import { expect, test } from '../src/stage/page-test.ts';
 import { screenPlace } from '../src/stage/places.ts';
-import type { Rgb, Stage } from '../src/stage/stage.ts';
+import { FRAME_MS, type Rgb, type Stage } from '../src/stage/stage.ts';
 
 const BACKGROUND: Rgb = [11, 15, 20];
 /** Seen from above: what floor and wall cover behind a robot that has turned round. */
@@ -16,6 +16,7 @@ const TURNING_MS = 4000;
 
 function open(stage: Stage, canvas = '160x90', every = '1'): Promise<Page> {
   return stage.open({
+    frameMs: FRAME_MS,
     state: 'still',
     canvas,
     query: { every },

@@ -2,7 +2,7 @@
 import { MAP_TILE, tileCount, tileRuns } from '@farpoint/protocol';
 import { expect, test } from '../src/stage/page-test.ts';
 import { changedShare } from '../src/stage/pictures.ts';
-import type { Stage } from '../src/stage/stage.ts';
+import { FRAME_MS, type Stage } from '../src/stage/stage.ts';
 
 /** Four metres ahead, then to the left. */
 const PATH: [number, number][] = [
@@ -48,7 +48,7 @@ const shown = async (stage: Stage) => (await stage.state()).navigation;
 const NOTHING = { pathPoints: 0, mapCells: 0 };
 
 test('path and map are on the floor, can be hidden, and their sizes are told', async ({ stage }) => {
-  const page = await stage.open();
+  const page = await stage.open({ frameMs: FRAME_MS });
   const facts = page.locator('#facts');
   expect(await shown(stage)).toEqual(NOTHING);
   await expect(facts).not.toContainText('Path');

@@ -5,7 +5,7 @@ import { expectNothingCovered } from '../src/stage/boxes.ts';
 import { barsPicture } from '../src/stage/camera-pictures.ts';
 import { enterVr } from '../src/stage/in-headset.ts';
 import { expect, test } from '../src/stage/page-test.ts';
-import type { Rgb, Stage } from '../src/stage/stage.ts';
+import { FRAME_MS, type Rgb, type Stage } from '../src/stage/stage.ts';
 
 const RED: Rgb = [255, 0, 0];
 const BLUE: Rgb = [0, 0, 255];
@@ -145,7 +145,7 @@ test.describe('in the headset', () => {
   test('a picture is beside the panel on the wrist until it is hidden; then the next one is', async ({
     stage,
   }) => {
-    const headset = await enterVr(stage, { state: 'cameras', canvas: '320x180' });
+    const headset = await enterVr(stage, { state: 'cameras', canvas: '320x180', frameMs: FRAME_MS });
     const { page } = stage;
     // Upwards, where there is nothing behind it.
     await headset.place('left', [-0.12, 1.92, -0.45]);

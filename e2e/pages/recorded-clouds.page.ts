@@ -3,7 +3,7 @@
  * was seen and in its colours.
  */
 import { expect, test } from '../src/stage/page-test.ts';
-import type { Rgb, Stage } from '../src/stage/stage.ts';
+import { FRAME_MS, type Rgb, type Stage } from '../src/stage/stage.ts';
 
 const BACKGROUND: Rgb = [11, 15, 20];
 /** Of the canvas, pixels. */
@@ -130,7 +130,7 @@ function isNear(one: readonly number[], other: readonly number[], levels: number
 test('all of a cloud of 480 × 480 pixels is drawn, and of points64 what the rate allows', async ({
   stage,
 }) => {
-  await stage.open({ state: 'still', query: { every: '1' } });
+  await stage.open({ state: 'still', query: { every: '1' }, frameMs: FRAME_MS });
   await stage.load('sim-office', 'sim-office-points64');
   await expectDrawn(stage, 'sim-office-points64', OFFICE.plain, OFFICE);
   await expectDrawn(stage, 'sim-office', OFFICE.whole, OFFICE);

@@ -38,7 +38,7 @@ async function shownIn(stage: Stage, frames: number): Promise<number[][]> {
 test('cameras are shown in step, each picture with its own time; none waits for one that is far behind', async ({
   stage,
 }) => {
-  const page = await stage.open({ state: 'still', canvas: '64x36' });
+  const page = await stage.open({ state: 'still', canvas: '64x36', frameMs: FRAME_MS });
   await stage.tell(list(['Front'], ['Left'], ['Right']));
   await stage.script((stage) =>
     stage.play({ Front: { delayMs: 10 }, Left: { delayMs: 25 }, Right: { delayMs: 40, lacks: [18] } }),
