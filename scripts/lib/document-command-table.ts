@@ -280,6 +280,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
       'congestion',
       'guard',
       'first-drive',
+      'load',
       'stopping',
       'faults',
       'safety',

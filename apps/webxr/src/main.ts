@@ -14,7 +14,6 @@ import './panels/ui/people.css';
 import { isSoftwareRenderer } from '@farpoint/cloud-view';
 import { transformSupport } from '@farpoint/operator';
 import { readBenchSettings } from './ground/bench-settings.ts';
-import { languageFor } from './ground/display/languages.ts';
 import { applyDisplay, displaySettings } from './ground/display/stored-display.ts';
 import { keepAwake } from './ground/display/wake-lock.ts';
 import { liveSettings } from './ground/live-settings.ts';
@@ -22,11 +21,11 @@ import { readSettings } from './ground/settings.ts';
 import { hideToken, loadStored, pageOrigin } from './ground/stored-settings.ts';
 import { App } from './page/app.ts';
 import { elements } from './panels/ui/elements.ts';
+import { startLanguage } from './panels/ui/fill-texts.ts';
 import { showNotices } from './panels/ui/notice.ts';
 import { Notices } from './state/notices.ts';
 import type { OpenedStage } from './testing/open-stage.ts';
-import { speak } from './words/language.ts';
-import { failureWords, forbiddenAddressWords } from './words/words.ts';
+import { texts } from './words/language.ts';
 
 const query = new URLSearchParams(window.location.search);
 // The deployed page leaves this out. `pnpm dev` and `vite build --mode testing` include it.
@@ -40,11 +39,11 @@ function start(stage: OpenedStage | null): void {
   const transform = transformSupport();
   const isDirect = settings.bridge === null;
   if (isDirect && typeof RTCPeerConnection === 'undefined') {
-    notices.failure.value = failureWords.noWebRtc;
+    notices.failure.value = texts().failures.noWebRtc;
     return;
   }
   if (isDirect && transform === 'none') {
-    notices.failure.value = failureWords.noTransform;
+    notices.failure.value = texts().failures.noTransform;
     return;
   }
   try {
@@ -61,16 +60,17 @@ function start(stage: OpenedStage | null): void {
       });
   } catch (error) {
     console.error(error);
-    notices.failure.value = failureWords.noWebGl2;
+    notices.failure.value = texts().failures.noWebGl2;
   }
 }
 
 // The server says where its page may connect to. Without this, a forbidden address only looks unreachable.
 document.addEventListener('securitypolicyviolation', ({ effectiveDirective, blockedURI }) => {
-  if (effectiveDirective === 'connect-src') notices.tell(forbiddenAddressWords(blockedURI), 'bad');
+  if (effectiveDirective === 'connect-src')
+    notices.tell(texts().failures.forbiddenAddress(blockedURI), 'bad');
 });
 async function open(): Promise<void> {
-  await speak(languageFor('system', navigator.languages));
+  await startLanguage();
   showNotices(notices);
   // The deployed page leaves this out, too. A page of tests can have a scripted link instead of a robot.
   if (import.meta.env.MODE !== 'production' && query.has('stage'))

@@ -164,7 +164,12 @@ export { givesYou, type OpenHandover, RobotPeople } from './session/robot-people
 export type { RobotSession } from './session/robot-session.ts';
 export type { SessionPhase } from './session/session-keeper.ts';
 export { finalLosses, lossOf, type SessionLoss } from './session/session-loss.ts';
-export { isPrivateAddress, parseSignalingUrl, type SignalingAddress } from './signaling/signaling-url.ts';
+export {
+  isPrivateAddress,
+  parseSignalingUrl,
+  type SignalingAddress,
+  type SignalingAddressFault,
+} from './signaling/signaling-url.ts';
 export type { PlayedSound, RobotSound, VoiceStatus } from './sound/robot-sound.ts';
 export type { VoiceFailure, VoiceFailureReason } from './sound/voice-failure.ts';
 export type { SensorStats } from './statistics/sensor-statistics.ts';

@@ -21,7 +21,7 @@ test('are those that the page began with, until others are saved', () => {
     headset: { ...DEFAULT_HEADSET, turn: 'smooth' },
   });
   expect(live).toMatchObject({ name: 'Ada', synchronised: true, cues: false });
-  expect(live.mapTiles).toEqual({ template: TILES, attribution: 'Map: tiles.example' });
+  expect(live.mapTiles).toEqual({ template: TILES, attribution: null, host: 'tiles.example' });
   expect(headset.turn).toBe('smooth');
   live.apply({});
   expect(live).toMatchObject({ synchronised: true, cues: true, mapTiles: null });

@@ -36,7 +36,7 @@ describe('readSettings', () => {
     const plain = { protocol: 'http:', hostname: '10.0.0.5', host: '10.0.0.5:3000', isDevServer: false };
     expect(read('token=a', {}, plain)).toMatchObject({
       token: undefined,
-      signalingFault: expect.stringContaining('wss:'),
+      signalingFault: { reason: 'insecure-token' },
     });
     expect(read('', {}, plain).signalingFault).toBeNull();
     expect(read('token=a', {}, dev).token).toBe('a');
@@ -52,7 +52,7 @@ describe('readSettings', () => {
 
   test('reports a bad signaling address and uses the default', () => {
     const settings = read('signaling=ftp://x');
-    expect(settings.signalingFault).toContain('is not a WebSocket address');
+    expect(settings.signalingFault).toEqual({ reason: 'not-websocket', address: 'ftp://x' });
     expect(settings.signalingUrl).toBe('wss://x.org:8443/operator');
   });
 

@@ -1,6 +1,12 @@
 /** The page's settings, from its address and from local storage. They are checked here and trusted everywhere else. */
 
-import { type BridgeAddress, isPrivateAddress, parseBridge, parseSignalingUrl } from '@farpoint/operator';
+import {
+  type BridgeAddress,
+  isPrivateAddress,
+  parseBridge,
+  parseSignalingUrl,
+  type SignalingAddressFault,
+} from '@farpoint/operator';
 import { displayNameSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
 import { type BenchSettings, NO_BENCH } from './bench-settings.ts';
 import { type HeadsetSettings, parseHeadset } from './headset-settings.ts';
@@ -38,11 +44,19 @@ export interface PageOrigin {
   isDevServer: boolean;
 }
 
+/** Why an address of the signaling service is not used as it was given. */
+export interface SignalingFault {
+  /** `insecure-token`: it is used, but a token is not sent there. */
+  readonly reason: SignalingAddressFault | 'insecure-token';
+  /** As it was written. */
+  readonly address: string;
+}
+
 export interface Settings extends BenchSettings {
   /** WebSocket address of the operators' endpoint. */
   signalingUrl: string;
   /** Why the given address cannot be used; `null` if it can, or if none was given. */
-  signalingFault: string | null;
+  signalingFault: SignalingFault | null;
   token: string | undefined;
   name: string;
   /** The bridge that the stream comes from; `null` to connect to robots directly. */
@@ -106,10 +120,10 @@ export function readSettings(
   return {
     signalingUrl,
     signalingFault:
-      given !== null && 'fault' in given
-        ? given.fault
+      given !== null && 'reason' in given
+        ? { reason: given.reason, address: asked ?? '' }
         : hasToken && !mayTell
-          ? 'your token is sent to a wss: address only: open the page at its https address'
+          ? { reason: 'insecure-token', address: signalingUrl }
           : null,
     token: hasToken && mayTell ? token : undefined,
     name: displayNameSchema.safeParse(name).success ? name : 'Operator',

@@ -18,9 +18,9 @@ import type { Notices } from '../state/notices.ts';
 import { PageState } from '../state/page-state.ts';
 import { ReleaseHold } from '../take/drive/release-hold.ts';
 import { SoundPlayer } from '../take/sound/sound-player.ts';
+import { texts } from '../words/language.ts';
 import { viewAgeMs } from '../words/motion-words.ts';
 import { PageStatistics, type PageStats } from '../words/page-stats.ts';
-import { leavingWords } from '../words/words.ts';
 import { FrameLoop } from './frame-loop.ts';
 import type { HeadsetControls } from './headset-controls.ts';
 import { openClient } from './open-client.ts';
@@ -143,7 +143,8 @@ export class App implements ShownParts {
   /** Connects to this robot. A robot that was chosen before is stopped first. */
   choose(robotId: string): void {
     this.client.choose(robotId);
-    if (this.client.chosenRobotId !== this.client.link.robotId) this.state.notices.tell(leavingWords);
+    if (this.client.chosenRobotId !== this.client.link.robotId)
+      this.state.notices.tell(texts().driving.leaving);
     this.state.sample();
   }
 

@@ -12,7 +12,7 @@ import type { PageState } from '../state/page-state.ts';
 import { VideoColour } from '../take/video/video-colour.ts';
 import { VideoFeed } from '../take/video/video-feed.ts';
 import type { VideoReceiver } from '../take/video/video-receiver.ts';
-import { videoWords } from '../words/words.ts';
+import { texts } from '../words/language.ts';
 
 export interface PageViewsParts {
   readonly client: RobotClient;
@@ -53,7 +53,7 @@ export class PageViews {
       views: state.videos,
       settings,
       receiver,
-      words: videoWords,
+      words: texts().media.cannotShow,
       presented: this.presented,
       now: () => performance.now(),
       onShown: (captureMs) => client.seen.onShown(captureMs),

@@ -5,13 +5,6 @@ import { computed, type ReadonlySignal, type Signal, signal } from '@preact/sign
 export const PRIORITIES = ['balanced', 'clouds', 'cameras'] as const;
 export type Priority = (typeof PRIORITIES)[number];
 
-/** What people are told of each. */
-export const PRIORITY_WORDS: Readonly<Record<Priority, string>> = {
-  balanced: 'clouds and cameras alike',
-  clouds: 'clouds first',
-  cameras: 'cameras first',
-};
-
 /** Relative weights, as the robot takes them. */
 export interface Shares {
   readonly cloud: number;

@@ -1,10 +1,11 @@
 /** The link: the state of the signaling service, the robots it lists, the chosen robot, and the session with it. */
 import { type RobotClient, type RobotLink, robotAfter } from '@farpoint/operator';
 import { computed } from '@preact/signals-core';
+import type { SignalingFault } from '../ground/settings.ts';
 import { type Silence, silenceOf } from '../ground/silence.ts';
 import { obstacleOf } from '../words/access-words.ts';
 import { type Banner, bannerWords } from '../words/banner-words.ts';
-import { linkWords, type Words } from '../words/words.ts';
+import { linkWords, signalingFaultWords, type Words } from '../words/words.ts';
 import { type Sampler, steady } from './sampler.ts';
 import type { Takeover } from './takeover.ts';
 
@@ -27,7 +28,7 @@ export interface LinkStateParts {
   readonly host: string;
   readonly takeover: Takeover;
   /** Why the given signaling address cannot be used; `null` if it can. */
-  readonly signalingFault: string | null;
+  readonly signalingFault: SignalingFault | null;
   /** Whether the browser believes that it has a network. */
   isOnline(): boolean;
 }
@@ -92,9 +93,13 @@ function bannerOf(
   });
 }
 
-function lineOf({ link, pointsAtMs }: RobotClient, signalingFault: string | null, atMs: number): Words {
+function lineOf(
+  { link, pointsAtMs }: RobotClient,
+  signalingFault: SignalingFault | null,
+  atMs: number,
+): Words {
   if (signalingFault !== null && link.phase === 'none')
-    return { text: `Signaling address: ${signalingFault}`, tone: 'bad' };
+    return { text: signalingFaultWords(signalingFault), tone: 'bad' };
   const { grantEndsAtMs, telemetry, about } = link.session;
   return linkWords({
     phase: link.phase,

@@ -6,14 +6,7 @@ import { missingGripWords } from '../words/driving-words.ts';
 import { handoverEndWords } from '../words/handover-words.ts';
 import { texts } from '../words/language.ts';
 import { presserWords } from '../words/stop-notices.ts';
-import {
-  failureWords,
-  rejectionWords,
-  type Tone,
-  type Words,
-  wordsOfLoss,
-  wordsOfRejection,
-} from '../words/words.ts';
+import { type Tone, type Words, wordsOfLoss, wordsOfRejection } from '../words/words.ts';
 import type { Takeover } from './takeover.ts';
 
 /** Tells people what happens to the session and to their commands, as short notices. The banner tells of a loss. */
@@ -35,16 +28,16 @@ export function tellNotices(client: RobotClient, notices: Notices, takeover: Tak
     if (loss === 'ended-by-supervisor')
       notices.tell(wordsOfLoss(loss, { maxOperators, lossDetail }), 'warning');
   });
-  client.on('grantExpires', (inS) => notices.tell(`Your grant ends in ${inS} s.`, 'warning'));
+  client.on('grantExpires', (inS) => notices.tell(texts().link.grantEnds(inS), 'warning'));
   client.on('refused', (message) => notices.tell(message, 'warning'));
-  client.on('welcome', ({ name }) => notices.mention(`Connected to ${name}`));
+  client.on('welcome', ({ name }) => notices.mention(texts().link.connectedTo(name)));
   client.on('commandRejected', ({ reason, detail }) => {
     console.info('command refused:', reason, detail);
     if (reason === 'not-lease-holder' && isDisplaced()) return;
     notices.tell(wordsOfRejection(reason, client.driver.holder), 'warning');
   });
   client.on('otherDrives', () => {
-    if (!isDisplaced()) notices.tell(rejectionWords['not-lease-holder'], 'warning');
+    if (!isDisplaced()) notices.tell(texts().driving.rejections['not-lease-holder'], 'warning');
   });
   client.on('gripMissing', (device) => {
     const role = link.session.welcome?.access?.role ?? null;
@@ -55,10 +48,10 @@ export function tellNotices(client: RobotClient, notices: Notices, takeover: Tak
   client.on('gripLost', (loss) => {
     if (!isDisplaced()) notices.tell(texts().driving.gripLost[loss], 'warning');
   });
-  client.on('robotFault', (message) => notices.tell(`The robot reports: ${message}`, 'warning'));
+  client.on('robotFault', (message) => notices.tell(texts().link.robotReports(message), 'warning'));
   client.on('failed', ({ detail }) => {
     console.error('cloud worker:', detail);
-    notices.failure.value = failureWords.workerFailed;
+    notices.failure.value = texts().failures.workerFailed;
   });
 }
 

@@ -11,6 +11,7 @@ import type { EstopState, LeaseState, RobotListing, Telemetry, Welcome } from '@
 import { effect } from '@preact/signals-core';
 import { describe, expect, test } from 'vitest';
 import { PanelPlacements } from '../ground/panels/panel-placements.ts';
+import type { SignalingFault } from '../ground/settings.ts';
 import { RobotVoice } from '../testing/robot-voice.ts';
 import type { PageStats } from '../words/page-stats.ts';
 import { Notices } from './notices.ts';
@@ -81,7 +82,7 @@ class Bench {
   nowMs = 0;
   readonly state: PageState;
 
-  constructor(signalingFault: string | null = null) {
+  constructor(signalingFault: SignalingFault | null = null) {
     this.state = new PageState({
       placements: new PanelPlacements(new Map(), () => undefined),
       client: this.client as unknown as RobotClient,
@@ -172,8 +173,11 @@ describe('the link', () => {
   });
 
   test('reports an unusable signaling address while there is no session', () => {
-    const { client, state } = new Bench('no port');
-    expect(state.link.line.value).toEqual({ text: 'Signaling address: no port', tone: 'bad' });
+    const { client, state } = new Bench({ reason: 'no-address', address: 'x:y' });
+    expect(state.link.line.value).toEqual({
+      text: 'Signaling address: “x:y” is not an address',
+      tone: 'bad',
+    });
     client.enter('live');
     expect(state.link.line.value.text).toBe('Live');
   });

@@ -48,7 +48,7 @@ export function robotState(client: RobotClient, samples: Sampler) {
     /** That it does not look where it goes; `null` if it does, or does not say. */
     obstacleGuard: whileHeard(() => {
       const guard = link.session.telemetry?.motion?.obstacleGuard;
-      return guard === undefined || guard === 'on' ? null : obstacleGuardWords[guard];
+      return guard === undefined || guard === 'on' ? null : obstacleGuardWords(guard);
     }),
     /** What is near it; `null` while nobody can tell. */
     near: samples.of((atMs) =>

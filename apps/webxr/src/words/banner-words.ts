@@ -6,7 +6,7 @@ import { finalLosses, type SessionLoss, type SessionPhase, type SignalingState }
 import type { Silence } from '../ground/silence.ts';
 import { type HandFacts, vainGripWords } from './driving-words.ts';
 import { texts } from './language.ts';
-import { type LossFacts, signalingWords, wordsOfLoss } from './words.ts';
+import { type LossFacts, wordsOfLoss } from './words.ts';
 
 export interface Banner {
   readonly title: string;
@@ -35,9 +35,6 @@ export interface BannerFacts extends HandFacts, LossFacts {
 
 type Said = Omit<Banner, 'urgent'>;
 
-const STOPS = 'The robot stops by itself.';
-const RETRIES = 'This page keeps trying; a STOP that you press now is kept for then.';
-
 /** `null` while there is nothing to say. */
 export function bannerWords(facts: BannerFacts): Banner | null {
   if (facts.phase === 'live') {
@@ -54,45 +51,34 @@ export function bannerWords(facts: BannerFacts): Banner | null {
 
 /** Which side is gone: the signaling service sees both. */
 function liveLoss({ silence, interrupted, signaling, online, robotListed }: BannerFacts): Said | null {
+  const said = texts().link.banner;
   if (silence === 'lost') {
-    if (!online || signaling !== 'ready')
-      return {
-        title: 'Your connection is lost',
-        text: `Neither the robot nor the signaling service reaches this computer: check its network. ${STOPS} ${RETRIES}`,
-      };
-    if (!robotListed)
-      return {
-        title: 'The robot is gone',
-        text: `Its program or its network is down: the signaling service does not see it, either. ${STOPS} This page connects again when it is back.`,
-      };
-    return { title: 'The robot does not answer', text: `The connection to it is lost. ${STOPS} ${RETRIES}` };
+    if (!online || signaling !== 'ready') return { title: said.yours, text: said.yoursText };
+    if (!robotListed) return { title: said.gone, text: said.goneText };
+    return { title: said.silent, text: said.silentText };
   }
   if (!interrupted || silence !== 'heard') return null;
-  return {
-    title: 'The robot does not hear you',
-    text: `You see it live, but nothing that you send arrives. ${STOPS} ${RETRIES}`,
-  };
+  return { title: said.deaf, text: said.deafText };
 }
 
 /** A robot was chosen, and has never been reached. */
 function beforeSession({ phase, signaling, robotListed, robotId }: BannerFacts): Said | null {
   if (phase !== 'waiting') return null;
+  const said = texts().link;
   if (signaling === 'waiting' || signaling === 'refused')
-    return { title: 'No signaling service', text: signalingWords[signaling].text };
+    return { title: said.banner.noService, text: said.signaling[signaling] };
   if (signaling !== 'ready' || robotListed) return null;
-  return {
-    title: 'This robot is not online',
-    text: `The signaling service does not list “${robotId ?? ''}”. This page connects when it appears; press Disconnect to choose another robot.`,
-  };
+  return { title: said.banner.notOnline, text: said.banner.notOnlineText(robotId ?? '') };
 }
 
 function afterLoss(facts: BannerFacts, loss: SessionLoss): Said {
   const { signaling, robotListed, online } = facts;
+  const { banner: said, signaling: states } = texts().link;
   if (!online || (signaling !== 'ready' && signaling !== 'connecting'))
-    return { title: 'Your connection is lost', text: `${STOPS} ${signalingWords[signaling].text}` };
-  if (loss === 'robot-full') return { title: 'The robot is full', text: wordsOfLoss(loss, facts) };
-  if (!robotListed) return { title: 'The robot is offline', text: wordsOfLoss(loss, facts) };
-  return { title: 'Not connected', text: wordsOfLoss(loss, facts) };
+    return { title: said.yours, text: said.yoursAfter(states[signaling]) };
+  if (loss === 'robot-full') return { title: said.full, text: wordsOfLoss(loss, facts) };
+  if (!robotListed) return { title: said.offline, text: wordsOfLoss(loss, facts) };
+  return { title: said.notConnected, text: wordsOfLoss(loss, facts) };
 }
 
 function urgent({ title, text }: Said, gripped: boolean): Banner {

@@ -1,5 +1,7 @@
 /** What a camera's panel says about it. */
 import { type CameraView, STALE_MS } from '../ground/pictures/camera-view.ts';
+import { texts } from './language.ts';
+import { fixed } from './numbers.ts';
 
 /**
  * `off`: switched off by the operator. `fault`: the robot or this browser says what is wrong. `waiting`: no picture has
@@ -23,14 +25,15 @@ export function cameraWords({
 }: Pick<CameraView, 'camera' | 'ageMs' | 'fault'>): CameraWords {
   const age = ageMs.peek();
   const reason = fault.value;
-  if (!camera.on.value) return { state: 'off', text: 'hidden', reason: null };
+  const said = texts().media.camera;
+  if (!camera.on.value) return { state: 'off', text: said.hidden, reason: null };
   if (reason !== null)
-    return { state: 'fault', text: age === null ? 'no picture' : `fault, ${seconds(age)}`, reason };
-  if (age === null) return { state: 'waiting', text: 'waiting', reason: null };
-  if (age > STALE_MS) return { state: 'frozen', text: `frozen, ${seconds(age)}`, reason: null };
+    return { state: 'fault', text: age === null ? said.noPicture : said.fault(seconds(age)), reason };
+  if (age === null) return { state: 'waiting', text: said.waiting, reason: null };
+  if (age > STALE_MS) return { state: 'frozen', text: said.frozen(seconds(age)), reason: null };
   return { state: 'live', text: `${Math.round(age / 10) * 10} ms`, reason: null };
 }
 
 function seconds(ms: number): string {
-  return `${(ms / 1000).toFixed(1)} s`;
+  return `${fixed(ms / 1000, 1)} s`;
 }

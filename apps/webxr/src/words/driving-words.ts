@@ -1,8 +1,8 @@
 /** What the page says to a hand on the controls that moves nothing. */
 import type { DriveInput, GripLoss } from '@farpoint/operator';
 import type { LeaseState, Role } from '@farpoint/protocol';
+import { gamepadName } from '../take/drive/pick-gamepad.ts';
 import { texts } from './language.ts';
-import { rejectionWords } from './words.ts';
 
 /** A stick or key is pushed without a grip. @returns what has to be done first */
 export function missingGripWords(
@@ -10,9 +10,9 @@ export function missingGripWords(
   holder: LeaseState['holder'],
   role: Role | null,
 ): string {
-  if (role === 'watch') return rejectionWords['not-permitted'];
-  if (holder === 'other') return rejectionWords['not-lease-holder'];
-  const { grip, gripMissing } = texts().driving;
+  const { grip, gripMissing, rejections } = texts().driving;
+  if (role === 'watch') return rejections['not-permitted'];
+  if (holder === 'other') return rejections['not-lease-holder'];
   return gripMissing(grip[device]);
 }
 
@@ -35,4 +35,10 @@ export function vainGripWords({ gripLost, takenOverBy }: HandFacts): { title: st
   if (takenOverBy !== null)
     return { title: said.takenOverTitle, text: `${takenOverWords(takenOverBy)} ${said.letGo}` };
   return gripLost === null ? null : { title: said.letGoTitle, text: said.gripLost[gripLost] };
+}
+
+/** What people are told of a gamepad that cannot drive. @param id as browsers give it */
+export function unknownGamepadWords(id: string): string {
+  const { gamepadCannotDrive, unknownGamepad } = texts().driving;
+  return gamepadCannotDrive(gamepadName(id) || unknownGamepad);
 }

@@ -1,5 +1,6 @@
 /** What the page says about the emergency stop: who pressed it and why it is on, and who may release it. */
 import type { EstopCause, EstopState, LeaseState, Role } from '@farpoint/protocol';
+import { texts } from './language.ts';
 
 export interface EstopFacts {
   /** By the robot's latest message. */
@@ -27,55 +28,35 @@ export interface LatchedStop {
   heard: boolean;
 }
 
-export const LATCHED_TITLE = 'Emergency stop';
-/** Under the STOP button. */
-export const stopButtonWords = { latched: 'engaged', clear: 'emergency' } as const;
-
-const UNHEARD = 'So the robot said before it fell silent. It can be released when the robot is heard again.';
-const HOLD = 'Hold the release control for one second; then let go of the grip and drive.';
-
-const holderWords: Record<NonNullable<EstopCause['heldBy']>[number], string> = {
-  topic: 'a program on it',
-  shm: 'a program on it',
-  gpio: 'its own stop button',
-  key: 'a key at its own keyboard',
-};
-const startWords: Record<NonNullable<EstopCause['start']>, string> = {
-  'was-latched': 'The stop was on when the robot was last shut down.',
-  'unclean-exit': 'The robot’s program did not shut down in order: it crashed, or lost its power.',
-  unreadable: 'The robot cannot read whether a stop was on when it last ran.',
-  unwritable: 'The robot cannot store its emergency stop, so it starts stopped.',
-};
-
 /** `null` while it is not latched. */
 export function latchedStop(facts: EstopFacts): LatchedStop | null {
   if (!facts.estop.latched) return null;
   const { heard } = facts;
-  const others = heard ? whoElse(facts) : UNHEARD;
-  return { why: whyWords(facts), release: others ?? HOLD, mayRelease: others === null, heard };
+  const { hold, unheard } = texts().stop;
+  const others = heard ? whoElse(facts) : unheard;
+  return { why: whyWords(facts), release: others ?? hold, mayRelease: others === null, heard };
 }
 
 function whyWords({ estop: { by, releasedAt }, cause }: EstopFacts): string {
-  if (cause?.heldBy !== undefined) {
-    const held = [...new Set(cause.heldBy.map((holder) => holderWords[holder]))];
-    return `The robot is stopped by ${held.join(' and ')}.`;
-  }
-  if (releasedAt === 'robot') return 'The robot is stopped by a stop on the robot itself.';
-  if (cause?.start !== undefined && cause.pressedBy === undefined) return startWords[cause.start];
-  if (cause?.yours === true) return 'You pressed STOP.';
-  if (cause?.pressedBy !== undefined) return `${cause.pressedBy} pressed STOP.`;
-  return by === 'robot' ? 'The robot has stopped itself.' : 'An operator pressed STOP.';
+  const said = texts().stop;
+  if (cause?.heldBy !== undefined)
+    return said.heldBy([...new Set(cause.heldBy.map((holder) => said.holders[holder]))]);
+  if (releasedAt === 'robot') return said.heldAtRobot;
+  if (cause?.start !== undefined && cause.pressedBy === undefined) return said.starts[cause.start];
+  if (cause?.yours === true) return said.byYou;
+  if (cause?.pressedBy !== undefined) return said.by(cause.pressedBy);
+  return by === 'robot' ? said.byRobot : said.byOperator;
 }
 
 /** Who releases it if this operator may not; `null` if it may. */
 function whoElse({ estop, cause, holder, driver, role }: EstopFacts): string | null {
-  if (estop.releasedAt === 'robot') return 'It is released there, at the robot, and nowhere else.';
+  const said = texts().stop;
+  if (estop.releasedAt === 'robot') return said.releasedThere;
   if (role === 'supervise') return null;
-  if (cause?.release === 'supervisor') return 'Only a supervisor releases it.';
-  if (role === 'watch') return 'Your grant lets you watch: whoever drives releases it.';
+  if (cause?.release === 'supervisor') return said.supervisorReleases;
+  if (role === 'watch') return said.youWatch;
   if (cause?.release === 'latcher' && !cause.yours)
-    return `${cause.pressedBy ?? 'Whoever pressed STOP'}, or a supervisor, releases it.`;
-  if (holder === 'other')
-    return `${driver ?? 'Whoever drives'} releases it. To do it yourself, take over first.`;
+    return said.presserReleases(cause.pressedBy ?? said.whoeverPressed);
+  if (holder === 'other') return said.driverReleases(driver ?? said.whoeverDrives);
   return null;
 }

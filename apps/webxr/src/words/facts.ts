@@ -4,13 +4,13 @@ import type { PictureUse } from '@farpoint/cloud-view';
 import type { Battery, EstopState, Telemetry } from '@farpoint/operator';
 import { BitRate } from '@farpoint/timing';
 import type { VideoColourFigures } from '../take/video/video-colour.ts';
+import { texts } from './language.ts';
 import { motionWords, speedLimitWords } from './motion-words.ts';
+import { fixed, grouped, percent } from './numbers.ts';
 import type { PageStats } from './page-stats.ts';
 import type { ShownReading } from './shown-readings.ts';
 import { viewWords } from './view-words.ts';
 import { driveStateWords, type Tone } from './words.ts';
-
-const OWN_COLOURS = 'the points’ own';
 
 /**
  * Says whether the surface has the colours of its camera's video, and if not, why.
@@ -18,44 +18,33 @@ const OWN_COLOURS = 'the points’ own';
  * @returns `null` if the robot sends no video of its depth camera
  */
 export function videoColourWords({ state, share, use }: VideoColourFigures): string | null {
+  const said = texts().figures.colours;
   switch (state) {
     case 'not-offered':
     case 'no-surface':
     case 'other-colours':
       return null;
     case 'painted':
-      return share > 0.95 ? 'from the video' : `from the video for ${Math.round(share * 100)} %`;
-    case 'switched-off':
-      return OWN_COLOURS;
-    case 'not-in-step':
-      return `${OWN_COLOURS}: video and points are not in step`;
-    case 'not-watched':
-      return `${OWN_COLOURS}: the video is off`;
-    case 'no-picture':
-      return `${OWN_COLOURS}: no video comes`;
-    case 'late':
-      return `${OWN_COLOURS}: the video comes too late`;
+      return share > 0.95 ? said.painted : said.partly(percent(share));
     case 'no-match':
-      return `${OWN_COLOURS}: ${misfitWords(use)}`;
+      return said.noMatch(misfitWords(use));
+    default:
+      return said[state];
   }
 }
 
 /** Why a picture paints nothing. */
 function misfitWords(use: PictureUse | null): string {
+  const said = texts().figures.misfits;
   switch (use) {
     case 'other-shape':
-      return 'the video’s shape is another';
     case 'too-large':
-      return 'the video is too large';
     case 'unreadable':
-      return 'this browser cannot paint with the video';
+      return said[use];
     default:
-      return 'no picture was captured with them';
+      return said.other;
   }
 }
-
-/** Whole numbers, as in 12,000. Making a format for each number takes longer than everything else here. */
-const inThousands = new Intl.NumberFormat('en', { maximumFractionDigits: 0 });
 
 export interface Fact {
   name: string;
@@ -65,11 +54,6 @@ export interface Fact {
 
 /** What stands in place of a figure that is not live. */
 export const NO_FIGURE = '–';
-/** What stays true without a word from the robot. */
-const OF_THE_PAGE: readonly string[] = ['Robot', 'Remembered', 'Motion to photon'];
-/** What is measured of arriving points. */
-const OF_POINTS: readonly string[] = ['Points', 'Drawn', 'Colours', 'Rate', 'Loss', 'View age'];
-
 export interface SessionFacts {
   /** Something has come from the robot just now: otherwise no figure is live. */
   heard: boolean;
@@ -89,81 +73,101 @@ export interface SessionFacts {
 
 export function sessionFacts(session: SessionFacts): Fact[] {
   const { heard, pointsHeard } = session;
+  const { names } = texts().figures;
+  // What stays true without a word from the robot, and what is measured of arriving points.
+  const ofThePage = [names.robot, names.remembered, names.motionToPhoton];
+  const ofPoints = [names.points, names.drawn, names.colours, names.rate, names.loss, names.viewAge];
   const isLive = (name: string) =>
-    OF_THE_PAGE.includes(name) || (heard && (pointsHeard || !OF_POINTS.includes(name)));
+    ofThePage.includes(name) || (heard && (pointsHeard || !ofPoints.includes(name)));
   return allFacts(session).map((fact) => (isLive(fact.name) ? fact : { name: fact.name, value: NO_FIGURE }));
 }
 
 function allFacts({ drives, name, telemetry, estop, maxLinear, readings, figures }: SessionFacts): Fact[] {
+  const { names } = texts().figures;
   const facts: Fact[] = [];
-  if (name !== null) facts.push({ name: 'Robot', value: name });
+  if (name !== null) facts.push({ name: names.robot, value: name });
   if (telemetry !== null) facts.push(...telemetryFacts(telemetry, estop, maxLinear));
   if (telemetry !== null && figures.view !== undefined && drives)
-    facts.push({ name: 'View', value: viewWords(figures.view) });
+    facts.push({ name: names.view, value: viewWords(figures.view) });
   addReadings(facts, readings);
   facts.push(...streamFacts(figures));
   if (telemetry !== null && telemetry.operators > 1) {
-    facts.push({ name: 'Operators', value: String(telemetry.operators) });
+    facts.push({ name: names.operators, value: String(telemetry.operators) });
   }
   return facts;
 }
 
 function telemetryFacts(telemetry: Telemetry, estop: EstopState, maxLinear: number): Fact[] {
+  const { names } = texts().figures;
   // Telemetry reports an emergency stop a moment later than the `estop` message.
   const bounded = estop.latched ? null : motionWords(telemetry.motion);
   const drive = bounded ?? driveStateWords(estop.latched ? { drive: 'estop' } : telemetry);
-  const where = estop.releasedAt === 'robot' ? '; released at the robot only' : '';
-  const by = estop.latched && estop.by !== undefined ? ` (by ${estop.by}${where})` : '';
   const { linear, angular } = telemetry.twist;
   const facts: Fact[] = [
-    { name: 'State', value: drive.text + by, tone: drive.tone },
-    { name: 'Speed', value: `${linear.x.toFixed(2)} m/s  ${angular.z.toFixed(2)} rad/s` },
+    { name: names.state, value: stoppedWords(drive.text, estop), tone: drive.tone },
+    { name: names.speed, value: `${fixed(linear.x, 2)} m/s  ${fixed(angular.z, 2)} rad/s` },
   ];
   const limit = speedLimitWords(telemetry, maxLinear);
-  if (limit !== null) facts.push({ name: 'Speed limit', value: limit.text, tone: limit.tone });
+  if (limit !== null) facts.push({ name: names.speedLimit, value: limit.text, tone: limit.tone });
   if (telemetry.battery !== undefined) facts.push(batteryFact(telemetry.battery));
   return facts;
 }
 
+/** With who has stopped it, and where that is released. */
+function stoppedWords(state: string, { latched, by, releasedAt }: EstopState): string {
+  if (!latched || by === undefined) return state;
+  const said = texts().figures;
+  const stopped = releasedAt === 'robot' ? said.stoppedAtRobot : said.stoppedBy;
+  return stopped(state, said.stoppers[by]);
+}
+
 /** What is unknown is not 0. */
 function batteryFact({ percentage: share, voltage }: Battery): Fact {
+  const said = texts().figures;
   const known = [
-    share === undefined ? 'charge unknown' : `${Math.round(share * 100)} %`,
-    ...(voltage === undefined ? [] : [`${voltage.toFixed(1)} V`]),
+    share === undefined ? said.chargeUnknown : percent(share),
+    ...(voltage === undefined ? [] : [`${fixed(voltage, 1)} V`]),
   ];
   const tone = share === undefined || share >= 0.25 ? 'neutral' : share < 0.1 ? 'bad' : 'warning';
-  return { name: 'Battery', value: known.join('  '), tone };
+  return { name: said.names.battery, value: known.join('  '), tone };
 }
+
+/** The label of the robot's reading of its battery. */
+const ROBOTS_BATTERY = 'Battery';
 
 /**
  * A battery reading replaces the telemetry's two figures, because it says more. Any other reading whose name is taken
  * gets a row of its own, with its topic in the name.
  */
 function addReadings(facts: Fact[], readings: readonly ShownReading[]): void {
+  const { battery } = texts().figures.names;
   for (const { topic, label, text, tone } of readings) {
-    const there = facts.find(({ name }) => name === label);
-    if (there !== undefined && label === 'Battery') Object.assign(there, { value: text, tone });
-    else facts.push({ name: there === undefined ? label : `${label} (${topic})`, value: text, tone });
+    // The robot names its battery in English.
+    const shown = label === ROBOTS_BATTERY ? battery : label;
+    const there = facts.find(({ name }) => name === shown);
+    if (there !== undefined && shown === battery) Object.assign(there, { value: text, tone });
+    else facts.push({ name: there === undefined ? shown : `${shown} (${topic})`, value: text, tone });
   }
 }
 
 function streamFacts(figures: PageStats): Fact[] {
+  const { names, p95: withP95 } = texts().figures;
   const facts: Fact[] = [
     {
-      name: 'Points',
-      value: `${inThousands.format(figures.pointsPerFrame)} × ${figures.framesPerSecond.toFixed(0)}/s`,
+      name: names.points,
+      value: `${grouped(figures.pointsPerFrame)} × ${figures.framesPerSecond.toFixed(0)}/s`,
     },
     ...thinningFacts(figures),
     ...memoryFacts(figures),
     ...paintFacts(figures),
-    { name: 'Rate', value: `${mbps(figures)} Mbit/s` },
-    { name: 'Loss', value: `${(figures.lossRate * 100).toFixed(1)} %`, tone: lossTone(figures) },
-    { name: 'Round trip', value: ms(figures.minRttMs) },
-    { name: 'View age', value: ms(figures.viewAgeMs) },
+    { name: names.rate, value: `${mbps(figures)} Mbit/s` },
+    { name: names.loss, value: `${fixed(figures.lossRate * 100, 1)} %`, tone: lossTone(figures) },
+    { name: names.roundTrip, value: ms(figures.minRttMs) },
+    { name: names.viewAge, value: ms(figures.viewAgeMs) },
   ];
   if (figures.mtpMs !== null) {
     const { p50, p95 } = figures.mtpMs;
-    facts.push({ name: 'Motion to photon', value: `${ms(p50)}  p95 ${ms(p95)}` });
+    facts.push({ name: names.motionToPhoton, value: withP95(ms(p50), ms(p95)) });
   }
   return facts;
 }
@@ -171,33 +175,35 @@ function streamFacts(figures: PageStats): Fact[] {
 /** What is left out because this computer is too slow. */
 function thinningFacts({ pointsPerFrame, drawnOneOf }: PageStats): Fact[] {
   if (drawnOneOf === 1) return [];
-  const [drawn, came] = [pointsPerFrame / drawnOneOf, pointsPerFrame].map(roughly);
-  return [{ name: 'Drawn', value: `${drawn} of ${came}: this computer is slow`, tone: 'warning' }];
+  const { names, drawnOf } = texts().figures;
+  const value = drawnOf(roughly(pointsPerFrame / drawnOneOf), roughly(pointsPerFrame));
+  return [{ name: names.drawn, value, tone: 'warning' }];
 }
 
 /** How old what is drawn beside the live clouds may be. */
 function memoryFacts({ remembered }: PageStats): Fact[] {
   if (remembered === null) return [];
-  return [{ name: 'Remembered', value: rememberedAge(remembered.oldestS) }];
+  return [{ name: texts().figures.names.remembered, value: rememberedAge(remembered.oldestS) }];
 }
 
 /** Where the surface's colours come from, from a robot that sends the video of its depth camera. */
 function paintFacts({ videoColour }: PageStats): Fact[] {
   const words = videoColour === undefined ? null : videoColourWords(videoColour);
-  return words === null ? [] : [{ name: 'Colours', value: words }];
+  return words === null ? [] : [{ name: texts().figures.names.colours, value: words }];
 }
 
 /** @param oldestS age of the oldest, seconds */
 export function rememberedAge(oldestS: number): string {
-  if (oldestS < 60) return `up to ${Math.max(Math.ceil(oldestS / 10) * 10, 10)} s old`;
-  if (oldestS < 5400) return `up to ${Math.ceil(oldestS / 60)} min old`;
-  return oldestS < 24 * 3600 ? `up to ${Math.ceil(oldestS / 3600)} h old` : 'a day old or more';
+  const { upToOld, aDayOld } = texts().measures;
+  if (oldestS < 60) return upToOld(`${Math.max(Math.ceil(oldestS / 10) * 10, 10)} s`);
+  if (oldestS < 5400) return upToOld(`${Math.ceil(oldestS / 60)} min`);
+  return oldestS < 24 * 3600 ? upToOld(`${Math.ceil(oldestS / 3600)} h`) : aDayOld;
 }
 
 /** To hundreds; fewer than a thousand to tens, so that a few never read as none. */
 function roughly(points: number): string {
   const unit = points < 1000 ? 10 : 100;
-  return inThousands.format(Math.round(points / unit) * unit);
+  return grouped(Math.round(points / unit) * unit);
 }
 
 export function lossTone({ lossRate }: PageStats): Tone {
@@ -205,7 +211,7 @@ export function lossTone({ lossRate }: PageStats): Tone {
 }
 
 export function mbps({ bitsPerSecond }: PageStats): string {
-  return BitRate.toMbps(bitsPerSecond).toFixed(1);
+  return fixed(BitRate.toMbps(bitsPerSecond), 1);
 }
 
 export function ms(value: number | null | undefined): string {

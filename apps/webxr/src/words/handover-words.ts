@@ -1,12 +1,13 @@
 /** Requests for the drive and offers of it, in words. */
 import type { Handover, HandoverEnd, LeaseState, NamedOperator, Operators } from '@farpoint/operator';
+import { texts } from './language.ts';
 import type { Words } from './words.ts';
 
 type Named = Pick<Handover, 'kind' | 'from' | 'to'>;
 
 /** @param claimed nothing proves the name */
 export function nameWords({ name, claimed }: Pick<NamedOperator, 'name' | 'claimed'>): string {
-  return claimed === true ? `“${name}”` : name;
+  return claimed === true ? texts().people.claimed(name) : name;
 }
 
 /** A name that the robot tells without its number, marked as in its list of who is here. */
@@ -27,15 +28,17 @@ export function driverWords(
 /** What another operator wants, and the two answers. */
 export function askedWords({ kind, from }: Named): { text: string; accept: string; refuse: string } {
   const name = nameWords(from);
+  const said = texts().people;
   return kind === 'ask'
-    ? { text: `${name} asks to drive`, accept: 'Give the drive', refuse: 'Refuse' }
-    : { text: `${name} offers you the drive`, accept: 'Take the drive', refuse: 'Refuse' };
+    ? { text: said.asks(name), accept: said.give, refuse: said.refuse }
+    : { text: said.offers(name), accept: said.take, refuse: said.refuse };
 }
 
 /** What this operator waits for. */
 export function waitingWords({ kind, to }: Named): string {
   const name = nameWords(to);
-  return kind === 'ask' ? `You have asked ${name} for the drive` : `You have offered ${name} the drive`;
+  const said = texts().people;
+  return kind === 'ask' ? said.youAsked(name) : said.youOffered(name);
 }
 
 export type EndedHandover = Named & { yours: boolean; ended: HandoverEnd };
@@ -47,38 +50,43 @@ export type EndedHandover = Named & { yours: boolean; ended: HandoverEnd };
  */
 export function handoverEndWords(handover: EndedHandover, stoppedBy: string | null): Words | null {
   const { kind, from, to, yours, ended } = handover;
+  const said = texts().people;
   const other = nameWords(yours ? to : from);
-  const what = kind === 'ask' ? 'request for the drive' : 'offer of the drive';
-  const whose = yours ? `Your ${what}` : `${other}’s ${what}`;
+  const what = kind === 'ask' ? askOf(yours, other) : offerOf(yours, other);
   switch (ended) {
     case 'accepted':
       return acceptedWords(handover, other);
     case 'refused':
       return yours
-        ? { text: `${other} has refused: the drive has not changed hands.`, tone: 'warning' }
-        : { text: 'Refused: the drive has not changed hands.', tone: 'neutral' };
+        ? { text: said.hasRefused(other), tone: 'warning' }
+        : { text: said.refused, tone: 'neutral' };
     case 'withdrawn':
-      return { text: `${whose} was taken back.`, tone: 'neutral' };
+      return { text: said.takenBack(what), tone: 'neutral' };
     case 'expired':
       return yours
-        ? { text: `${other} did not answer: the drive has not changed hands.`, tone: 'warning' }
-        : { text: `You did not answer ${other}: the drive has not changed hands.`, tone: 'neutral' };
+        ? { text: said.noAnswer(other), tone: 'warning' }
+        : { text: said.youNoAnswer(other), tone: 'neutral' };
     case 'driver-changed':
       // Whoever drove has given the drive up, or is told who has taken it.
-      return (kind === 'offer') === yours
-        ? null
-        : { text: `${whose} has ended: the driver has changed.`, tone: 'neutral' };
+      return (kind === 'offer') === yours ? null : { text: said.driverChanged(what), tone: 'neutral' };
     case 'left':
-      return { text: `${whose} has ended: ${other} has left.`, tone: 'neutral' };
+      return { text: said.hasLeft(what, other), tone: 'neutral' };
     case 'estop':
-      return { text: `${whose} has ended: ${stoppedBy ?? 'an operator'} pressed STOP.`, tone: 'warning' };
+      return { text: said.stopped(what, stoppedBy ?? said.presser.anOperator), tone: 'warning' };
   }
 }
 
+function askOf(yours: boolean, other: string): string {
+  return yours ? texts().people.yourAsk : texts().people.theirAsk(other);
+}
+
+function offerOf(yours: boolean, other: string): string {
+  return yours ? texts().people.yourOffer : texts().people.theirOffer(other);
+}
+
 function acceptedWords({ kind, yours }: EndedHandover, other: string): Words {
-  if ((kind === 'ask') === yours) {
-    const how = yours ? `${other} has accepted: you drive now.` : `You drive now, by ${other}’s offer.`;
-    return { text: `${how} Press the grip anew to drive.`, tone: 'good' };
-  }
-  return { text: `${yours ? `${other} has accepted: ` : ''}${other} drives now.`, tone: 'neutral' };
+  const said = texts().people;
+  if ((kind === 'ask') === yours)
+    return { text: yours ? said.youDriveNow(other) : said.youDriveByOffer(other), tone: 'good' };
+  return { text: yours ? said.acceptedDrives(other) : said.drivesNow(other), tone: 'neutral' };
 }

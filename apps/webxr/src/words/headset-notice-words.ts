@@ -2,8 +2,9 @@
 import type { RobotListing, SignalingState } from '@farpoint/operator';
 import type { Hand, HeadsetView } from '../ground/headset-settings.ts';
 import type { Banner } from './banner-words.ts';
-import { LATCHED_TITLE, type LatchedStop } from './estop-words.ts';
+import type { LatchedStop } from './estop-words.ts';
 import { viewHint, viewNotice } from './headset-words.ts';
+import { texts } from './language.ts';
 import { emptyListWords } from './robots-words.ts';
 import type { Words } from './words.ts';
 
@@ -69,17 +70,16 @@ function standingOf({
 }: HeadsetNoticeFacts): HeadsetNotice['standing'] {
   const severe = failure ?? banner;
   if (severe !== null) return { title: severe.title, text: severe.text, tone: 'bad' };
-  if (obstacle !== null) return { title: obstacle.title, text: `${obstacle.text} ${OUTSIDE}`, tone: 'bad' };
-  if (stop !== null) return { title: LATCHED_TITLE, text: `${stop.why} ${releaseWords(stop)}`, tone: 'bad' };
+  if (obstacle !== null)
+    return { title: obstacle.title, text: texts().headset.answerOutside(obstacle.text), tone: 'bad' };
+  if (stop !== null)
+    return { title: texts().stop.title, text: `${stop.why} ${releaseWords(stop)}`, tone: 'bad' };
   if (held !== null) return { title: null, ...held };
-  return choice === null ? null : { title: 'No robot is chosen', ...choice };
+  return choice === null ? null : { title: texts().headset.noRobot, ...choice };
 }
 
-/** The page's buttons are not in the headset. */
-const OUTSIDE = 'To answer, leave VR: the buttons are on the page.';
-
 function releaseWords({ mayRelease, release }: LatchedStop): string {
-  return mayRelease ? 'To release it, open both hands, then hold a trigger for one second.' : release;
+  return mayRelease ? texts().headset.release : release;
 }
 
 export interface ChoiceFacts {
@@ -95,5 +95,6 @@ export interface ChoiceFacts {
 /** What an operator does who wears the headset and has chosen no robot, or why there is none to choose. */
 export function choiceWords({ next, signaling, host, driveHand }: ChoiceFacts): Words {
   if (next === null) return emptyListWords(signaling, host);
-  return { text: `Press the ${driveHand} stick to connect to ${next.name}.`, tone: 'neutral' };
+  const { pressToConnect, hands } = texts().headset;
+  return { text: pressToConnect(hands[driveHand], next.name), tone: 'neutral' };
 }

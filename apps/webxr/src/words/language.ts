@@ -18,6 +18,20 @@ const catalogues: Readonly<Record<Language, () => Promise<Texts>>> = {
   de: async () => (await import('./de/catalogue.ts')).german,
 };
 
+/** The language that is spoken now. */
+export function language(): Language {
+  return spoken.value.language;
+}
+
+/** A text of the catalogue by its place, as the page's HTML names it. @param place `area.key` @throws {Error} if there is none */
+export function textAt(place: string): string {
+  const [area = '', key = ''] = place.split('.');
+  const areas: Readonly<Record<string, Readonly<Record<string, unknown>>>> = texts();
+  const text = areas[area]?.[key];
+  if (typeof text !== 'string') throw new Error(`no text ${place}`);
+  return text;
+}
+
 /** Loads a catalogue and speaks that language from now on. @throws {Error} if it cannot be loaded */
 export async function speak(wanted: Language): Promise<void> {
   spoken.value = { language: wanted, texts: await catalogues[wanted]() };

@@ -1,6 +1,7 @@
 /** Words and a table about latency tests: motion to photon. */
 import type { Distribution, LatencyFailure, LatencyReport } from '@farpoint/operator';
 import { ms } from './facts.ts';
+import { texts } from './language.ts';
 
 /** A test that ended, with a result or without. */
 export interface LatencyTestEnd {
@@ -11,29 +12,24 @@ export interface LatencyTestEnd {
   readonly failure: LatencyFailure | null;
 }
 
-const failureWords: Readonly<Record<LatencyFailure, string>> = {
-  timeout: 'no green cloud arrived',
-  'no-session': 'connect to a robot first',
-  'no-lease': 'only the driver can test',
-  busy: 'another test is running',
-};
-
 /** What became of the last test. */
 export function lastTestWords(end: LatencyTestEnd | undefined): string {
-  if (end === undefined) return 'Motion to photon: not measured yet';
+  const said = texts().timing;
+  if (end === undefined) return said.notMeasured;
   const { report, failure } = end;
-  if (report === null) return `Motion to photon: ${failure === null ? 'failed' : failureWords[failure]}`;
-  return `Motion to photon: ${ms(report.mtpMs)}, first points ${ms(report.firstMs)}`;
+  if (report === null) return said.lastFailed(failure === null ? said.failed : said.failures[failure]);
+  return said.last(ms(report.mtpMs), ms(report.firstMs));
 }
 
 /** How the results are distributed, and how many tests failed; empty before the first test. */
 export function testsWords(ends: readonly LatencyTestEnd[], distribution: Distribution | null): string {
   if (ends.length === 0) return '';
+  const said = texts().timing;
   const failed = ends.filter(({ report }) => report === null).length;
-  const failures = failed === 0 ? '' : `, ${failed} failed`;
-  const count = `Last ${ends.length} test${ends.length === 1 ? '' : 's'}${failures}`;
+  const tests = said.tests(ends.length);
+  const count = failed === 0 ? tests : said.testsFailed(tests, failed);
   if (distribution === null) return count;
-  return `${count}: median ${ms(distribution.p50)}, 95 of 100 within ${ms(distribution.p95)}`;
+  return said.testsTook(count, ms(distribution.p50), ms(distribution.p95));
 }
 
 const HEAD = ['time', 'test', 'mtp_ms', 'first_ms', 'arrived_ms', 'points', 'total_points', 'failure'];

@@ -1,6 +1,7 @@
 /** The navigator's path and map, for people: each with its age, and whether it is too old to be drawn. */
 import type { AgedReading, RobotSession } from '@farpoint/operator';
 import { type MapView, mapView, type PathView, pathView } from '../ground/navigation/navigation-view.ts';
+import { texts } from './language.ts';
 import { type ShownReading, shownReading } from './shown-readings.ts';
 import type { Words } from './words.ts';
 
@@ -27,14 +28,15 @@ export function readingsWithNavigation(
 function pathWords(text: string, view: PathView | null): Words | null {
   if (view === null) return null;
   if (!view.stale) return { text, tone: 'neutral' };
-  return { text: `${text}, ${durationWords(view.ageMs)} old: not drawn`, tone: 'warning' };
+  return { text: texts().motion.oldNotDrawn(text, durationWords(view.ageMs)), tone: 'warning' };
 }
 
 /** @param text what the robot says of it */
 function mapWords(text: string, view: MapView | null): Words | null {
   if (view === null) return null;
-  if (!view.stale) return { text: `${text}, ${durationWords(view.ageMs)} old`, tone: 'neutral' };
-  return { text: `${text}, not heard for ${durationWords(view.silentMs)}: not drawn`, tone: 'warning' };
+  const said = texts().motion;
+  if (!view.stale) return { text: said.aged(text, durationWords(view.ageMs)), tone: 'neutral' };
+  return { text: said.silentNotDrawn(text, durationWords(view.silentMs)), tone: 'warning' };
 }
 
 function textOf({ reading: { values } }: AgedReading): string {

@@ -1,6 +1,8 @@
 /** What is near the robot, for people: metres from its edge, and the direction. */
 import { type NearHit, nearestHits, unseenDirections } from '../ground/near-field/directions.ts';
 import type { NearView } from '../ground/near-field/near-view.ts';
+import { texts } from './language.ts';
+import { fixed } from './numbers.ts';
 import type { Tone, Words } from './words.ts';
 
 /**
@@ -13,14 +15,12 @@ const ALL_AROUND = 'ahead,left,behind,right';
 
 /** What is nearest; or that nothing is known. */
 export function nearWords(view: NearView | null): Words {
-  if (view === null) return { text: 'No near-field data', tone: 'warning' };
+  const said = texts().motion.near;
+  if (view === null) return { text: said.noData, tone: 'warning' };
   const [nearest] = nearestHits(view.sectors);
-  const text = nearest === undefined ? 'Nothing near that sensors see' : hitText(nearest);
+  const text = nearest === undefined ? said.nothing : hitText(nearest);
   if (view.stale)
-    return {
-      text: `${(view.ageMs / 1000).toFixed(view.ageMs < 1000 ? 1 : 0)} s old: ${text}`,
-      tone: 'warning',
-    };
+    return { text: said.old(fixed(view.ageMs / 1000, view.ageMs < 1000 ? 1 : 0), text), tone: 'warning' };
   return { text: capitalised(text), tone: nearest === undefined ? 'neutral' : toneOf(nearest) };
 }
 
@@ -32,17 +32,24 @@ export function nearDetails(view: NearView | null): string {
     .filter(({ metres }) => metres < NEAR_M)
     .slice(0, 2)
     .map(hitText);
+  const said = texts().motion.near;
   const unseen = unseenDirections(view.sectors);
   const hidden =
     unseen.length === 0
       ? []
-      : [unseen.join() === ALL_AROUND ? 'unseen all around' : `unseen: ${unseen.join(', ')}`];
+      : [
+          unseen.join() === ALL_AROUND
+            ? said.unseenAllAround
+            : said.unseen(unseen.map((direction) => said.directions[direction])),
+        ];
   return [...others, ...hidden].join(' · ');
 }
 
 function hitText({ kind, metres, direction }: NearHit): string {
-  const far = metres < 0.05 ? 'at its edge,' : `${metres.toFixed(1)} m`;
-  return `${kind === 'drop' ? 'drop ' : ''}${far} ${direction}`;
+  const said = texts().motion.near;
+  const there = said.directions[direction];
+  const where = metres < 0.05 ? said.atEdge(there) : said.at(fixed(metres, 1), there);
+  return kind === 'drop' ? said.drop(where) : where;
 }
 
 function toneOf({ kind, metres }: NearHit): Tone {

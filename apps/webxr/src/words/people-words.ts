@@ -2,6 +2,7 @@
 import type { LeaseState, Operators } from '@farpoint/operator';
 import type { Role } from '@farpoint/protocol';
 import { nameWords } from './handover-words.ts';
+import { texts } from './language.ts';
 
 export interface ShownPerson {
   /** The robot's number of the session. */
@@ -40,23 +41,20 @@ export interface PeopleFacts {
 
 type Person = Operators['operators'][number];
 
-const activityOf: Record<Role, string> = { watch: 'watching', drive: 'may drive', supervise: 'supervisor' };
-
 export function shownPeople(facts: PeopleFacts): ShownPeople {
   const { operators, role, holder, drivesMinutes } = facts;
   if (operators === null) return { line: null, persons: [], mayAsk: false, hasHeirs: false };
   const { operators: listed, more = 0 } = operators;
   const total = listed.length + more;
   const driver = listed.find(({ drives }) => drives);
-  const drives = driver === undefined ? '' : `: ${driver.you ? 'you drive' : `${nameWords(driver)} drives`}`;
   const isAlone = total === 1 && listed[0]?.claimed === true;
   const isFree = !facts.waits && !facts.stopped;
   return {
-    line: isAlone ? null : `${total === 1 ? 'Only you are' : `${total} are`} here${drives}`,
+    line: isAlone ? null : lineOf(total, driver),
     persons: listed.map((person) => ({
       number: person.number,
       name: nameWords(person),
-      text: `${nameWords(person)} (${activities(person, drivesMinutes).join(', ')})`,
+      text: texts().people.person(nameWords(person), activities(person, drivesMinutes)),
       mayEnd: role === 'supervise' && !person.you,
       mayOffer: holder === 'you' && isFree && isHeir(person),
     })),
@@ -65,20 +63,27 @@ export function shownPeople(facts: PeopleFacts): ShownPeople {
   };
 }
 
+function lineOf(total: number, driver: Person | undefined): string {
+  const said = texts().people;
+  const count = total === 1 ? said.onlyYou : said.count(total);
+  if (driver === undefined) return count;
+  return driver.you ? said.andYouDrive(count) : said.andDrives(count, nameWords(driver));
+}
+
 function isHeir({ you, role }: Person): boolean {
   return !you && role !== 'watch';
 }
 
 function activities({ role, drives, you, away }: Person, minutes: number | null): string[] {
-  const all = [drives ? `driving${sinceWords(minutes)}` : activityOf[role]];
-  if (you) all.unshift('you');
-  if (away === true) all.push('away: not heard from');
+  const said = texts().people;
+  const all = [drives ? drivingWords(minutes) : said.activities[role]];
+  if (you) all.unshift(said.you);
+  if (away === true) all.push(said.away);
   return all;
 }
 
-function sinceWords(minutes: number | null): string {
-  if (minutes === null) return '';
-  if (minutes < 1) return ' for less than 1 min';
-  const hours = Math.floor(minutes / 60);
-  return ` for ${hours === 0 ? '' : `${hours} h `}${minutes % 60} min`;
+function drivingWords(minutes: number | null): string {
+  const said = texts().people;
+  if (minutes === null) return said.driving;
+  return minutes < 1 ? said.drivingBriefly : said.drivingFor(Math.floor(minutes / 60), minutes % 60);
 }

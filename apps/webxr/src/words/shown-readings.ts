@@ -1,6 +1,7 @@
 /** The robot's readings as the page shows them. */
 import type { AgedReading } from '@farpoint/operator';
 import type { ReadingLevel } from '@farpoint/protocol';
+import { texts } from './language.ts';
 import type { Tone } from './words.ts';
 
 export interface ShownReading {
@@ -31,7 +32,7 @@ export function shownReading({ reading, ageMs, intervalMs }: AgedReading): Shown
   return {
     topic,
     label,
-    text: old ? `${text} (${Math.round(ageMs / 1000)} s ago)` : text,
+    text: old ? texts().figures.ago(text, Math.round(ageMs / 1000)) : text,
     tone: old && level === 'ok' ? 'warning' : tones[level],
   };
 }

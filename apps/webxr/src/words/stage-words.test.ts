@@ -1,14 +1,7 @@
 import { commandStages, type FrameStage, frameStages, type StageSummary } from '@farpoint/operator';
 import { expect, test } from 'vitest';
-import {
-  commandStageNames,
-  frameStageNames,
-  stageLine,
-  stageLines,
-  stagesCsv,
-  totalWords,
-  unknownWords,
-} from './stage-words.ts';
+import { texts } from './language.ts';
+import { stageLine, stageLines, stagesCsv, totalWords, unknownWords } from './stage-words.ts';
 
 const of = (p50: number, p95 = 2 * p50) => ({ p50, p95, p99: p95, max: p95 });
 const KNOWN: StageSummary<FrameStage> = {
@@ -38,7 +31,9 @@ test('while the link’s time is unknown, nothing is said to take longest', () =
 });
 
 test('a line for each stage, with a dash for what is not known', () => {
-  expect(stageLines(KNOWN, frameStageNames).map(({ name, median, p95 }) => [name, median, p95])).toEqual([
+  expect(
+    stageLines(KNOWN, texts().timing.frameStages).map(({ name, median, p95 }) => [name, median, p95]),
+  ).toEqual([
     ['capture', '4.0 ms', '8.0 ms'],
     ['encoding', '12 ms', '24 ms'],
     ['robot’s queue', '20 ms', '40 ms'],
@@ -46,12 +41,12 @@ test('a line for each stage, with a dash for what is not known', () => {
     ['decoding', '6.0 ms', '12 ms'],
     ['drawing', '18 ms', '36 ms'],
   ]);
-  const lines = stageLines(UNTOLD, frameStageNames);
+  const lines = stageLines(UNTOLD, texts().timing.frameStages);
   expect(lines.map(({ median }) => median)).toEqual(['–', '–', '–', '–', '6.0 ms', '18 ms']);
   expect(lines.map(({ share }) => share)).toEqual([0, 0, 0, 0, 0.25, 0.75]);
   expect(lines.filter(({ isWorst }) => isWorst).map(({ name }) => name)).toEqual(['drawing']);
-  expect(Object.keys(frameStageNames)).toEqual([...frameStages]);
-  expect(Object.keys(commandStageNames)).toEqual([...commandStages]);
+  expect(Object.keys(texts().timing.frameStages)).toEqual([...frameStages]);
+  expect(Object.keys(texts().timing.commandStages)).toEqual([...commandStages]);
 });
 
 test('says why something is not known', () => {

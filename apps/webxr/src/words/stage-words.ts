@@ -1,22 +1,8 @@
 /** Words and tables about where the time goes, of clouds and of commands. */
-import type { CommandStage, Distribution, FrameStage, StageRow, StageSummary } from '@farpoint/operator';
+import type { Distribution, FrameStage, StageRow, StageSummary } from '@farpoint/operator';
 import { ms } from './facts.ts';
-
-export const frameStageNames: Readonly<Record<FrameStage, string>> = {
-  capture: 'capture',
-  encode: 'encoding',
-  queue: 'robot’s queue',
-  link: 'link',
-  decode: 'decoding',
-  draw: 'drawing',
-};
-export const commandStageNames: Readonly<Record<CommandStage, string>> = {
-  hand: 'hand',
-  page: 'page',
-  link: 'link',
-  gate: 'robot’s checks',
-  wheels: 'wheels',
-};
+import { texts } from './language.ts';
+import { fixed } from './numbers.ts';
 
 /**
  * Of all clouds in one line: how late they are, and the stage that takes longest, e.g. `240 ms · link 180 ms`.
@@ -25,10 +11,10 @@ export const commandStageNames: Readonly<Record<CommandStage, string>> = {
  */
 export function stageLine({ rows, totalMs, stages, worst }: StageSummary<FrameStage>): string | null {
   if (rows === 0) return null;
-  const total = totalMs === null ? 'age unknown' : ms(totalMs.p50);
+  const total = totalMs === null ? texts().timing.ageUnknown : ms(totalMs.p50);
   // Without the link's, what takes longest may be what is not known.
   if (worst === null || stages.link === null) return total;
-  return `${total} · ${frameStageNames[worst]} ${ms(stages[worst]?.p50)}`;
+  return `${total} · ${texts().timing.frameStages[worst]} ${ms(stages[worst]?.p50)}`;
 }
 
 export interface StageLineWords {
@@ -61,21 +47,20 @@ export function stageLines<Stage extends string>(
 /** From the beginning to the end. */
 export function totalWords(what: string, totalMs: Distribution | null): string {
   if (totalMs === null) return `${what}: ${ms(null)}`;
-  return `${what}: ${shortMs(totalMs.p50)}, 95 of 100 within ${shortMs(totalMs.p95)}`;
+  return texts().timing.total(what, shortMs(totalMs.p50), shortMs(totalMs.p95));
 }
 
 /** Why something is not known; empty if all is. */
 export function unknownWords({ rows, untold, clockless }: StageSummary<string>): string {
-  if (clockless > 0) return 'The link is unknown until the robot’s clock has been compared with this one.';
+  const said = texts().timing;
+  if (clockless > 0) return said.clockUnknown;
   if (untold === 0) return '';
-  return `The robot has told its own times of ${untold >= rows ? 'none' : `all but ${untold} of ${rows}`}.`;
+  return untold >= rows ? said.noneTold : said.allButTold(untold, rows);
 }
 
 /** To tenths where a whole number would read 0. */
 function shortMs(value: number | null | undefined): string {
-  return value === null || value === undefined || Math.abs(value) >= 10
-    ? ms(value)
-    : `${value.toFixed(1)} ms`;
+  return value === null || value === undefined || Math.abs(value) >= 10 ? ms(value) : `${fixed(value, 1)} ms`;
 }
 
 /**

@@ -1,7 +1,14 @@
 import { finalLosses, lossOf } from '@farpoint/operator';
 import { commandRejections, driveStates, robotEndReasons } from '@farpoint/protocol';
 import { describe, expect, test } from 'vitest';
-import { driveWords, holderWords, linkWords, rejectionWords, vrUnavailable, wordsOfLoss } from './words.ts';
+import {
+  driveStateWords,
+  holderWords,
+  linkWords,
+  vrUnavailable,
+  wordsOfLoss,
+  wordsOfRejection,
+} from './words.ts';
 
 const live = {
   phase: 'live',
@@ -22,8 +29,8 @@ const unsaid = { maxOperators: null, lossDetail: null };
 
 describe('words', () => {
   test('there is a text for every state and refusal of the protocol', () => {
-    for (const state of driveStates) expect(driveWords[state].text).not.toBe('');
-    for (const reason of commandRejections) expect(rejectionWords[reason]).not.toBe('');
+    for (const state of driveStates) expect(driveStateWords({ drive: state }).text).not.toBe('');
+    for (const reason of commandRejections) expect(wordsOfRejection(reason, 'other')).not.toBe('');
     for (const reason of robotEndReasons) expect(wordsOfLoss(lossOf[reason], unsaid)).not.toBe('');
   });
 

@@ -2,6 +2,7 @@
 import type { LeaseState, Operators } from '@farpoint/operator';
 import type { EstopCause, EstopState } from '@farpoint/protocol';
 import { listedNameWords, nameWords } from './handover-words.ts';
+import { texts } from './language.ts';
 
 /** `null` if it was this operator, or none. */
 export function pressedNotice(
@@ -10,12 +11,13 @@ export function pressedNotice(
   operators: Operators | null,
 ): string | null {
   if (by !== 'operator' || cause === null || cause.yours) return null;
-  return `${presserWords(cause, operators) ?? 'Another operator'} has pressed STOP.`;
+  const said = texts().stop;
+  return said.hasPressed(presserWords(cause, operators) ?? said.anotherOperator);
 }
 
 /** Who pressed STOP, as the page names people; `null` if the robot does not say. */
 export function presserWords(cause: EstopCause | null, operators: Operators | null): string | null {
-  if (cause?.yours === true) return 'you';
+  if (cause?.yours === true) return texts().people.presser.you;
   return cause?.pressedBy === undefined ? null : listedNameWords(cause.pressedBy, operators);
 }
 
@@ -29,7 +31,8 @@ export function releasedNotice(
   cause: EstopCause | null,
   { operators, holder }: { operators: Operators | null; holder: LeaseState['holder'] },
 ): string | null {
-  if (last.releasedAt === 'robot') return 'The emergency stop has been released at the robot.';
+  const said = texts().stop;
+  if (last.releasedAt === 'robot') return said.releasedAtRobot;
   const others = operators?.operators.filter(({ you }) => !you) ?? [];
   if (others.length === 0) return null;
   const able = others.filter(
@@ -40,5 +43,5 @@ export function releasedNotice(
   );
   const [one] = able;
   const isSure = one !== undefined && able.length === 1 && operators?.more === undefined;
-  return `${isSure ? nameWords(one) : 'Another operator'} has released the emergency stop.`;
+  return said.hasReleased(isSure ? nameWords(one) : said.anotherOperator);
 }

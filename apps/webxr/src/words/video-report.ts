@@ -1,6 +1,8 @@
 /** What the compositor did with the videos, for people. */
-import type { ItemDropReason, SourceState } from '@farpoint/operator';
+import type { ItemDropReason } from '@farpoint/operator';
 import { CLOUD, type VideoStats } from '../take/video/video-figures.ts';
+import { texts } from './language.ts';
+import { fixed } from './numbers.ts';
 import type { Tone } from './words.ts';
 
 export interface VideoReportLine {
@@ -16,30 +18,20 @@ export interface VideoReport {
   readonly lines: readonly VideoReportLine[];
 }
 
-const stateWords: Record<SourceState, string> = {
-  'in-step': 'in step',
-  apart: 'by itself',
-  silent: 'silent',
-};
-const dropWords: Record<ItemDropReason, string> = {
-  superseded: 'replaced by a newer one',
-  late: 'too late',
-  overflow: 'too many waiting',
-  removed: 'switched off',
-};
 /** Videos that differ by no more look as if they moved together, ms: half a frame at 30 a second. */
 const IN_STEP_MS = 17;
 
 /** @param names of the videos, by number */
 export function videoReport(videos: VideoStats, names: readonly string[]): VideoReport {
   const { synchronised, spreadMs, sources } = videos;
+  const said = texts().media.report;
   const lines = sources.map(({ source, state, waits, presented, drops }): VideoReportLine => {
-    const parts = [synchronised ? stateWords[state] : state === 'silent' ? 'silent' : 'as it comes'];
-    if (waits > 0) parts.push(`waited for in vain ${times(waits, presented)}`);
+    const parts = [synchronised || state === 'silent' ? said.states[state] : said.asItComes];
+    if (waits > 0) parts.push(said.inVain(times(waits, presented)));
     // A cloud's points are drawn as they come: what the compositor drops of it is only its time.
     const isHeld = source !== CLOUD;
-    for (const reason of Object.keys(dropWords) as ItemDropReason[])
-      if (isHeld && drops[reason] > 0) parts.push(`${drops[reason]} ${dropWords[reason]}`);
+    for (const reason of Object.keys(said.drops) as ItemDropReason[])
+      if (isHeld && drops[reason] > 0) parts.push(`${drops[reason]} ${said.drops[reason]}`);
     return {
       name: nameOf(source, names),
       text: parts.join(' · '),
@@ -48,27 +40,33 @@ export function videoReport(videos: VideoStats, names: readonly string[]): Video
   });
   for (const [reason, count] of Object.entries(videos.undecoded))
     if (count > 0)
-      lines.push({ name: 'Not decoded', text: `${count} ${reason.replaceAll('-', ' ')}`, tone: 'neutral' });
+      lines.push({ name: said.notDecoded, text: `${count} ${undecodedWords(reason)}`, tone: 'neutral' });
   if (videos.undated > 0)
-    lines.push({ name: 'Without a time', text: String(videos.undated), tone: 'warning' });
-  if (!synchronised) return { summary: 'Not in step', tone: 'neutral', lines };
+    lines.push({ name: said.withoutTime, text: String(videos.undated), tone: 'warning' });
+  if (!synchronised) return { summary: said.notInStep, tone: 'neutral', lines };
   const coming = sources.filter(({ source, state }) => source !== CLOUD && state !== 'silent').length;
-  if (coming === 0) return { summary: 'No video comes', tone: 'warning', lines };
-  if (coming === 1 || spreadMs === null) return { summary: 'One video', tone: 'neutral', lines };
+  if (coming === 0) return { summary: said.noVideo, tone: 'warning', lines };
+  if (coming === 1 || spreadMs === null) return { summary: said.oneVideo, tone: 'neutral', lines };
   const apart = Math.round(spreadMs.p95);
   return {
-    summary: `In step within ${apart} ms`,
+    summary: said.inStepWithin(apart),
     tone: apart > IN_STEP_MS ? 'warning' : 'neutral',
     lines,
   };
 }
 
+/** A browser may know reasons that this page does not. */
+function undecodedWords(reason: string): string {
+  const known: Readonly<Record<string, string>> = texts().media.report.undecoded;
+  return known[reason] ?? reason.replaceAll('-', ' ');
+}
+
 function times(count: number, of: number): string {
-  const share = of > 0 ? ` (${((100 * count) / of).toFixed(1)} %)` : '';
+  const share = of > 0 ? ` (${fixed((100 * count) / of, 1)} %)` : '';
   return `${count}×${share}`;
 }
 
 function nameOf(source: string, names: readonly string[]): string {
   const video = /^video:(\d+)$/.exec(source)?.[1];
-  return video === undefined ? 'Cloud' : (names[Number(video)] ?? source);
+  return video === undefined ? texts().media.report.cloud : (names[Number(video)] ?? source);
 }

@@ -1,5 +1,6 @@
 /** Says whether what is shown is where the robot reported itself, or a prediction. */
 import type { PredictionState } from '@farpoint/operator/prediction';
+import { texts } from './language.ts';
 
 /** What the page says of the view. */
 export interface ViewFigures {
@@ -10,30 +11,28 @@ export interface ViewFigures {
 }
 
 export function viewWords({ state, aheadMs }: ViewFigures): string {
+  const said = texts().motion.view;
   switch (state) {
     case 'predicted':
-      return `Predicted ${tens(aheadMs)} ms ahead`;
+      return said.predicted(tens(aheadMs));
     case 'off':
-      return 'As reported: prediction is off (P)';
     case 'held':
-      return 'As reported: the robot is held';
     case 'stale':
-      return 'As reported: nothing new is heard';
+      return said[state];
     default:
-      return 'As reported';
+      return said.reported;
   }
 }
 
 /** For the wrist panel, after the link's figures. */
 export function viewLead(view: ViewFigures | undefined): string {
-  return view?.state === 'predicted' ? `  view +${tens(view.aheadMs)} ms predicted` : '';
+  return view?.state === 'predicted' ? texts().motion.view.lead(tens(view.aheadMs)) : '';
 }
 
 /** What a key has done. */
 export function predictionWords(on: boolean): string {
-  return on
-    ? 'The view is led by your commands: a prediction, corrected by the robot.'
-    : 'The view shows where the robot last reported itself.';
+  const said = texts().motion.view;
+  return on ? said.on : said.switchedOff;
 }
 
 /** It changes with every frame: the tens are enough. */

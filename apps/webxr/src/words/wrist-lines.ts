@@ -2,7 +2,9 @@
 import type { RobotListing, Telemetry } from '@farpoint/operator';
 import type { Hand } from '../ground/headset-settings.ts';
 import { lossTone, mbps, ms, NO_FIGURE } from './facts.ts';
+import { texts } from './language.ts';
 import { motionWords } from './motion-words.ts';
+import { fixed, percent } from './numbers.ts';
 import type { PageStats } from './page-stats.ts';
 import { viewLead } from './view-words.ts';
 import { driveStateWords, type Words } from './words.ts';
@@ -63,19 +65,20 @@ function firstSentence({ text, tone }: Words): Words {
 }
 
 function streamLine({ heard, pointsHeard, figures }: WristFacts): Words {
-  if (!heard || !pointsHeard) return { text: `points ${NO_FIGURE}`, tone: 'neutral' };
+  const said = texts().headset;
+  if (!heard || !pointsHeard) return { text: said.noPoints(NO_FIGURE), tone: 'neutral' };
   const { pointsPerFrame, framesPerSecond } = figures;
-  const points = `${(pointsPerFrame / 1000).toFixed(1)}k points`;
-  return { text: `${points}  ${framesPerSecond.toFixed(0)}/s  ${mbps(figures)} Mbit/s`, tone: 'neutral' };
+  const points = fixed(pointsPerFrame / 1000, 1);
+  return { text: said.stream(points, framesPerSecond.toFixed(0), mbps(figures)), tone: 'neutral' };
 }
 
 function linkLine({ heard, pointsHeard, figures }: WristFacts): Words {
   const { minRttMs, viewAgeMs, lossRate, view } = figures;
+  const said = texts().headset;
   const trip = heard ? ms(minRttMs) : NO_FIGURE;
-  if (!heard || !pointsHeard)
-    return { text: `rtt ${trip}  view ${NO_FIGURE}  loss ${NO_FIGURE}`, tone: 'neutral' };
-  const loss = `${(lossRate * 100).toFixed(1)} %${viewLead(view)}`;
-  return { text: `rtt ${trip}  view ${ms(viewAgeMs)} old  loss ${loss}`, tone: lossTone(figures) };
+  if (!heard || !pointsHeard) return { text: said.trip(trip, NO_FIGURE), tone: 'neutral' };
+  const loss = `${fixed(lossRate * 100, 1)} %${viewLead(view)}`;
+  return { text: said.tripAndLoss(trip, ms(viewAgeMs), loss), tone: lossTone(figures) };
 }
 
 /** How the emergency stop is released, or else what hands can do. */
@@ -90,15 +93,15 @@ function lastLine({
   view,
   hazards,
 }: WristFacts): Words {
+  const said = texts().headset;
   if (live && estopLatched) {
-    if (!heard) return { text: 'STOP, as last heard', tone: 'bad' };
-    const text = estopAtRobot ? 'Released at the robot only' : 'Release: open hand, hold trigger 1 s';
-    return { text, tone: 'bad' };
+    if (!heard) return { text: said.stopUnheard, tone: 'bad' };
+    return { text: estopAtRobot ? said.releasedAtRobot : said.releaseHint, tone: 'bad' };
   }
   const hints = [
     ...[view, hazards].filter((hint) => hint !== null),
     ...driveHint(live && heard ? telemetry : null, driveHand),
-    ...(nextRobot === null ? [] : [`press ${driveHand} stick: ${nextRobot.name}`]),
+    ...(nextRobot === null ? [] : [said.pressFor(said.hands[driveHand], nextRobot.name)]),
   ];
   return { text: hints.join('  '), tone: 'neutral' };
 }
@@ -107,7 +110,6 @@ function lastLine({
 function driveHint(telemetry: Telemetry | null, driveHand: Hand): string[] {
   if (telemetry === null) return [];
   const charge = telemetry.battery?.percentage;
-  return [
-    charge === undefined ? `Squeeze ${driveHand}: drive  B: stop` : `Battery ${Math.round(charge * 100)} %`,
-  ];
+  const said = texts().headset;
+  return [charge === undefined ? said.driveHint(said.hands[driveHand]) : said.battery(percent(charge))];
 }

@@ -14,6 +14,7 @@ describe('parseSignalingUrl', () => {
 
   test('says why an unsafe address cannot be used', () => {
     expect(parseSignalingUrl('ws://x.org', true)).toEqual({
+      reason: 'needs-wss',
       fault: 'a page served by https can only use a wss: signaling address',
     });
   });

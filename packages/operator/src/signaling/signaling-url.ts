@@ -7,9 +7,14 @@ export type SignalingAddress =
       url: string;
     }
   | {
-      /** For people: what is wrong. */
+      /** What is wrong, in one word, for programs that say it in another language. */
+      reason: SignalingAddressFault;
+      /** The same for people. */
       fault: string;
     };
+
+/** Why a text is not the address of a signaling service. `needs-wss`: a page served by https must not use it unencrypted. */
+export type SignalingAddressFault = 'no-address' | 'not-websocket' | 'needs-wss';
 
 /**
  * Reads the address of a signaling service: accepts `host`, `host:port`, http, https, ws and wss addresses, and adds
@@ -24,12 +29,12 @@ export function parseSignalingUrl(text: string, securePage: boolean): SignalingA
   try {
     url = new URL(withScheme.replace(/^http/i, 'ws'));
   } catch {
-    return { fault: `“${text}” is not an address` };
+    return { reason: 'no-address', fault: `“${text}” is not an address` };
   }
   if (url.protocol !== 'ws:' && url.protocol !== 'wss:')
-    return { fault: `“${text}” is not a WebSocket address` };
+    return { reason: 'not-websocket', fault: `“${text}” is not a WebSocket address` };
   if (securePage && url.protocol === 'ws:' && !isLoopback(url.hostname)) {
-    return { fault: 'a page served by https can only use a wss: signaling address' };
+    return { reason: 'needs-wss', fault: 'a page served by https can only use a wss: signaling address' };
   }
   return { url: signalingEndpoint(url.href, 'operator').href };
 }

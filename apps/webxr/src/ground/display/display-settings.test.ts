@@ -6,7 +6,13 @@ const NOTHING = { light: false, moreContrast: false, reducedMotion: false };
 
 test('nothing is stored: the system decides', () => {
   const settings = parseDisplay(null);
-  expect(settings).toEqual({ theme: 'system', textScale: 1, motion: 'system', awake: true });
+  expect(settings).toEqual({
+    theme: 'system',
+    textScale: 1,
+    motion: 'system',
+    language: 'system',
+    awake: true,
+  });
   expect(shownDisplay(settings, NOTHING)).toEqual({ theme: 'dark', motion: 'full', textScale: 1 });
   expect(shownDisplay(settings, { ...NOTHING, light: true, reducedMotion: true })).toEqual({
     theme: 'light',
@@ -26,7 +32,13 @@ test('a choice comes before the system', () => {
 
 test('one wrong value does not lose the others', () => {
   const stored = JSON.stringify({ theme: 'pink', textScale: 100, motion: 'reduced' });
-  expect(parseDisplay(stored)).toEqual({ theme: 'system', textScale: 1, motion: 'reduced', awake: true });
+  expect(parseDisplay(stored)).toEqual({
+    theme: 'system',
+    textScale: 1,
+    motion: 'reduced',
+    language: 'system',
+    awake: true,
+  });
 });
 
 test('whatever is stored, the page has a theme and readable text', () => {

@@ -1,8 +1,11 @@
-/** How the page itself looks: its colours, the size of its text, and whether it moves. The robot's picture stays as it is. */
+/** How the page itself looks: its colours, the size of its text, its language, and whether it moves. The robot's picture stays as it is. */
 import * as z from 'zod/mini';
+import { LANGUAGES } from './languages.ts';
 
 const THEMES = ['system', 'dark', 'light', 'contrast'] as const;
 type Theme = (typeof THEMES)[number];
+/** `system`: the first of the browser's that the page speaks. */
+const CHOSEN_LANGUAGES = ['system', ...LANGUAGES] as const;
 const MOTIONS = ['system', 'reduced', 'full'] as const;
 
 /**
@@ -17,6 +20,7 @@ const storedSchema = z.object({
   theme: z.catch(z.enum(THEMES), 'system'),
   textScale: z.catch(textScaleSchema, 1),
   motion: z.catch(z.enum(MOTIONS), 'system'),
+  language: z.catch(z.enum(CHOSEN_LANGUAGES), 'system'),
   /** Whether the screen stays on while a robot is shown. */
   awake: z.catch(z.boolean(), true),
 });

@@ -3,42 +3,49 @@
 export interface MapTiles {
   /** With `{z}`, `{x}` and `{y}`. */
   readonly template: string;
-  /** Shown on the map. */
-  readonly attribution: string;
+  /** Shown on the map; `null`: nobody has written one. */
+  readonly attribution: string | null;
+  /** The server's. */
+  readonly host: string;
 }
 
 /**
  * Characters of an address and of a note of its owner. Chosen: above the longest in use; below what a line
  * shows.
  */
-const MOST_TEXT = 512;
+export const MOST_TEXT = 512;
 const MOST_ATTRIBUTION = 120;
 
-/** @returns the checked template, or what is wrong with it, for people */
+/** What is wrong with an address. */
+export type TileFault =
+  | 'too-long'
+  | 'misses-number'
+  | 'number-in-host'
+  | 'no-address'
+  | 'not-https'
+  | 'has-password';
+
+/** @returns the checked template, or what is wrong with it */
 export function parseTileTemplate(
   text: string,
   page: { readonly protocol: string; readonly host: string },
-): { template: string } | { fault: string } {
+): { template: string } | { fault: TileFault } {
   const template = text.trim();
-  if (template.length > MOST_TEXT) return { fault: `The address must have at most ${MOST_TEXT} characters.` };
-  for (const part of ['{z}', '{x}', '{y}'])
-    if (!template.includes(part)) return { fault: 'The address must contain {z}, {x} and {y}.' };
+  if (template.length > MOST_TEXT) return { fault: 'too-long' };
+  for (const part of ['{z}', '{x}', '{y}']) if (!template.includes(part)) return { fault: 'misses-number' };
   const urlOf = (number: string) =>
     new URL(template.replaceAll(/\{[xyz]\}/g, number), `${page.protocol}//${page.host}/`);
   let url: URL;
   try {
     url = urlOf('0');
     // Otherwise a tile's number could choose the server.
-    if (urlOf('7').origin !== url.origin)
-      return { fault: 'The server’s name must not contain {z}, {x} or {y}.' };
+    if (urlOf('7').origin !== url.origin) return { fault: 'number-in-host' };
   } catch {
-    return { fault: 'This is not an address.' };
+    return { fault: 'no-address' };
   }
   const isSameHost = url.host === page.host && url.protocol === page.protocol;
-  if (url.protocol !== 'https:' && !isSameHost)
-    return { fault: 'The address must begin with https://, or be on this page’s server.' };
-  if (url.username !== '' || url.password !== '')
-    return { fault: 'The address must not contain a password.' };
+  if (url.protocol !== 'https:' && !isSameHost) return { fault: 'not-https' };
+  if (url.username !== '' || url.password !== '') return { fault: 'has-password' };
   return { template };
 }
 
@@ -55,7 +62,8 @@ export function mapTilesOf(
   const host = new URL(parsed.template.replaceAll(/[{}]/g, ''), `${page.protocol}//${page.host}/`).host;
   return {
     template: parsed.template,
-    attribution: text === '' ? `Map: ${host}` : text.slice(0, MOST_ATTRIBUTION),
+    attribution: text === '' ? null : text.slice(0, MOST_ATTRIBUTION),
+    host,
   };
 }
 

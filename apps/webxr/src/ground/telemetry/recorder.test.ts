@@ -90,13 +90,14 @@ test('marks the quantities of a recording, and keeps them apart from the robotâ€
     [1, 0, 70],
   ];
   bench.say('samples', { type: 'samples', timeMs: 1000, samples });
-  const shown = [...bench.recorder.series.values()].map(({ label, series }) => [
+  const shown = [...bench.recorder.series.values()].map(({ label, recorded, series }) => [
     label,
+    recorded,
     series.at(1e12)?.value,
   ]);
   expect(shown).toEqual([
-    ['left', 20],
-    ['left (recorded)', 70],
+    ['left', undefined, 20],
+    ['left', true, 70],
   ]);
 });
 

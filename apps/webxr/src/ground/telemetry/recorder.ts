@@ -7,12 +7,15 @@ import type { Quantity, RobotClient, Samples, Telemetry } from '@farpoint/operat
 import { Series } from './series.ts';
 import { Track } from './track.ts';
 
-/** What describes a series to people. */
-export interface SeriesDescription {
+/** What describes a series. */
+interface SeriesDescription {
   /** Identifies it among the robot's, in every session. */
   readonly key: string;
-  readonly label: string;
+  /** The robot's name of it; `null` for what comes with the robot's state, which the page names. */
+  readonly label: string | null;
   readonly unit: string;
+  /** Of a recording that the robot plays. */
+  readonly recorded?: boolean | undefined;
 }
 
 export interface RecordedSeries extends SeriesDescription {
@@ -23,14 +26,15 @@ export interface RecordedSeries extends SeriesDescription {
 
 /** By which the robot's own state is recorded. */
 export const OWN = {
-  speed: { key: 'own speed', label: 'Speed', unit: 'm/s' },
-  turning: { key: 'own turning', label: 'Turning', unit: '°/s' },
-  heading: { key: 'own heading', label: 'Heading', unit: '°' },
-  x: { key: 'own x', label: 'Position x', unit: 'm' },
-  y: { key: 'own y', label: 'Position y', unit: 'm' },
-  charge: { key: 'own charge', label: 'Battery', unit: '%' },
-  voltage: { key: 'own voltage', label: 'Battery voltage', unit: 'V' },
+  speed: { key: 'own speed', label: null, unit: 'm/s' },
+  turning: { key: 'own turning', label: null, unit: '°/s' },
+  heading: { key: 'own heading', label: null, unit: '°' },
+  x: { key: 'own x', label: null, unit: 'm' },
+  y: { key: 'own y', label: null, unit: 'm' },
+  charge: { key: 'own charge', label: null, unit: '%' },
+  voltage: { key: 'own voltage', label: null, unit: 'V' },
 } as const satisfies Record<string, SeriesDescription>;
+export type OwnSeries = keyof typeof OWN;
 
 /** More than the own series and a robot's quantities: those of a robot that was reconfigured stay for a while. */
 const MOST_SERIES = 128;
@@ -104,7 +108,7 @@ export class TelemetryRecorder {
 
   #describe({ number, topic, field, label, unit, recorded }: Quantity): void {
     // A robot that plays a recording may measure the same quantity itself.
-    const played = { key: `${topic} ${field} recorded`, label: `${label} (recorded)`, unit };
+    const played = { key: `${topic} ${field} recorded`, label, unit, recorded: true };
     const described = recorded === true ? played : { key: `${topic} ${field}`, label, unit };
     const series = this.#open(described, field);
     if (series !== null) this.#byNumber.set(number, series);

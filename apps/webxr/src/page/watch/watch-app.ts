@@ -19,7 +19,7 @@ import { Enlarged } from '../../state/enlarged.ts';
 import { VideoFeed } from '../../take/video/video-feed.ts';
 import { videoReceiver } from '../../take/video/video-receiver.ts';
 import { VideoViews } from '../../take/video/video-views.ts';
-import { videoWords } from '../../words/words.ts';
+import { texts } from '../../words/language.ts';
 import type { WatchSettings } from './watch-settings.ts';
 import { watchWords } from './watch-words.ts';
 
@@ -48,14 +48,15 @@ function showWatchPanels({ container, views, enlarged, live, sampledAtMs }: Watc
       const silentMs = newest === null ? null : nowMs - newest.drawnAtMs;
       const isLive = live.value && silentMs !== null && silentMs < STALE_MS;
       const wrong = view.fault.value;
-      status.textContent = !shown ? 'hidden' : statusWords(isLive, silentMs);
+      status.textContent = !shown ? texts().watch.cameraHidden : statusWords(isLive, silentMs);
       fault.textContent = wrong;
       fault.hidden = !shown || wrong === null;
       figure.dataset.state = shown ? stateOf(isLive, newest !== null, wrong !== null) : 'off';
       figure.dataset.enlarged = String(enlarged.view.value === view);
       view.canvas.hidden = !shown || newest === null;
       button.textContent = shown ? '–' : '+';
-      button.ariaLabel = `${shown ? 'Hide' : 'Show'} ${view.camera.name}`;
+      const { hide, show } = texts().clouds;
+      button.ariaLabel = (shown ? hide : show)(view.camera.name);
     }
   });
 }
@@ -68,8 +69,9 @@ function stateOf(isLive: boolean, hasPicture: boolean, isFaulty: boolean): strin
 }
 
 function statusWords(isLive: boolean, silentMs: number | null): string {
-  if (isLive) return 'live';
-  return silentMs === null ? 'waiting' : `not live, ${(silentMs / 1000).toFixed(0)} s`;
+  const said = texts().watch;
+  if (isLive) return said.cameraLive;
+  return silentMs === null ? said.cameraWaiting : said.cameraSilent((silentMs / 1000).toFixed(0));
 }
 
 function panelOf(view: CameraView, onEnlarge: () => void) {
@@ -88,7 +90,7 @@ function panelOf(view: CameraView, onEnlarge: () => void) {
   button.addEventListener('click', () => view.toggle());
   const fault = document.createElement('p');
   fault.className = 'fault';
-  view.canvas.title = 'Enlarge or reduce (E)';
+  view.canvas.title = texts().clouds.enlargeTitle;
   view.canvas.onclick = onEnlarge;
   caption.append(name, status, button);
   figure.append(caption, fault, view.canvas);
@@ -140,7 +142,7 @@ export class WatchApp {
     this.videos = new VideoFeed({
       client: watcher,
       views: this.views,
-      words: videoWords,
+      words: texts().media.cannotShow,
       settings,
       presented: null,
       // Its frames tell the timestamps with which the relay's were paired.

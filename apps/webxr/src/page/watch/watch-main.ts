@@ -4,8 +4,9 @@ import '../../panels/ui/picture-panels.css';
 import './watch.css';
 import { transformSupport } from '@farpoint/operator';
 import { applyDisplay } from '../../ground/display/stored-display.ts';
+import { startLanguage } from '../../panels/ui/fill-texts.ts';
 import type { Failure } from '../../state/notices.ts';
-import { failureWords } from '../../words/words.ts';
+import { texts } from '../../words/language.ts';
 import { WatchApp } from './watch-app.ts';
 import { readWatchSettings } from './watch-settings.ts';
 
@@ -30,11 +31,12 @@ function start(): void {
   const settings = readWatchSettings(new URLSearchParams(window.location.search), window.location);
   const transform = transformSupport();
   if ('fault' in settings) {
-    fail({ title: 'Nothing to watch', text: settings.fault });
+    const { nothing, faults } = texts().watch;
+    fail({ title: nothing, text: faults[settings.fault] });
     return;
   }
   if (typeof RTCPeerConnection === 'undefined' || transform === 'none') {
-    fail(transform === 'none' ? failureWords.noTransform : failureWords.noWebRtc);
+    fail(transform === 'none' ? texts().failures.noTransform : texts().failures.noWebRtc);
     return;
   }
   try {
@@ -47,7 +49,7 @@ function start(): void {
     });
     app.watcher.on('failed', ({ detail }) => {
       console.error('cloud worker:', detail);
-      fail(failureWords.workerFailed);
+      fail(texts().failures.workerFailed);
     });
     app.start();
     // The deployed page leaves this out. `vite build --mode testing` includes it.
@@ -55,8 +57,13 @@ function start(): void {
       void import('../../testing/watch-api.ts').then(({ installWatchApi }) => installWatchApi(app));
   } catch (error) {
     console.error(error);
-    fail(failureWords.noWebGl2);
+    fail(texts().failures.noWebGl2);
   }
 }
 
-start();
+async function open(): Promise<void> {
+  await startLanguage();
+  start();
+}
+
+void open();

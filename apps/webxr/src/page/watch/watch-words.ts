@@ -1,28 +1,32 @@
-/** What the page says about the state of watching. */
+/** What the page says about the state of watching, and about each camera. */
 import type { WatchObstacle, WatchState } from '@farpoint/operator';
-import type { Words } from '../../words/words.ts';
+import { texts } from '../../words/language.ts';
+import type { Tone, Words } from '../../words/words.ts';
 
-const obstacleWords: Record<WatchObstacle, Words> = {
-  'relay-unreachable': { text: 'Janus cannot be reached. Trying again…', tone: 'warning' },
-  'no-broadcast': { text: 'The robot is not broadcasting. Waiting for it…', tone: 'warning' },
-  'not-a-broadcast': { text: 'This mountpoint is not a robot’s broadcast. Trying again…', tone: 'bad' },
-  refused: { text: 'Janus refuses: check the PIN. Trying again…', tone: 'bad' },
-  lost: { text: 'The connection is lost. Trying again…', tone: 'warning' },
+const obstacleTones: Record<WatchObstacle, Tone> = {
+  'relay-unreachable': 'warning',
+  'no-broadcast': 'warning',
+  'not-a-broadcast': 'bad',
+  refused: 'bad',
+  lost: 'warning',
 };
 
 /** @param name the robot's; `null` while it is not known */
 export function watchWords({ phase, obstacle }: WatchState, name: string | null): Words {
-  const of = name === null ? '' : ` · ${name}`;
+  const said = texts().watch;
+  const of = (state: string) => (name === null ? state : said.of(state, name));
   switch (phase) {
     case 'connecting':
-      return { text: 'Connecting…', tone: 'neutral' };
-    case 'waiting':
-      return obstacleWords[obstacle ?? 'lost'];
+      return { text: said.connecting, tone: 'neutral' };
+    case 'waiting': {
+      const why = obstacle ?? 'lost';
+      return { text: said.obstacles[why], tone: obstacleTones[why] };
+    }
     case 'opening':
-      return { text: `Waiting for the first pictures…${of}`, tone: 'neutral' };
+      return { text: of(said.firstPictures), tone: 'neutral' };
     case 'live':
-      return { text: `Live${of}`, tone: 'good' };
+      return { text: of(said.live), tone: 'good' };
     case 'silent':
-      return { text: `Not live: nothing arrives${of}`, tone: 'warning' };
+      return { text: of(said.silent), tone: 'warning' };
   }
 }

@@ -4,6 +4,8 @@ import { palette } from '../../ground/display/palette.ts';
 import { Curve } from '../../ground/telemetry/curve.ts';
 import { shownAt } from '../../ground/telemetry/moment.ts';
 import type { RecordedSeries } from '../../ground/telemetry/recorder.ts';
+import { texts } from '../../words/language.ts';
+import { marked } from '../../words/numbers.ts';
 import { ageText, numberText, spanText, withUnit } from './number-words.ts';
 import { part, setText, type Tile, type TileFrame } from './tile.ts';
 
@@ -97,7 +99,7 @@ export class ChartTile implements Tile {
     this.element.dataset.stale = String(this.#stale);
     const value = shown === null ? '–' : withUnit(shown.value, this.#unit);
     const isOld = this.#stale && shown !== null;
-    setText(this.#now, isOld ? `${value} (${ageText(shown.ageMs)} old)` : value);
+    setText(this.#now, isOld ? texts().measures.valueOld(value, ageText(shown.ageMs)) : value);
   }
 
   #drawCurve({ moment: { instantMs, robotNowMs }, windowMs }: TileFrame): void {
@@ -105,8 +107,9 @@ export class ChartTile implements Tile {
     const described = this.#recorded();
     this.#windowS = windowMs / 1000;
     const range = described?.series.range(endMs - windowMs, endMs) ?? null;
-    setText(this.#least, range === null ? 'min –' : `min ${numberText(range.least, this.#unit)}`);
-    setText(this.#most, range === null ? 'max –' : `max ${numberText(range.most, this.#unit)}`);
+    const said = texts().measures;
+    setText(this.#least, said.least(range === null ? '–' : numberText(range.least, this.#unit)));
+    setText(this.#most, said.most(range === null ? '–' : numberText(range.most, this.#unit)));
     if (described === undefined) return;
     described.series.curve(endMs - windowMs, endMs, this.#curve);
     this.#plot.setData([this.#curve.xs, this.#curve.ys]);
@@ -134,7 +137,7 @@ function chartOptions(windowS: () => number, isStale: () => boolean): uPlot.Opti
         font: FONT,
         size: 26,
         space: 60,
-        values: (_, splits) => splits.map((at) => (at === 0 ? 'now' : `−${spanWords(-at)}`)),
+        values: (_, splits) => splits.map((at) => (at === 0 ? texts().measures.now : `−${spanWords(-at)}`)),
         incrs: [5, 10, 30, 60, 120, 300, 600, 1200],
       },
       {
@@ -144,7 +147,7 @@ function chartOptions(windowS: () => number, isStale: () => boolean): uPlot.Opti
         font: FONT,
         size: AXIS_WIDTH,
         space: 26,
-        values: (_, splits) => splits.map((at) => String(Number(at.toPrecision(6)))),
+        values: (_, splits) => splits.map((at) => marked(String(Number(at.toPrecision(6))))),
       },
     ],
     series: [

@@ -7,6 +7,7 @@ import type { Moment } from '../../ground/telemetry/moment.ts';
 import type { PresentedInstant } from '../../ground/telemetry/presented-instant.ts';
 import type { TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
 import type { PageState } from '../../state/page-state.ts';
+import { texts } from '../../words/language.ts';
 import { elements } from '../ui/elements.ts';
 import type { Dashboard } from './dashboard.ts';
 
@@ -98,7 +99,7 @@ export class DashboardOpener {
         console.error(error);
         this.#loading = false;
         this.#open.value = false;
-        state.notices.tell('The dashboard could not be loaded. Try again.', 'warning');
+        state.notices.tell(texts().dashboard.cannotLoad, 'warning');
       },
     );
   }

@@ -6,6 +6,7 @@ import { effect, type ReadonlySignal, signal } from '@preact/signals-core';
 import type { MapTiles } from '../../ground/telemetry/map-tiles.ts';
 import type { Moment } from '../../ground/telemetry/moment.ts';
 import type { TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
+import { texts } from '../../words/language.ts';
 import type { Words } from '../../words/words.ts';
 import { quietButton, selectOf } from '../ui/panel-parts.ts';
 import {
@@ -46,18 +47,19 @@ class TileFrameView {
   readonly #title = document.createElement('h3');
   readonly #buttons = part('arrange');
   readonly #watching: IntersectionObserver;
-  #named: readonly (readonly [HTMLButtonElement, string])[];
+  #named: readonly (readonly [HTMLButtonElement, (tile: string) => string])[];
   #inView = true;
   #dueMs = 0;
 
   constructor(tile: Tile, { move, resize, hide }: TileActions) {
     this.#tile = tile;
     this.element.className = 'tile';
+    const said = texts().dashboard;
     this.#named = [
-      [quietButton('◀', 'Earlier', () => move(-1)), 'Move earlier: '],
-      [quietButton('▶', 'Later', () => move(1)), 'Move later: '],
-      [quietButton('⤢', 'Size', resize), 'Change the size: '],
-      [quietButton('✕', 'Hide', hide), 'Hide: '],
+      [quietButton('◀', said.earlier, () => move(-1)), said.moveEarlier],
+      [quietButton('▶', said.later, () => move(1)), said.moveLater],
+      [quietButton('⤢', said.size, resize), said.changeSize],
+      [quietButton('✕', said.hide, hide), said.hideTile],
     ];
     this.#buttons.append(...this.#named.map(([button]) => button));
     const head = part('head');
@@ -185,28 +187,29 @@ export class Dashboard {
 
   #header(): HTMLElement {
     const header = part('heads');
+    const said = texts().dashboard;
     const title = document.createElement('h2');
-    title.textContent = 'Dashboard';
-    const texts = WINDOWS_S.map(spanText);
-    const span = selectOf('How far back curves reach', texts, (text) => {
-      const windowS = WINDOWS_S[texts.indexOf(text)];
+    title.textContent = said.title;
+    const spans = Object.fromEntries(WINDOWS_S.map((windowS) => [String(windowS), spanText(windowS)]));
+    const span = selectOf({ label: said.span, values: WINDOWS_S.map(String), texts: spans }, (chosen) => {
+      const windowS = WINDOWS_S.find((each) => String(each) === chosen);
       if (windowS !== undefined) this.#layout.value = { ...this.#layout.peek(), windowS };
     });
     effect(() => {
       span.selectedIndex = WINDOWS_S.indexOf(this.#layout.value.windowS);
     });
-    const arrange = quietButton('Arrange', 'Choose, order and size the tiles', () => {
+    const arrange = quietButton(said.arrange, said.arrangeTitle, () => {
       this.#arranging.value = !this.#arranging.peek();
     });
-    const reset = quietButton('Reset', 'The tiles as they were at first', () => {
+    const reset = quietButton(said.reset, said.resetTitle, () => {
       this.#layout.value = DEFAULT_LAYOUT;
     });
     effect(() => {
       arrange.ariaPressed = String(this.#arranging.value);
       reset.hidden = !this.#arranging.value;
     });
-    const close = quietButton('✕', 'Close the dashboard (B)', () => this.#parts.close());
-    close.ariaLabel = 'Close the dashboard';
+    const close = quietButton('✕', said.closeTitle, () => this.#parts.close());
+    close.ariaLabel = said.close;
     header.append(title, this.#state, span, reset, arrange, close);
     return header;
   }
@@ -216,7 +219,7 @@ export class Dashboard {
     alert.setAttribute('role', 'alert');
     const list = document.createElement('ul');
     list.className = 'alarms';
-    list.ariaLabel = 'Alarms';
+    list.ariaLabel = texts().dashboard.alarms;
     alert.append(list);
     effect(() => {
       const alarms = this.#parts.alarms.value;
@@ -264,7 +267,9 @@ export class Dashboard {
     this.#hidden.replaceChildren(
       ...hidden.map(({ id }) => {
         const title = kinds.get(id)?.title ?? id;
-        return quietButton(`+ ${title}`, `Show ${title}`, () => this.#change(id, { shown: true }));
+        return quietButton(`+ ${title}`, texts().dashboard.showTile(title), () =>
+          this.#change(id, { shown: true }),
+        );
       }),
     );
   }
@@ -289,8 +294,9 @@ export class Dashboard {
 }
 
 function stateWords(silentMs: number, { instantMs, robotNowMs, heard }: Moment): string {
-  if (silentMs === Number.POSITIVE_INFINITY) return 'No data from the robot yet';
-  if (!heard) return `No data from the robot for ${ageText(silentMs)}`;
-  if (instantMs === null) return 'Newest values';
-  return `In step with the picture, ${ageText(Math.max(0, robotNowMs - instantMs))} old`;
+  const said = texts().dashboard;
+  if (silentMs === Number.POSITIVE_INFINITY) return said.noDataYet;
+  if (!heard) return said.noDataFor(ageText(silentMs));
+  if (instantMs === null) return said.newest;
+  return said.inStep(ageText(Math.max(0, robotNowMs - instantMs)));
 }

@@ -1,5 +1,6 @@
 /** The part of the tile with where the time goes that measures motion to photon, once or again and again, as the paper's panel does. */
 import { effect } from '@preact/signals-core';
+import { texts } from '../../words/language.ts';
 import { lastTestWords, latencyCsv, testsWords } from '../../words/latency-words.ts';
 import { quietButton } from '../ui/panel-parts.ts';
 import { LatencyRuns, type LatencyRunsPort } from './latency-runs.ts';
@@ -26,12 +27,11 @@ export function latencyView(test: LatencyRunsPort['test']): LatencyView {
       }, ms),
   });
   const [last, tests] = [part('last', 'p'), part('tests', 'p')];
-  const single = quietButton('Single', 'Measure motion to photon once', () => void runs.single());
-  const continuous = quietButton('Continuous', 'Measure motion to photon again and again', () =>
-    runs.start(),
-  );
-  const abort = quietButton('Abort', 'Start no further test', () => runs.abort());
-  const save = quietButton('Tests as CSV', 'Save the last 100 tests as a table', () =>
+  const said = texts().timing;
+  const single = quietButton(said.single, said.singleTitle, () => void runs.single());
+  const continuous = quietButton(said.continuous, said.continuousTitle, () => runs.start());
+  const abort = quietButton(said.abort, said.abortTitle, () => runs.abort());
+  const save = quietButton(said.testsAsCsv, said.testsAsCsvTitle, () =>
     saveText('latency', latencyCsv(runs.ends.peek(), runs.distribution())),
   );
   element.append(last, tests, single, continuous, abort, save);

@@ -1,4 +1,5 @@
 /** Places on the map and on the screen. Metres east and north of an origin, or along the robot's world axes. */
+import { marked } from '../../words/numbers.ts';
 
 /** Which direction of the world is up on the screen. */
 export type MapUp = 'x' | 'north';
@@ -72,8 +73,8 @@ export function roundLength(most: number): number {
 }
 
 export function lengthText(metres: number): string {
-  if (metres >= 1000) return `${metres / 1000} km`;
-  return metres >= 1 ? `${metres} m` : `${Math.round(metres * 100)} cm`;
+  if (metres >= 1000) return `${marked(String(metres / 1000))} km`;
+  return metres >= 1 ? `${marked(String(metres))} m` : `${Math.round(metres * 100)} cm`;
 }
 
 /** Metres east and north of an origin, on the Mercator map with the origin's scale: what tiles are drawn in. */

@@ -3,6 +3,7 @@ import { effect } from '@preact/signals-core';
 import { palette } from '../../ground/display/palette.ts';
 import type { MapTiles } from '../../ground/telemetry/map-tiles.ts';
 import type { TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
+import { texts } from '../../words/language.ts';
 import { quietButton } from '../ui/panel-parts.ts';
 import { paintMap } from './map-painter.ts';
 import { MapProjection } from './map-projection.ts';
@@ -111,13 +112,12 @@ export class MapTile implements Tile {
   constructor(recorder: TelemetryRecorder, tiles: () => MapTiles | null) {
     this.#robot = new RobotOnMap(recorder);
     this.element.append(this.#canvas, this.#buttons, this.#attribution);
-    this.#addButton('+', 'Zoom in', () => this.#projection.zoom(BUTTON_ZOOM));
-    this.#addButton('−', 'Zoom out', () => this.#projection.zoom(1 / BUTTON_ZOOM));
-    this.#following = this.#addButton('Follow', 'Keep the robot in the middle', () =>
-      this.#setFollow(!this.#follow),
-    );
-    this.#turning = this.#addButton('North up', 'Which direction is up', () => this.#turn());
-    this.#source = this.#addButton('Odometry', 'Where the position comes from', () => this.#switchSource());
+    const said = texts().dashboard;
+    this.#addButton('+', said.zoomIn, () => this.#projection.zoom(BUTTON_ZOOM));
+    this.#addButton('−', said.zoomOut, () => this.#projection.zoom(1 / BUTTON_ZOOM));
+    this.#following = this.#addButton(said.follow, said.followTitle, () => this.#setFollow(!this.#follow));
+    this.#turning = this.#addButton(said.northUp, said.upTitle, () => this.#turn());
+    this.#source = this.#addButton(said.byOdometry, said.sourceTitle, () => this.#switchSource());
     this.#setFollow(true);
     this.#stopFollowing = effect(() => this.#open(tiles()));
     listenToGestures(this.#canvas, this.#projection, (panned) => {
@@ -180,7 +180,8 @@ export class MapTile implements Tile {
   }
 
   #showDirection(): void {
-    setText(this.#turning, this.#projection.up === 'north' ? 'North up' : 'x up');
+    const said = texts().dashboard;
+    setText(this.#turning, this.#projection.up === 'north' ? said.northUp : said.xUp);
   }
 
   #switchSource(): void {
@@ -191,7 +192,8 @@ export class MapTile implements Tile {
 
   #showSource(): void {
     const { bySatellite } = this.#robot;
-    setText(this.#source, bySatellite ? 'Satellite' : 'Odometry');
+    const said = texts().dashboard;
+    setText(this.#source, bySatellite ? said.bySatellite : said.byOdometry);
     // Tiles have north up.
     this.#turning.disabled = bySatellite;
     if (bySatellite) this.#projection.up = 'north';
@@ -244,6 +246,6 @@ function mapCanvas(): HTMLCanvasElement {
   const canvas = document.createElement('canvas');
   canvas.tabIndex = 0;
   canvas.setAttribute('role', 'img');
-  canvas.ariaLabel = 'Map: arrow keys move it, plus and minus zoom';
+  canvas.ariaLabel = texts().dashboard.mapLabel;
   return canvas;
 }

@@ -1,5 +1,7 @@
 /** Numbers with units, and ages, for people. */
 
+import { fixed, marked } from '../../words/numbers.ts';
+
 /** Digits after the point that say something, by unit. */
 const DIGITS: Readonly<Record<string, number>> = {
   'm/s': 2,
@@ -17,11 +19,12 @@ const FIX_DIGITS = 6;
 /** Without the unit. */
 export function numberText(value: number, unit: string): string {
   const known = DIGITS[unit];
-  if (known !== undefined) return withoutMinusZero(value.toFixed(known));
+  if (known !== undefined) return marked(withoutMinusZero(value.toFixed(known)));
   if (value === 0) return '0';
   const size = Math.abs(value);
-  if (size >= 1e6 || size < 1e-3) return value.toExponential(2);
-  return withoutMinusZero(value.toFixed(Math.max(0, 3 - Math.max(0, Math.floor(Math.log10(size))))));
+  if (size >= 1e6 || size < 1e-3) return marked(value.toExponential(2));
+  const digits = Math.max(0, 3 - Math.max(0, Math.floor(Math.log10(size))));
+  return marked(withoutMinusZero(value.toFixed(digits)));
 }
 
 export function withUnit(value: number, unit: string): string {
@@ -31,14 +34,14 @@ export function withUnit(value: number, unit: string): string {
 }
 
 export function fixText(latitude: number, longitude: number): string {
-  return `${latitude.toFixed(FIX_DIGITS)}°, ${longitude.toFixed(FIX_DIGITS)}°`;
+  return `${fixed(latitude, FIX_DIGITS)}°, ${fixed(longitude, FIX_DIGITS)}°`;
 }
 
 /** An age in words. */
 export function ageText(ageMs: number): string {
   const seconds = ageMs / 1000;
   if (seconds < 1) return `${Math.round(ageMs / 10) * 10} ms`;
-  if (seconds < 10) return `${seconds.toFixed(1)} s`;
+  if (seconds < 10) return `${fixed(seconds, 1)} s`;
   if (seconds < 120) return `${Math.round(seconds)} s`;
   return seconds < 7200 ? `${Math.floor(seconds / 60)} min` : `${Math.floor(seconds / 3600)} h`;
 }

@@ -10,14 +10,8 @@ import {
   type StreamStatistics,
 } from '@farpoint/operator';
 import { palette } from '../../ground/display/palette.ts';
-import {
-  commandStageNames,
-  frameStageNames,
-  stageLines,
-  stagesCsv,
-  totalWords,
-  unknownWords,
-} from '../../words/stage-words.ts';
+import { texts } from '../../words/language.ts';
+import { stageLines, stagesCsv, totalWords, unknownWords } from '../../words/stage-words.ts';
 import { quietButton } from '../ui/panel-parts.ts';
 import type { LatencyRunsPort } from './latency-runs.ts';
 import { latencyView } from './latency-view.ts';
@@ -43,17 +37,17 @@ export function stagesTile({ stages: source, testLatency }: StageSources): Tile 
   [canvas.width, canvas.height] = [WIDTH, HEIGHT];
   canvas.ariaHidden = 'true';
   const latency = latencyView(testLatency);
-  const clouds = new StageList(frameStageNames);
-  const commands = new StageList(commandStageNames);
+  const said = texts().timing;
+  const clouds = new StageList(said.frameStages);
+  const commands = new StageList(said.commandStages);
   const rowsOf = (nowMs: number) => source().frameStages()?.window.rows(nowMs) ?? [];
-  const save = (name: string, csv: (nowMs: number) => string) =>
-    quietButton(`${name} as CSV`, `Save the last 30 s of ${name.toLowerCase()} as a table`, () =>
-      saveText(name.toLowerCase(), csv(performance.now())),
-    );
-  const saveClouds = save('Clouds', (nowMs) => stagesCsv(frameStages, rowsOf(nowMs), performance.timeOrigin));
-  const saveCommands = save('Commands', (nowMs) =>
-    stagesCsv(commandStages, source().commands.window.rows(nowMs), performance.timeOrigin),
+  const saveClouds = quietButton(said.cloudsAsCsv, said.cloudsAsCsvTitle, () =>
+    saveText('clouds', stagesCsv(frameStages, rowsOf(performance.now()), performance.timeOrigin)),
   );
+  const saveCommands = quietButton(said.commandsAsCsv, said.commandsAsCsvTitle, () => {
+    const rows = source().commands.window.rows(performance.now());
+    saveText('commands', stagesCsv(commandStages, rows, performance.timeOrigin));
+  });
   element.append(canvas, clouds.element, saveClouds, commands.element, saveCommands, latency.element);
   return {
     element,
@@ -61,8 +55,8 @@ export function stagesTile({ stages: source, testLatency }: StageSources): Tile 
     update({ nowMs }) {
       const summary = source().frameStages()?.window.summary(nowMs) ?? null;
       element.dataset.stale = String(summary === null || summary.rows === 0);
-      clouds.show('Clouds, from the sensor to the screen', summary);
-      commands.show('Commands, from the hand to the wheels', source().commands.window.summary(nowMs));
+      clouds.show(said.clouds, summary);
+      commands.show(said.commands, source().commands.window.summary(nowMs));
       drawRows(canvas, rowsOf(nowMs), nowMs);
     },
     dispose: () => latency.dispose(),
@@ -106,8 +100,8 @@ function stageItem(colour: string): HTMLElement {
   const [name, median, p95] = [part('name', 'span'), part('median', 'output'), part('p95', 'output')];
   // Read aloud on request only.
   for (const output of [median, p95]) output.ariaLive = 'off';
-  median.title = 'Median';
-  p95.title = '95 of 100 take no longer';
+  median.title = texts().timing.median;
+  p95.title = texts().timing.p95;
   item.append(mark, name, median, p95);
   return item;
 }

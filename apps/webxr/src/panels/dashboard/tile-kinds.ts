@@ -2,7 +2,13 @@
 import type { ReportedComponents, RobotSession } from '@farpoint/operator';
 import { diagnosticLevels } from '@farpoint/protocol';
 import type { MapTiles } from '../../ground/telemetry/map-tiles.ts';
-import { OWN, type TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
+import {
+  OWN,
+  type OwnSeries,
+  type RecordedSeries,
+  type TelemetryRecorder,
+} from '../../ground/telemetry/recorder.ts';
+import { texts } from '../../words/language.ts';
 import { shownReading } from '../../words/shown-readings.ts';
 import { ChartTile } from './chart-tile.ts';
 import type { PlacedTile } from './layout.ts';
@@ -20,7 +26,6 @@ const DIAGNOSTICS_EVERY_MS = 500;
  */
 const SILENT_MS = 10_000;
 const MOST_SHOWN = 100;
-const WORDS = { error: 'error', warn: 'warning', stale: 'stale', ok: 'OK' } as const;
 
 /** The tile with what the robot's components report: counts by level, then each report, the most urgent first. */
 function diagnosticsTile(session: () => RobotSession): Tile {
@@ -45,7 +50,7 @@ function diagnosticsTile(session: () => RobotSession): Tile {
         const item = list.children[i] as HTMLElement;
         item.dataset.level = level;
         const [word, text, age] = [...item.children] as [HTMLElement, HTMLElement, HTMLElement];
-        setText(word, WORDS[level]);
+        setText(word, texts().dashboard.levels[level]);
         setText(text, message === '' ? name : `${name}: ${message}`);
         setText(age, ageText(Math.max(0, robotNowMs - sinceMs)));
       });
@@ -55,14 +60,15 @@ function diagnosticsTile(session: () => RobotSession): Tile {
 }
 
 function countWords(topics: readonly ReportedComponents[], silentMs: number | null): string {
-  if (topics.length === 0) return 'No component has reported.';
+  const said = texts().dashboard;
+  if (topics.length === 0) return said.noComponent;
   const words = diagnosticLevels.flatMap((level) => {
     const count = topics.reduce((sum, { counts }) => sum + counts[level], 0);
-    return count === 0 ? [] : [`${count} ${WORDS[level]}`];
+    return count === 0 ? [] : [`${count} ${said.levels[level]}`];
   });
-  const ago = silentMs === null ? '' : ` (nothing for ${ageText(silentMs)})`;
-  const recorded = topics.some((topic) => topic.recorded) ? ' (recorded)' : '';
-  return `${words.join(', ')}${recorded}${ago}`;
+  const counts = words.join(', ');
+  const told = topics.some((topic) => topic.recorded) ? said.recorded(counts) : counts;
+  return silentMs === null ? told : said.nothingFor(told, ageText(silentMs));
 }
 
 function row(): HTMLElement {
@@ -78,7 +84,7 @@ const TOPICS_EVERY_MS = 250;
 function topicsTile(session: () => RobotSession): Tile {
   const element = part('topics');
   const nothing = part('nothing', 'p');
-  nothing.textContent = 'The robot has named no topics to show.';
+  nothing.textContent = texts().dashboard.noTopics;
   const list = document.createElement('dl');
   element.append(nothing, list);
   return {
@@ -123,35 +129,45 @@ const HIDDEN_FIELDS: readonly string[] = ['latitude', 'longitude', 'altitude', '
 /** By which the line over the picture opens it. */
 export const STAGES_TILE = 'stages';
 
+/** The page names what comes with the robot's state; the robot names the rest. */
+function seriesTitle({ key, label, unit, recorded }: Omit<RecordedSeries, 'series' | 'field'>): string {
+  const { series, recorded: ofRecording } = texts().dashboard;
+  const own = (Object.keys(OWN) as OwnSeries[]).find((name) => OWN[name].key === key);
+  const name = label ?? (own === undefined ? key : series[own]);
+  const shown = recorded === true ? ofRecording(name) : name;
+  return unit === '' ? shown : `${shown}, ${unit}`;
+}
+
 /** @returns each as it is by default, in the default order */
 export function tileKinds(sources: TileSources): TileKind[] {
   const { recorder, mapTiles, session } = sources;
   const values = ownValues(recorder);
-  const value = (id: string, title: string): TileKind => ({
+  const said = texts().dashboard.tiles;
+  const value = (id: 'speed' | 'battery' | 'heading' | 'position'): TileKind => ({
     id,
-    title,
+    title: said[id],
     size: 'small',
     shown: true,
     make: () => valueTile(values[id]!),
   });
   const curves = [...recorder.series.values()].map(
-    ({ key, label, unit, field }): TileKind => ({
+    ({ key, label, unit, field, recorded }): TileKind => ({
       id: `curve ${key}`,
-      title: unit === '' ? label : `${label}, ${unit}`,
+      title: seriesTitle({ key, label, unit, recorded }),
       size: 'medium',
       shown: field === null ? SHOWN_CURVES.includes(key) : !HIDDEN_FIELDS.includes(field),
       make: () => new ChartTile(() => recorder.series.get(key)),
     }),
   );
   return [
-    value('speed', 'Speed'),
-    value('battery', 'Battery'),
-    value('heading', 'Heading'),
-    value('position', 'Position'),
-    { id: 'map', title: 'Map', size: 'large', shown: true, make: () => new MapTile(recorder, mapTiles) },
+    value('speed'),
+    value('battery'),
+    value('heading'),
+    value('position'),
+    { id: 'map', title: said.map, size: 'large', shown: true, make: () => new MapTile(recorder, mapTiles) },
     {
       id: 'diagnostics',
-      title: 'Diagnostics',
+      title: said.diagnostics,
       size: 'medium',
       shown: true,
       make: () => diagnosticsTile(session),
@@ -159,11 +175,11 @@ export function tileKinds(sources: TileSources): TileKind[] {
     ...curves,
     {
       id: STAGES_TILE,
-      title: 'Where the time goes',
+      title: said.stages,
       size: 'medium',
       shown: false,
       make: () => stagesTile(sources),
     },
-    { id: 'topics', title: 'Topics', size: 'medium', shown: true, make: () => topicsTile(session) },
+    { id: 'topics', title: said.topics, size: 'medium', shown: true, make: () => topicsTile(session) },
   ];
 }

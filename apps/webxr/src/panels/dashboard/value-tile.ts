@@ -1,6 +1,7 @@
 /** A tile with one value in large digits, a line below it, and its age once it is stale. */
 import { type ShownValue, shownAt } from '../../ground/telemetry/moment.ts';
 import { OWN, type RecordedSeries, type TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
+import { texts } from '../../words/language.ts';
 import { ageText, fixText, withUnit } from './number-words.ts';
 import { part, setText, type Tile, type TileFrame } from './tile.ts';
 
@@ -32,7 +33,7 @@ export function valueTile(read: Read): Tile {
       const shown = read(frame);
       const { value } = shown;
       setText(text, shown.text);
-      setText(below, value?.stale === true ? `stale: ${ageText(value.ageMs)} old` : shown.below);
+      setText(below, value?.stale === true ? texts().measures.stale(ageText(value.ageMs)) : shown.below);
       element.dataset.stale = String(value?.stale ?? true);
     },
     dispose() {},
@@ -51,13 +52,13 @@ export function ownValues(recorder: TelemetryRecorder): Readonly<Record<string, 
       const speed = textOf(own('speed'), frame);
       const turning = textOf(own('turning'), frame);
       if (speed === null) return NOTHING;
-      return { text: speed.text, below: `turning ${turning?.text ?? '–'}`, value: speed.shown };
+      return { text: speed.text, below: texts().dashboard.turning(turning?.text ?? '–'), value: speed.shown };
     },
     heading(frame) {
       const heading = textOf(own('heading'), frame);
       return heading === null
         ? NOTHING
-        : { text: heading.text, below: 'from x to the left', value: heading.shown };
+        : { text: heading.text, below: texts().dashboard.fromX, value: heading.shown };
     },
     position(frame) {
       const [latitude, longitude] = [recorder.ofField('latitude', '°'), recorder.ofField('longitude', '°')];
@@ -66,13 +67,15 @@ export function ownValues(recorder: TelemetryRecorder): Readonly<Record<string, 
       const [north, east] = [textOf(latitude, frame)?.shown, textOf(longitude, frame)?.shown];
       if (north !== undefined && east !== undefined)
         return { text: fixText(north.value, east.value), below: world ?? '', value: north };
-      return world === null ? NOTHING : { text: world, below: 'odometry', value: x?.shown ?? null };
+      return world === null
+        ? NOTHING
+        : { text: world, below: texts().dashboard.odometry, value: x?.shown ?? null };
     },
     battery(frame) {
       const charge = textOf(recorder.charge, frame);
       const voltage = textOf(recorder.voltage, frame);
       const first = charge ?? voltage;
-      if (first === null) return { ...NOTHING, below: 'no battery gauge' };
+      if (first === null) return { ...NOTHING, below: texts().dashboard.noGauge };
       return { text: first.text, below: charge === null ? '' : (voltage?.text ?? ''), value: first.shown };
     },
   };

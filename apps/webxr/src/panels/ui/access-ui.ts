@@ -7,7 +7,9 @@ import type { OperatorAccess, ReadResult } from '../../ground/access/operator-ac
 import type { SignIn } from '../../ground/access/sign-in.ts';
 import type { StoredRobots } from '../../ground/access/stored-robots.ts';
 import type { LinkState } from '../../state/link-state.ts';
-import { grantFaultWords, grantWords, roleWords, signInErrorWords } from '../../words/access-words.ts';
+import { grantWords } from '../../words/access-words.ts';
+import { texts } from '../../words/language.ts';
+import { dateText } from '../../words/numbers.ts';
 import type { Words } from '../../words/words.ts';
 import { elements } from './elements.ts';
 import { showObstacle } from './obstacle-panel.ts';
@@ -23,8 +25,6 @@ export interface AccessDialogParts {
   /** A grant was added: robots that refused this operator may admit it now. */
   onAdded(): void;
 }
-
-const date = (ms: number) => new Date(ms).toLocaleString([], { dateStyle: 'medium', timeStyle: 'short' });
 
 /** The dialog for grants: this browser's key, the grants that it holds, and the robots that it knows. */
 class AccessDialog {
@@ -58,17 +58,17 @@ class AccessDialog {
       const nowS = Date.now() / 1000;
       accessGrants.replaceChildren(
         ...access.grants.value.map(({ id, claims }) =>
-          itemOf(grantWords(claims, nowS, date), 'Remove', () => void access.remove(id)),
+          itemOf(grantWords(claims, nowS, dateText), texts().access.remove, () => void access.remove(id)),
         ),
       );
     });
     effect(() => {
       const robots = [...this.#robots.value];
       const none = document.createElement('li');
-      none.textContent = 'None yet. A robot is known after the first session with it.';
+      none.textContent = texts().access.noRobots;
       accessRobots.replaceChildren(
         ...robots.map(([robotId, key]) =>
-          itemOf({ text: `${robotId}: ${key}`, tone: 'neutral' }, 'Forget', () => {
+          itemOf({ text: `${robotId}: ${key}`, tone: 'neutral' }, texts().access.forget, () => {
             this.#parts.known.forget(robotId);
             this.#robots.value = this.#parts.known.all();
           }),
@@ -94,7 +94,7 @@ class AccessDialog {
         if (words !== null) this.#say(words);
       });
     } else {
-      this.#say({ text: 'Grants need https: open the page at its https address.', tone: 'bad' });
+      this.#say({ text: texts().access.needsHttps, tone: 'bad' });
       accessText.disabled = true;
     }
   }
@@ -108,23 +108,23 @@ class AccessDialog {
     this.#read = read;
     accessAdd.disabled = read === null || 'fault' in read;
     if (read === null) this.#say(null);
-    else if ('fault' in read) this.#say({ text: grantFaultWords[read.fault], tone: 'warning' });
-    else this.#say(grantWords(read.claims, Date.now() / 1000, date));
+    else if ('fault' in read) this.#say({ text: texts().access.grantFaults[read.fault], tone: 'warning' });
+    else this.#say(grantWords(read.claims, Date.now() / 1000, dateText));
   }
 
   async #add(): Promise<void> {
     if (this.#read === null || 'fault' in this.#read) return;
     const kept = await this.#parts.access.add(this.#read);
     if (typeof kept === 'string') {
-      this.#say({ text: grantFaultWords[kept], tone: 'warning' });
+      this.#say({ text: texts().access.grantFaults[kept], tone: 'warning' });
       return;
     }
     elements.accessText.value = '';
     await this.#take();
     this.#say(
       kept
-        ? { text: 'Added.', tone: 'good' }
-        : { text: 'Added for this visit: the browser keeps nothing for this page.', tone: 'warning' },
+        ? { text: texts().access.added, tone: 'good' }
+        : { text: texts().access.addedForNow, tone: 'warning' },
     );
     this.#parts.onAdded();
   }
@@ -218,7 +218,8 @@ export class AccessUi {
     const { access, client, signIn, tell } = this.#parts;
     const isAsked = signIn.isAnsweredBy(answer.state);
     if ('error' in answer) {
-      if (isAsked) this.#dialog.open('', { text: signInErrorWords[answer.error], tone: 'warning' });
+      if (isAsked)
+        this.#dialog.open('', { text: texts().access.signInErrors[answer.error], tone: 'warning' });
       return;
     }
     const taken = isAsked ? await access.takeAsked(answer.grant) : null;
@@ -227,7 +228,8 @@ export class AccessUi {
       return;
     }
     const { name, role, robots } = taken.claims;
-    tell({ text: `Signed in: ${name} ${roleWords[role]}: ${robots.join(', ')}`, tone: 'good' });
+    const { signedIn, roles } = texts().access;
+    tell({ text: signedIn(name, roles[role], robots.join(', ')), tone: 'good' });
     client.link.retry();
   }
 }

@@ -2,7 +2,7 @@
 
 import type { Stage } from '../../scene/view/stage.ts';
 import type { Notices } from '../../state/notices.ts';
-import { failureWords } from '../../words/words.ts';
+import { texts } from '../../words/language.ts';
 
 export function listenToCanvas(
   canvas: HTMLCanvasElement,
@@ -11,7 +11,7 @@ export function listenToCanvas(
 ): void {
   new ResizeObserver(() => stage.resize()).observe(canvas);
   canvas.addEventListener('webglcontextlost', () => {
-    failure.value = failureWords.contextLost;
+    failure.value = texts().failures.contextLost;
   });
   canvas.addEventListener('webglcontextrestored', () => {
     failure.value = null;

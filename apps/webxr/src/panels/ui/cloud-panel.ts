@@ -15,6 +15,8 @@ import type { Switches } from '../../ground/switches.ts';
 import { type CloudAppearance, UNNAMED } from '../../state/cloud-appearance.ts';
 import type { RobotState } from '../../state/robot-state.ts';
 import { hazardLegendWords } from '../../words/hazard-words.ts';
+import { texts } from '../../words/language.ts';
+import { fixed, grouped } from '../../words/numbers.ts';
 import { colourControls } from './colour-controls.ts';
 import { elements } from './elements.ts';
 import { cssOf, type Legend, legendOf } from './legend.ts';
@@ -31,33 +33,33 @@ function memoryControls(
   { memory, remembers }: CloudAppearance,
   { remembered, tell }: MemoryControlsParts,
 ): HTMLElement {
-  const toggle = quietButton('Memory', 'Remember what was seen: dimmer where it is not seen now', () => {
+  const said = texts().clouds;
+  const toggle = quietButton(said.memory, said.memoryTitle, () => {
     memory.value = !remembers.peek();
   });
-  const forget = quietButton('Forget', 'Forget everything that was seen until now', () =>
-    remembered.forget(),
-  );
-  const save = quietButton('Save', 'Save what is remembered as a point cloud', () => void saveFile());
-  const load = quietButton('Load', 'Add a point cloud (PLY or PCD) to what is remembered', () =>
-    input.click(),
-  );
+  const forget = quietButton(said.forget, said.forgetTitle, () => remembered.forget());
+  const save = quietButton(said.save, said.saveTitle, () => void saveFile());
+  const load = quietButton(said.load, said.loadTitle, () => input.click());
   let format: PointFileFormat = 'ply';
-  const formats = selectOf('Format of the file', POINT_FILE_FORMATS, (chosen) => {
-    format = chosen;
-  });
+  const formats = selectOf(
+    { label: said.format, values: POINT_FILE_FORMATS, texts: said.formats },
+    (chosen) => {
+      format = chosen;
+    },
+  );
   const input = document.createElement('input');
   Object.assign(input, { type: 'file', accept: '.ply,.pcd', hidden: true });
-  input.ariaLabel = 'Point cloud to remember';
+  input.ariaLabel = said.loadLabel;
   const group = document.createElement('div');
-  const file = rowOf('File', save, load, input);
-  const as = rowOf('Save as', formats);
-  const anew = rowOf('Anew', forget);
+  const file = rowOf(said.file, save, load, input);
+  const as = rowOf(said.saveAs, formats);
+  const anew = rowOf(said.anew, forget);
   input.addEventListener('change', () => void loadFile(input.files?.[0]));
   effect(() => {
     toggle.ariaPressed = String(remembers.value);
     for (const row of [file, as, anew]) row.hidden = !remembers.value;
   });
-  group.append(rowOf('Keep', toggle), file, as, anew);
+  group.append(rowOf(said.keep, toggle), file, as, anew);
   return group;
 
   async function saveFile(): Promise<void> {
@@ -75,10 +77,10 @@ function memoryControls(
     if (file === undefined) return;
     try {
       const points = await remembered.load(file);
-      tell(`${points.toLocaleString('en')} points loaded from ${file.name}`, 'good');
+      tell(said.loaded(grouped(points), file.name), 'good');
     } catch (error) {
       if (!(error instanceof MemoryFileError)) throw error;
-      tell(`${file.name} cannot be loaded: ${error.message}`, 'warning');
+      tell(said.cannotLoad(file.name, error.message), 'warning');
     }
   }
 }
@@ -89,28 +91,25 @@ const BELOW = { min: -2, max: 2, step: 0.1 };
 
 /** Which heights of the clouds are drawn in the present view; and what is up when looking from above. */
 function cutControls(appearance: CloudAppearance): HTMLElement {
+  const said = texts().clouds;
   const group = document.createElement('div');
   const inUse = () => (appearance.fromAbove.value ? appearance.cutFromAbove : appearance.cut);
   const change = (part: Partial<HeightCut>) => {
     const cut = inUse();
     cut.value = { ...cut.peek(), ...part };
   };
-  const above = sliderOf('Hide points above', ABOVE, (height) =>
+  const above = sliderOf(said.hideAboveLabel, ABOVE, (height) =>
     change({ above: height >= ABOVE.max ? null : height }),
   );
-  const below = sliderOf('Hide points below', BELOW, (height) =>
+  const below = sliderOf(said.hideBelowLabel, BELOW, (height) =>
     change({ below: height <= BELOW.min ? null : height }),
   );
   const [aboveText, belowText] = [document.createElement('output'), document.createElement('output')];
-  const up = quietButton(
-    'Heading up',
-    'What is up: the heading of the robot, or north (the world’s y)',
-    () => {
-      appearance.headingUp.value = !appearance.headingUp.peek();
-    },
-  );
-  const upRow = rowOf('Up', up);
-  group.append(rowOf('Hide above', above, aboveText), rowOf('Hide below', below, belowText), upRow);
+  const up = quietButton(said.headingUp, said.upTitle, () => {
+    appearance.headingUp.value = !appearance.headingUp.peek();
+  });
+  const upRow = rowOf(said.up, up);
+  group.append(rowOf(said.hideAbove, above, aboveText), rowOf(said.hideBelow, below, belowText), upRow);
   effect(() => {
     const cut = inUse().value;
     above.value = String(cut.above ?? ABOVE.max);
@@ -120,13 +119,13 @@ function cutControls(appearance: CloudAppearance): HTMLElement {
   });
   effect(() => {
     upRow.hidden = !appearance.fromAbove.value;
-    up.textContent = appearance.headingUp.value ? 'Heading up' : 'North up';
+    up.textContent = appearance.headingUp.value ? said.headingUp : said.northUp;
   });
   return group;
 }
 
 function heightText(height: number | null): string {
-  return height === null ? 'nothing' : `${height.toFixed(1)} m`;
+  return height === null ? texts().measures.nothing : `${fixed(height, 1)} m`;
 }
 
 /** Keeps the left column above the row for driving, and `controls`, a list in it, too. */
@@ -179,12 +178,13 @@ export class CloudPanel {
   constructor(parts: CloudPanelParts) {
     this.#parts = parts;
     const { appearance } = parts;
+    const said = texts().clouds;
     const open = signal(false);
-    const fromAbove = quietButton('From above', 'The surroundings from above (T)', () => {
+    const fromAbove = quietButton(said.fromAbove, said.fromAboveTitle, () => {
       appearance.fromAbove.value = !appearance.fromAbove.peek();
     });
     fromAbove.id = 'from-above';
-    const colours = quietButton('Colours', 'Colours of the clouds, heights that are drawn', () => {
+    const colours = quietButton(said.colours, said.coloursTitle, () => {
       open.value = !open.peek();
     });
     colours.id = 'colours-open';
@@ -250,33 +250,34 @@ export class CloudPanel {
 }
 
 function hazardSwitch({ hazards }: CloudAppearance): HTMLElement {
-  const button = quietButton('', 'Tint what the robot would hit, and where its floor is missing (H)', () => {
+  const said = texts().clouds;
+  const button = quietButton('', said.hazardsSwitchTitle, () => {
     hazards.value = !hazards.peek();
   });
   button.id = 'hazards';
   effect(() => {
-    button.textContent = hazards.value ? 'Tinted' : 'Not tinted';
+    button.textContent = hazards.value ? said.tinted : said.notTinted;
     button.ariaPressed = String(hazards.value);
   });
-  return rowOf('Hazards', button);
+  return rowOf(said.hazards, button);
 }
 
 function frustaSwitch({ frusta }: CloudAppearance): HTMLElement {
-  const button = drawnButton(frusta, 'Where the sensors are, and how far they see to the sides');
+  const button = drawnButton(frusta, texts().clouds.frustaTitle);
   button.id = 'frusta';
-  return rowOf('Frusta', button);
+  return rowOf(texts().clouds.frusta, button);
 }
 
 function navigationSwitch({ navigation }: CloudAppearance): HTMLElement {
-  const button = drawnButton(navigation, 'The path that the robot’s own navigator has planned, and its map');
+  const button = drawnButton(navigation, texts().clouds.navigationTitle);
   button.id = 'navigation';
-  return rowOf('Path, map', button);
+  return rowOf(texts().clouds.navigation, button);
 }
 
 function modelSwitch({ model }: CloudAppearance): HTMLElement {
-  const button = drawnButton(model, 'What the robot looks like, by its own description');
+  const button = drawnButton(model, texts().clouds.modelTitle);
   button.id = 'robot-model';
-  return rowOf('Robot', button);
+  return rowOf(texts().clouds.model, button);
 }
 
 function drawnButton(drawn: Signal<boolean>, title: string): HTMLButtonElement {
@@ -284,7 +285,8 @@ function drawnButton(drawn: Signal<boolean>, title: string): HTMLButtonElement {
     drawn.value = !drawn.peek();
   });
   effect(() => {
-    button.textContent = drawn.value ? 'Drawn' : 'Not drawn';
+    const said = texts().clouds;
+    button.textContent = drawn.value ? said.drawn : said.notDrawn;
     button.ariaPressed = String(drawn.value);
   });
   return button;
@@ -298,35 +300,30 @@ function element(className: string): HTMLElement {
 
 /** Whether clouds on a camera’s grid are drawn as a surface or as points, and what paints the surface. */
 function surfaceControls({ surface, drawsSurface, paint }: CloudAppearance): HTMLElement {
-  const button = quietButton('Surfaces', 'Draw clouds of depth cameras as surfaces, or as points', () => {
+  const said = texts().clouds;
+  const button = quietButton(said.surfaces, said.surfacesTitle, () => {
     surface.value = !drawsSurface.peek();
   });
-  const video = quietButton(
-    'Video',
-    'Paint surfaces with the depth camera’s video where the robot sends it, or with the points’ own colours',
-    () => {
-      paint.value = !paint.peek();
-    },
-  );
+  const video = quietButton(said.video, said.videoTitle, () => {
+    paint.value = !paint.peek();
+  });
   const group = document.createElement('div');
-  const painting = rowOf('Paint', video);
+  const painting = rowOf(said.paint, video);
   effect(() => {
     button.ariaPressed = String(drawsSurface.value);
     video.ariaPressed = String(paint.value);
     painting.hidden = !drawsSurface.value;
   });
-  group.append(rowOf('Draw', button), painting);
+  group.append(rowOf(said.draw, button), painting);
   return group;
 }
-
-const TITLE = 'By height above the robot’s base alone. What stops the robot, its own obstacle guard decides';
 
 /** What the tints of hazards stand for. @param heights `null`: the robot does not say which heights matter to it */
 function hazardLegend(heights: BodyHeights | null): HTMLElement {
   const words = hazardLegendWords(heights);
   const figure = document.createElement('figure');
   figure.className = 'legend overlay hazards';
-  figure.title = TITLE;
+  figure.title = texts().clouds.hazardsTitle;
   if (words.unknown === undefined) figure.append(swatch(HIT_TINT, words.hit), swatch(DROP_TINT, words.drop));
   else {
     const caption = document.createElement('figcaption');

@@ -2,6 +2,7 @@
 import { COLOUR_MODES, type ColourMode, type ValueRange } from '@farpoint/cloud-view';
 import { effect } from '@preact/signals-core';
 import { type CloudAppearance, UNNAMED } from '../../state/cloud-appearance.ts';
+import { texts } from '../../words/language.ts';
 import { isValued, type ValuedMode } from './colour-ticks.ts';
 import { quietButton, rowOf, type SliderScale, selectOf, sliderOf } from './panel-parts.ts';
 
@@ -22,11 +23,15 @@ export function colourControls(
   appearance: CloudAppearance,
   current: () => Readonly<ValueRange> | null,
 ): { element: HTMLElement; dispose: () => void } {
-  const shownName = name === UNNAMED ? 'Cloud' : name;
+  const said = texts().clouds;
+  const shownName = name === UNNAMED ? said.cloud : name;
   const group = document.createElement('div');
-  const mode = selectOf(`Colours of ${shownName}`, COLOUR_MODES, (chosen) => {
-    appearance.setLook(name, { mode: chosen, fixed: null });
-  });
+  const mode = selectOf(
+    { label: said.modeOf(shownName), values: COLOUR_MODES, texts: said.modes },
+    (chosen) => {
+      appearance.setLook(name, { mode: chosen, fixed: null });
+    },
+  );
   const range = document.createElement('div');
   group.append(rowOf(shownName, mode), range);
   let shown: ColourMode | null = null;
@@ -55,27 +60,28 @@ function rangeControls(
   current: () => Readonly<ValueRange> | null,
   change: (fixed: ValueRange | null) => void,
 ) {
+  const said = texts().clouds;
   const scale = SCALES[mode];
   const { step } = scale;
   const fit = (value: number) => Math.min(Math.max(Math.round(value / step) * step, scale.min), scale.max);
   let fixed: Readonly<ValueRange> | null = null;
-  const auto = quietButton('Auto', `${name}: the range follows the points in view`, () => {
+  const auto = quietButton(said.auto, said.autoTitle(name), () => {
     if (fixed !== null) return change(null);
     const { min, max } = current() ?? scale;
     const from = Math.min(fit(min), scale.max - step);
     change({ min: from, max: Math.max(fit(max), from + step) });
   });
-  const from = sliderOf(`${name}: range from`, scale, (min) => {
+  const from = sliderOf(said.rangeFrom(name), scale, (min) => {
     change({ min: Math.min(min, scale.max - step), max: Math.max(fixed?.max ?? scale.max, min + step) });
   });
-  const to = sliderOf(`${name}: range to`, scale, (max) => {
+  const to = sliderOf(said.rangeTo(name), scale, (max) => {
     change({ min: Math.min(fixed?.min ?? scale.min, max - step), max: Math.max(max, scale.min + step) });
   });
   const ends = document.createElement('div');
   ends.className = 'ends';
   ends.append(from, to);
   return {
-    rows: [rowOf('Range', auto), ends],
+    rows: [rowOf(said.range, auto), ends],
     update(now: Readonly<ValueRange> | null): void {
       fixed = now;
       auto.ariaPressed = String(now === null);

@@ -1,5 +1,6 @@
 /** Where a legend's numbers stand beside its colour bar. */
 import type { ColourMode } from '@farpoint/cloud-view';
+import { fixed } from '../../words/numbers.ts';
 
 export interface Tick {
   /** Share of the bar's length, 0–1. */
@@ -8,8 +9,6 @@ export interface Tick {
 }
 
 export interface Quantity {
-  /** What the colours stand for. */
-  readonly name: string;
   readonly unit: string;
   /** The unit's value in the mode's own unit is 1 / this. */
   readonly scale: number;
@@ -19,10 +18,10 @@ export interface Quantity {
 export type ValuedMode = Exclude<ColourMode, 'captured' | 'ring' | 'lit'>;
 
 export const QUANTITIES: Readonly<Record<ValuedMode, Quantity>> = {
-  height: { name: 'height', unit: 'm', scale: 1 },
-  distance: { name: 'distance', unit: 'm', scale: 1 },
-  intensity: { name: 'intensity', unit: '%', scale: 100 },
-  age: { name: 'age', unit: 'ms', scale: 1000 },
+  height: { unit: 'm', scale: 1 },
+  distance: { unit: 'm', scale: 1 },
+  intensity: { unit: '%', scale: 100 },
+  age: { unit: 'ms', scale: 1000 },
 };
 
 export function isValued(mode: ColourMode): mode is ValuedMode {
@@ -45,7 +44,7 @@ export function ticksOf(min: number, max: number, most = 5): Tick[] {
   for (let i = Math.ceil(min / step - 1e-9); i * step <= max + step * 1e-9; i++) {
     // Not "-0".
     const value = i === 0 ? 0 : i * step;
-    ticks.push({ place: (value - min) / span, text: value.toFixed(digits) });
+    ticks.push({ place: (value - min) / span, text: fixed(value, digits) });
   }
   return ticks.length > most ? ticks.filter((_, i) => i % 2 === 0) : ticks;
 }

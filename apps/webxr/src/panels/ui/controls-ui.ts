@@ -7,20 +7,15 @@ import type { Stage } from '../../scene/view/stage.ts';
 import type { HeadsetMode, VrSession } from '../../scene/view/vr-session.ts';
 import type { CloudAppearance } from '../../state/cloud-appearance.ts';
 import type { PageState } from '../../state/page-state.ts';
+import { ms } from '../../words/facts.ts';
 import { hazardNotice } from '../../words/hazard-words.ts';
+import { texts } from '../../words/language.ts';
 import { predictionWords } from '../../words/view-words.ts';
 import { elements } from './elements.ts';
 import type { EstopUi } from './estop-ui.ts';
 import { startLook } from './look-controls.ts';
 import type { Action } from './operator-inputs.ts';
 import { initSettingsDialog } from './settings-dialog.ts';
-
-const latencyFailureWords: Record<LatencyError['reason'], string> = {
-  timeout: 'No green cloud arrived: the request or the whole cloud was lost.',
-  'no-session': 'Connect to a robot first.',
-  'no-lease': 'Someone else is driving. Only the driver can run a latency test.',
-  busy: 'A latency test is already running.',
-};
 
 /** What the controls act on. */
 export interface Controlled {
@@ -110,12 +105,11 @@ export class ControlsUi {
     const { client, state } = this.#parts;
     client.latencyTest(startedAtMs).then(
       ({ mtpMs, firstMs }) => {
-        const text = `Motion to photon ${mtpMs.toFixed(0)} ms (first points ${firstMs.toFixed(0)} ms)`;
-        state.notices.tell(text, 'good');
+        state.notices.tell(texts().timing.result(ms(mtpMs), ms(firstMs)), 'good');
       },
       (error: unknown) => {
         if (!(error instanceof LatencyError)) throw error;
-        state.notices.tell(latencyFailureWords[error.reason], 'warning');
+        state.notices.tell(texts().timing.failureNotices[error.reason], 'warning');
       },
     );
   }
@@ -137,7 +131,7 @@ export class ControlsUi {
   #nextRobot(): void {
     const { link, notices } = this.#parts.state;
     const next = link.nextRobot.value;
-    if (next === null) notices.tell('No other robot is available.');
+    if (next === null) notices.tell(texts().driving.noOtherRobot);
     else this.#parts.choose(next.id);
   }
 
@@ -151,15 +145,14 @@ export class ControlsUi {
     });
     effect(() => {
       const isLeaving = vr.active.value;
-      elements.vr.textContent = isLeaving ? `Leave ${vr.passthrough.value ? 'AR' : 'VR'}` : 'Enter VR';
+      const { leave, enterVr } = texts().headset;
+      elements.vr.textContent = isLeaving ? leave(vr.passthrough.value ? 'AR' : 'VR') : enterVr;
       elements.ar.hidden = isLeaving || !vr.canPassThrough.value;
     });
     const enter = (mode: HeadsetMode, name: string) => {
       vr.toggle(mode).catch((error: unknown) => {
-        state.notices.tell(
-          `Could not enter ${name}: ${error instanceof Error ? error.message : error}`,
-          'bad',
-        );
+        const why = error instanceof Error ? error.message : String(error);
+        state.notices.tell(texts().headset.couldNotEnter(name, why), 'bad');
       });
     };
     elements.vr.addEventListener('click', () => enter('immersive-vr', 'VR'));

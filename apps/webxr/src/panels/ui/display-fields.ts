@@ -1,9 +1,9 @@
-/** The settings dialog's part for the page's own look. Its changes show at once. */
+/** The settings dialog's part for the page's own look. Its changes show at once; the language, once the page is loaded again. */
 import { effect, type Signal } from '@preact/signals-core';
 import { type DisplaySettings, displayOf } from '../../ground/display/display-settings.ts';
 import { elements } from './elements.ts';
 
-const CHOICES = ['theme', 'motion'] as const;
+const CHOICES = ['language', 'theme', 'motion'] as const;
 
 type Field = HTMLInputElement | HTMLSelectElement;
 
@@ -19,6 +19,7 @@ export function initDisplayFields(form: HTMLFormElement, settings: Signal<Displa
   });
   const read = () => {
     settings.value = displayOf({
+      language: field('language').value,
       theme: field('theme').value,
       motion: field('motion').value,
       textScale: Number(field('textScale').value),

@@ -8,7 +8,8 @@ import { effect } from '@preact/signals-core';
 import type { Notices } from '../../state/notices.ts';
 import type { PageState } from '../../state/page-state.ts';
 import type { ReleaseControl, ReleaseHold } from '../../take/drive/release-hold.ts';
-import { LATCHED_TITLE, type LatchedStop, stopButtonWords } from '../../words/estop-words.ts';
+import type { LatchedStop } from '../../words/estop-words.ts';
+import { texts } from '../../words/language.ts';
 import { stopWords } from '../../words/words.ts';
 import { elements } from './elements.ts';
 import { followHeight } from './panel-parts.ts';
@@ -88,12 +89,12 @@ function showLatched(stop: LatchedStop | null, atRobot: boolean): void {
   const { estop, estopRelease, latency, stopBand, stopTitle, stopWhy, stopHow } = elements;
   const latched = stop !== null;
   estop.setAttribute('aria-pressed', String(latched));
-  estop.querySelector('span')!.textContent = stopButtonWords[latched ? 'latched' : 'clear'];
+  estop.querySelector('span')!.textContent = texts().stop.button[latched ? 'latched' : 'clear'];
   // A stop at the robot keeps the control, which then says where it is released.
   estopRelease.hidden = !latched || !(stop.mayRelease || atRobot);
   stopBand.hidden = !latched;
   stopBand.dataset.stale = String(stop?.heard === false);
-  stopTitle.textContent = latched ? LATCHED_TITLE : '';
+  stopTitle.textContent = latched ? texts().stop.title : '';
   stopWhy.textContent = stop?.why ?? '';
   stopHow.textContent = stop?.release ?? '';
   // The release control needs its place, and a robot that cannot drive has nothing to measure.
@@ -104,14 +105,15 @@ function showLatched(stop: LatchedStop | null, atRobot: boolean): void {
 function showWhere(atRobot: boolean): void {
   const { estopRelease } = elements;
   estopRelease.disabled = atRobot;
-  estopRelease.querySelector('b')!.textContent = atRobot ? 'Release at robot' : 'Hold to release';
+  const { releaseAtRobot, holdToRelease } = texts().page;
+  estopRelease.querySelector('b')!.textContent = atRobot ? releaseAtRobot : holdToRelease;
   for (const words of estopRelease.querySelectorAll<HTMLElement>(':scope > span'))
     words.hidden = words.classList.contains('at-robot') !== atRobot;
 }
 
 /** Also without a session: then it is kept until the link returns. */
 function showStop(status: StopStatus): void {
-  const words = stopWords[status];
+  const words = stopWords(status);
   const { stopState } = elements;
   stopState.hidden = words === null;
   stopState.textContent = words?.text ?? '';

@@ -1,6 +1,7 @@
 /** To whom the drive is handed: the driver offers it to another operator, or gives it up. */
 import type { RobotClient } from '@farpoint/operator';
 import { effect, type ReadonlySignal } from '@preact/signals-core';
+import { texts } from '../../words/language.ts';
 import type { ShownPeople } from '../../words/people-words.ts';
 import { elements } from './elements.ts';
 import { openDialog } from './open-dialog.ts';
@@ -16,12 +17,14 @@ export interface HandOverParts {
 export function showHandOver({ shown, drives, client }: HandOverParts): void {
   const { release, handOver, handOverList, handOverHint, handOverGiveUp } = elements;
   effect(() => {
-    release.textContent = shown.value.hasHeirs ? 'Hand over' : 'Give up the drive';
+    const said = texts().people;
+    release.textContent = shown.value.hasHeirs ? said.handOver : said.giveUp;
   });
   effect(() => {
+    const said = texts().people;
     const heirs = shown.value.persons.filter(({ mayOffer }) => mayOffer);
     const offers = heirs.map(({ number, text, name }) => {
-      const button = quietButton(`Offer it to ${text}`, `Offer the drive to ${name}`, () => {
+      const button = quietButton(said.offerItTo(text), said.offerTo(name), () => {
         client.people.offerDrive(number);
         handOver.close();
       });

@@ -9,6 +9,7 @@ import {
   type Rings,
   ringColours,
 } from '@farpoint/cloud-view';
+import { texts } from '../../words/language.ts';
 import { QUANTITIES, type Tick, ticksOf, type ValuedMode } from './colour-ticks.ts';
 
 export interface Legend {
@@ -24,18 +25,19 @@ export function legendOf(title: string, mode: Exclude<ColourMode, 'captured'>, v
 }
 
 function litLegend(title: string, view: Pick<CloudView, 'isSurface'>): Legend {
+  const said = texts().clouds;
   const parts = legendParts();
   parts.bar.style.background = LIT;
   parts.show([
-    { place: 0.08, text: 'facing' },
-    { place: 0.9, text: 'edge-on' },
+    { place: 0.08, text: said.facing },
+    { place: 0.9, text: said.edgeOn },
   ]);
   let shown: boolean | null = null;
   const update = () => {
     const { isSurface } = view;
     if (isSurface === shown) return;
     shown = isSurface;
-    parts.caption.textContent = `${title}${isSurface ? 'lit from the eye' : 'points, not lit'}`;
+    parts.caption.textContent = `${title}${isSurface ? said.lit : said.notLit}`;
     parts.bar.hidden = parts.numbers.hidden = !isSurface;
   };
   update();
@@ -43,9 +45,9 @@ function litLegend(title: string, view: Pick<CloudView, 'isSurface'>): Legend {
 }
 
 function valueLegend(title: string, mode: ValuedMode, view: CloudView): Legend {
-  const { name: quantity, unit, scale } = QUANTITIES[mode];
+  const { unit, scale } = QUANTITIES[mode];
   const parts = legendParts();
-  parts.caption.textContent = `${title}${quantity}, ${unit}`;
+  parts.caption.textContent = `${title}${texts().clouds.modes[mode]}, ${unit}`;
   parts.bar.style.background = mode === 'age' ? FADE : GRADIENT;
   const update = () => {
     const { min, max } = view.colouring.range;
@@ -63,7 +65,7 @@ function ringLegend(title: string, view: CloudView): Legend {
     if (rings === shown) return;
     shown = rings;
     parts.caption.textContent = `${title}${ringCaption(rings)}`;
-    parts.caption.title = rings?.from === 'points' ? ESTIMATED : '';
+    parts.caption.title = rings?.from === 'points' ? texts().clouds.ringsEstimatedTitle : '';
     const count = rings?.elevations.length ?? 0;
     parts.bar.hidden = parts.numbers.hidden = rings === null;
     parts.bar.style.background = ringBar(count, cssOf);
@@ -102,7 +104,6 @@ const GRADIENT = `linear-gradient(90deg, ${colourStops().map(cssOf).join()})`;
 const FADE = 'linear-gradient(90deg, #fff, #404040)';
 /** From a surface that faces the eye to one that is seen edge-on. */
 const LIT = `linear-gradient(90deg, #fff, ${cssOf([LIT_AMBIENT, LIT_AMBIENT, LIT_AMBIENT])})`;
-const ESTIMATED = 'The robot does not know its rings: these were found in the points, and may be wrong';
 
 function element(kind: 'div' | 'figure' | 'figcaption' | 'span', className: string): HTMLElement {
   const made = document.createElement(kind);
@@ -112,8 +113,10 @@ function element(kind: 'div' | 'figure' | 'figcaption' | 'span', className: stri
 
 /** Names a LiDAR's rings: each has its colour, side by side from the lowest to the highest. @param rings `null`: none are known */
 export function ringCaption(rings: Rings | null): string {
-  if (rings === null) return 'no rings found yet';
-  return `${rings.elevations.length} rings${rings.from === 'points' ? ', estimated' : ''}`;
+  const said = texts().clouds;
+  if (rings === null) return said.noRings;
+  const { length } = rings.elevations;
+  return rings.from === 'points' ? said.ringsEstimated(length) : said.rings(length);
 }
 
 /** A CSS background. */

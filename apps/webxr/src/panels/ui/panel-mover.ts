@@ -9,6 +9,7 @@ import {
   resized,
 } from '../../ground/panels/panel-layout.ts';
 import type { PanelPlacements } from '../../ground/panels/panel-placements.ts';
+import { texts } from '../../words/language.ts';
 
 /** How far a press of an arrow moves a panel, and how much + and − change it, CSS pixels. Chosen by hand. */
 const KEY_STEP = 24;
@@ -51,7 +52,7 @@ export class PanelMover {
     figure.dataset.panel = name;
     const corner = document.createElement('div');
     corner.className = 'corner';
-    corner.title = 'Resize';
+    corner.title = texts().clouds.resize;
     figure.append(corner);
     this.#drag(title, panel, (box, dx, dy, area) => moved(box, dx, dy, area));
     this.#drag(corner, panel, (box, dx, _, area) => resized(box, shapeOf(panel), dx, area));

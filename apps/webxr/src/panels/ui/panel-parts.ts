@@ -13,14 +13,20 @@ export function quietButton(text: string, title: string, act: () => void): HTMLB
   return button;
 }
 
+export interface Choice<Value extends string> {
+  readonly label: string;
+  readonly values: readonly Value[];
+  /** What is shown of each. */
+  readonly texts: Readonly<Record<Value, string>>;
+}
+
 export function selectOf<Value extends string>(
-  label: string,
-  values: readonly Value[],
+  { label, values, texts }: Choice<Value>,
   choose: (value: Value) => void,
 ): HTMLSelectElement {
   const select = document.createElement('select');
   select.ariaLabel = label;
-  select.append(...values.map((value) => new Option(value)));
+  select.append(...values.map((value) => new Option(texts[value], value)));
   select.addEventListener('change', () => {
     select.blur();
     const chosen = values[select.selectedIndex];

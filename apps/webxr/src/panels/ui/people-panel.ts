@@ -3,6 +3,7 @@ import type { RobotClient } from '@farpoint/operator';
 import { computed, effect } from '@preact/signals-core';
 import type { PageState } from '../../state/page-state.ts';
 import { steady } from '../../state/sampler.ts';
+import { texts } from '../../words/language.ts';
 import { type ShownPerson, shownPeople } from '../../words/people-words.ts';
 import { elements } from './elements.ts';
 import { showHandOver } from './hand-over-dialog.ts';
@@ -61,17 +62,16 @@ function itemOf({ number, name, text, mayOffer, mayEnd }: ShownPerson, client: P
     });
     item.append(button);
   };
-  if (mayOffer) add('Offer the drive', `Offer the drive to ${name}`, () => client.people.offerDrive(number));
+  const said = texts().people;
+  if (mayOffer) add(said.offer, said.offerTo(name), () => client.people.offerDrive(number));
   if (mayEnd)
-    add('End session…', `End the session of ${name}…`, () =>
-      confirmEnd(name, (block) => client.endSession(number, { block })),
-    );
+    add(said.end, said.endOf(name), () => confirmEnd(name, (block) => client.endSession(number, { block })));
   return item;
 }
 
 function confirmEnd(name: string, onEnd: (block: boolean) => void): void {
   const { endSession, endSessionTitle, endSessionBlock } = elements;
-  endSessionTitle.textContent = `End the session of ${name}?`;
+  endSessionTitle.textContent = texts().people.endTitle(name);
   endSessionBlock.checked = false;
   endSession.addEventListener(
     'close',

@@ -3,9 +3,10 @@ import { computed, effect, type ReadonlySignal, signal } from '@preact/signals-c
 import type { Box } from '../../ground/panels/panel-layout.ts';
 import { MARGIN } from '../../ground/panels/room-above.ts';
 import type { CameraView } from '../../ground/pictures/camera-view.ts';
-import { PRIORITIES, PRIORITY_WORDS } from '../../state/link-priority.ts';
+import { PRIORITIES } from '../../state/link-priority.ts';
 import type { PageState } from '../../state/page-state.ts';
 import { cameraWords } from '../../words/camera-words.ts';
+import { texts } from '../../words/language.ts';
 import { videoReport } from '../../words/video-report.ts';
 import { elements } from './elements.ts';
 import { type MovablePanel, PanelMover, type PanelMoverParts, showResetButton } from './panel-mover.ts';
@@ -19,7 +20,7 @@ function videoReportPanel({ figures, videos, priority }: PageState): HTMLElement
   const open = signal(false);
   const panel = document.createElement('section');
   panel.className = 'video-report';
-  const button = quietButton('', 'What became of the videos’ frames', () => {
+  const button = quietButton('', texts().clouds.reportTitle, () => {
     open.value = !open.peek();
   });
   const list = document.createElement('dl');
@@ -49,12 +50,13 @@ function videoReportPanel({ figures, videos, priority }: PageState): HTMLElement
 
 /** What comes first where the link does not carry everything. */
 function shareControl({ chosen }: PageState['priority']): HTMLElement {
-  const words = PRIORITIES.map((priority) => PRIORITY_WORDS[priority]);
-  const select = selectOf('What comes first on a slow link', words, (word) => {
-    chosen.value = PRIORITIES[words.indexOf(word)] ?? 'balanced';
+  const said = texts().clouds;
+  const choice = { label: said.slowLinkTitle, values: PRIORITIES, texts: said.priorities };
+  const select = selectOf(choice, (priority) => {
+    chosen.value = priority;
   });
   select.selectedIndex = PRIORITIES.indexOf(chosen.peek());
-  const row = rowOf('Slow link', select);
+  const row = rowOf(said.slowLink, select);
   row.classList.add('link-share', 'overlay');
   return row;
 }
@@ -160,7 +162,8 @@ export function showPicturePanels(state: PageState, { inVr, isGripped }: Picture
       return panel;
     }),
   );
-  const reset = quietButton('Reset panels', 'Put all panels into their usual places', () => undefined);
+  const said = texts().clouds;
+  const reset = quietButton(said.reset, said.resetTitle, () => undefined);
   showResetButton(reset, parts);
   const tools = document.createElement('div');
   tools.className = 'tools';
@@ -175,10 +178,10 @@ export function showPicturePanels(state: PageState, { inVr, isGripped }: Picture
       const { name } = view.camera;
       const shown = view.camera.on.value;
       hide.textContent = shown ? '–' : '+';
-      hide.ariaLabel = `${shown ? 'Hide' : 'Show'} ${name}`;
+      hide.ariaLabel = shown ? said.hide(name) : said.show(name);
       const fills = filling.value === view;
-      swap.ariaLabel = fills ? 'Fill the screen with the cloud' : `Fill the screen with ${name}`;
-      swap.title = `${swap.ariaLabel} (F)`;
+      swap.ariaLabel = fills ? said.fillWithCloud : said.fillWith(name);
+      swap.title = said.withKey(swap.ariaLabel, 'F');
       swap.hidden = !shown;
     }
   });
@@ -187,7 +190,7 @@ export function showPicturePanels(state: PageState, { inVr, isGripped }: Picture
       figure.dataset.enlarged = String(enlarged.view.value === view);
       const fills = filling.value === view;
       figure.dataset.staged = String(fills);
-      caption.textContent = fills ? 'Cloud' : view.camera.name;
+      caption.textContent = fills ? texts().clouds.cloud : view.camera.name;
     }
   });
   effect(() => {
@@ -216,7 +219,7 @@ function panelOf(view: CameraView, state: PageState, filling: ReadonlySignal<Cam
   const title = document.createElement('figcaption');
   const caption = document.createElement('span');
   caption.className = 'name';
-  caption.title = `${name}: drag to move, or use the arrow keys, + and -`;
+  caption.title = texts().clouds.moveTitle(name);
   const age = document.createElement('span');
   age.className = 'age';
   const hide = quietButton('', '', () => view.toggle());
@@ -224,7 +227,7 @@ function panelOf(view: CameraView, state: PageState, filling: ReadonlySignal<Cam
   swap.classList.add('swap');
   const fault = document.createElement('p');
   fault.className = 'fault';
-  view.canvas.title = 'Enlarge or reduce (E)';
+  view.canvas.title = texts().clouds.enlargeTitle;
   view.canvas.onclick = () => {
     if (filling.peek() !== view) state.enlarged.toggle(view);
   };

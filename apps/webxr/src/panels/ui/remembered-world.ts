@@ -15,6 +15,7 @@ import { writeTopView } from '../../ground/minimap/top-view-pixels.ts';
 import { Track } from '../../ground/telemetry/track.ts';
 import { JUMP_M } from '../../scene/pose-follower.ts';
 import { rememberedAge } from '../../words/facts.ts';
+import { texts } from '../../words/language.ts';
 import type { RememberedFigures } from '../../words/page-stats.ts';
 import { elements } from './elements.ts';
 import { drawMinimap } from './minimap-canvas.ts';
@@ -103,7 +104,7 @@ class MinimapPanel {
       area.ground = z;
       memory.lookFromAbove(area);
     }
-    const words = this.#oldestS === null ? 'nothing yet' : rememberedAge(this.#oldestS);
+    const words = this.#oldestS === null ? texts().measures.nothingYet : rememberedAge(this.#oldestS);
     if (minimapAge.textContent !== words) minimapAge.textContent = words;
     if (!this.#place(x, y, bodyYaw(telemetry.pose.orientation)) && size === this.#size) return;
     if (size !== this.#size) {

@@ -2,6 +2,7 @@
 import type { RobotListing } from '@farpoint/protocol';
 import { effect } from '@preact/signals-core';
 import type { LinkState } from '../../state/link-state.ts';
+import { texts } from '../../words/language.ts';
 import { emptyListWords } from '../../words/robots-words.ts';
 import { elements } from './elements.ts';
 
@@ -21,7 +22,7 @@ export function showRobotSwitcher(link: LinkState, onChoose: (robotId: string) =
     if (robotId === null) return;
     const away = robots.some(({ id }) => id === robotId)
       ? []
-      : [{ id: robotId, name: `${robotId} (offline)` }];
+      : [{ id: robotId, name: texts().link.offlineRobot(robotId) }];
     robotSwitch.replaceChildren(
       ...[...away, ...robots].map(({ id, name }) => new Option(name, id, false, id === robotId)),
     );

@@ -1,6 +1,7 @@
 /** For a robot with several sensors: one button per sensor that switches its clouds on or off. */
 import { effect } from '@preact/signals-core';
 import type { Switch, Switches } from '../../ground/switches.ts';
+import { texts } from '../../words/language.ts';
 import { elements } from './elements.ts';
 
 export function showSensorSwitches(switches: Switches): void {
@@ -17,7 +18,8 @@ function buttonOf({ index, name, on }: Switch, switches: Switches): HTMLButtonEl
   button.className = 'quiet';
   button.textContent = name;
   button.ariaPressed = String(on.value);
-  button.title = `${name}: clouds ${on.value ? 'on' : 'off'}`;
+  const { sensorOn, sensorOff } = texts().clouds;
+  button.title = (on.value ? sensorOn : sensorOff)(name);
   button.addEventListener('click', () => {
     // A button that kept the focus would take the space bar, which is the drive grip.
     button.blur();

@@ -8,9 +8,11 @@ import { needsReload } from '../../ground/settings-change.ts';
 import { tokenOrigin, withToken } from '../../ground/signaling-tokens.ts';
 import { forgetVisitTokens, loadStored, pageOrigin, store } from '../../ground/stored-settings.ts';
 import { parseTileTemplate } from '../../ground/telemetry/map-tiles.ts';
-import { saveWords, sliderWords } from '../../words/settings-words.ts';
+import { language, texts } from '../../words/language.ts';
+import { type SaveEffect, saveWords, sliderWords, tileFaultWords } from '../../words/settings-words.ts';
 import { initDisplayFields } from './display-fields.ts';
 import { elements } from './elements.ts';
+import { wantedLanguage } from './fill-texts.ts';
 import { openDialog } from './open-dialog.ts';
 
 /**
@@ -74,13 +76,17 @@ class SettingsForm {
   listen(pointScale: Signal<number>): void {
     this.#field('signaling').addEventListener('input', () => {
       const at = this.#service();
-      this.#field('signaling').setCustomValidity('fault' in at ? at.fault : '');
+      const typed = this.#field('signaling').value.trim();
+      this.#field('signaling').setCustomValidity(
+        'reason' in at ? texts().settings.addressFaults[at.reason](typed) : '',
+      );
       if (!this.#tokenTyped) this.#showToken();
     });
     this.#field('mapTiles').addEventListener('input', () => {
       const text = this.#field('mapTiles').value.trim();
       const parsed = text === '' ? null : parseTileTemplate(text, pageOrigin());
-      this.#field('mapTiles').setCustomValidity(parsed !== null && 'fault' in parsed ? parsed.fault : '');
+      const isWrong = parsed !== null && 'fault' in parsed;
+      this.#field('mapTiles').setCustomValidity(isWrong ? tileFaultWords(parsed.fault) : '');
     });
     this.#field('token').addEventListener('input', () => {
       this.#tokenTyped = true;
@@ -91,12 +97,14 @@ class SettingsForm {
     this.#form.addEventListener('input', () => this.#describe());
   }
 
-  /** Stores what is in the fields. Only for a new connection, the page is loaded again. */
+  /** Stores what is in the fields. Only for a new connection or another language, the page is loaded again. */
   save(live: Pick<LiveSettings, 'apply'>): void {
     const settings = this.#read();
     store(settings);
     live.apply(settings);
-    if (!needsReload(this.#before, settings)) return;
+    const { reconnects, reloads } = this.#effectOf(settings);
+    if (reloads && !reconnects) location.reload();
+    if (!reconnects) return;
     forgetVisitTokens();
     // These parameters in the page's address would override what was just saved.
     const address = new URL(location.href);
@@ -127,7 +135,15 @@ class SettingsForm {
       const name = output.htmlFor.value.replace('settings-', '');
       output.value = sliderWords[name]?.(Number(this.#field(name).value)) ?? '';
     }
-    elements.settingsSave.textContent = saveWords(needsReload(this.#before, this.#read()));
+    elements.settingsSave.textContent = saveWords(this.#effectOf(this.#read()));
+  }
+
+  /** What keeping these settings does to the page. */
+  #effectOf(settings: StoredSettings): SaveEffect {
+    return {
+      reconnects: needsReload(this.#before, settings),
+      reloads: wantedLanguage() !== language(),
+    };
   }
 
   #field(name: string): HTMLInputElement {

@@ -3,7 +3,7 @@ import type { RobotClient, VoiceFailure } from '@farpoint/operator';
 import { effect } from '@preact/signals-core';
 import type { SoundState } from '../../state/sound-state.ts';
 import type { SoundPlayer } from '../../take/sound/sound-player.ts';
-import { voiceFailureWords } from '../../words/sound-words.ts';
+import { texts } from '../../words/language.ts';
 import type { Words } from '../../words/words.ts';
 import { elements } from './elements.ts';
 import { type TalkControl, TalkHold } from './operator-inputs.ts';
@@ -41,7 +41,7 @@ export class SoundUi {
       if (failure === null || failure === told) return;
       told = failure;
       console.info('microphone:', failure.detail);
-      tell({ text: voiceFailureWords[failure.reason], tone: 'warning' });
+      tell({ text: texts().media.voiceFailures[failure.reason], tone: 'warning' });
     });
     this.#showPanel();
     this.#startButton();
@@ -83,9 +83,10 @@ export class SoundUi {
 
   #showPanel(): void {
     const { state } = this.#parts;
-    const button = quietButton('Sound', 'Hear the robot’s microphone', () => this.#toggle());
+    const said = texts().media;
+    const button = quietButton(said.sound, said.soundTitle, () => this.#toggle());
     const scale = { min: 0, max: 1, step: 0.05 };
-    const slider = sliderOf('Volume', scale, (value) => {
+    const slider = sliderOf(said.volume, scale, (value) => {
       state.volume.value = value;
     });
     slider.value = String(state.volume.peek());

@@ -3,6 +3,7 @@ import './stages-line.css';
 import type { RobotClient } from '@farpoint/operator';
 import { effect } from '@preact/signals-core';
 import type { PageState } from '../../state/page-state.ts';
+import { texts } from '../../words/language.ts';
 import { stageLine } from '../../words/stage-words.ts';
 import { elements } from './elements.ts';
 import { quietButton } from './panel-parts.ts';
@@ -11,7 +12,7 @@ import { quietButton } from './panel-parts.ts';
 const OVER_MS = 2000;
 
 export function showStagesLine(client: RobotClient, state: PageState, open: () => void): void {
-  const line = quietButton('', 'Where the time goes, of each cloud and each command', open);
+  const line = quietButton('', texts().timing.openStages, open);
   line.id = 'where-time';
   line.hidden = true;
   elements.facts.after(line);

@@ -40,7 +40,7 @@ export function showStatus({ link, driving, robot, figures }: PageState): void {
   });
   effect(() => {
     const drives = robot.drives.value;
-    setPill(elements.holder, drives ? driving.line.value : withoutWheelsWords);
+    setPill(elements.holder, drives ? driving.line.value : withoutWheelsWords());
     // Neither can be asked of a robot that does not hear.
     elements.take.disabled = !link.heard.value;
     elements.release.disabled = !link.heard.value;

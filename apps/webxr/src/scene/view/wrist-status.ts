@@ -58,7 +58,7 @@ export function showOnWrist({
         speed: robot.speed.value,
         near: robot.tellsNear.value ? nearWords(robot.near.value) : null,
         estopAtRobot: robot.estopAtRobot.value,
-        stop: stopWords[robot.stop.value],
+        stop: stopWords(robot.stop.value),
         driveHand: settings.driveHand,
         view: viewFact(headset.view.value, headset.model.scale),
         hazards: hazardHint(appearance.hazards.value, robot.heights.value),

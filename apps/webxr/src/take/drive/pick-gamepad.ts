@@ -34,13 +34,11 @@ export class PickGamepad {
   }
 }
 
-/** What people are told of a gamepad that cannot drive. */
-export function unknownGamepadWords(name: string): string {
+/** The name of a gamepad as people know it; empty if it has none. @param id as browsers give it */
+export function gamepadName(id: string): string {
   // Browsers add numbers of the maker and the product.
-  const shown =
-    name
-      .replace(/\s*\(.*$/, '')
-      .slice(0, 40)
-      .trim() || 'This gamepad';
-  return `${shown} cannot drive or stop: this browser does not know its buttons. Try its XInput mode, or another browser.`;
+  return id
+    .replace(/\s*\(.*$/, '')
+    .slice(0, 40)
+    .trim();
 }

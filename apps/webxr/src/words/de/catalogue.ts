@@ -1,7 +1,41 @@
 /** All that the page says, in German: addresses the operator with “Sie”, and names parts as the English catalogue does. */
 import type { Texts } from '../en/catalogue.ts';
+import { access } from './access.ts';
+import { clouds } from './clouds.ts';
+import { dashboard } from './dashboard.ts';
+import { dialogs } from './dialogs.ts';
 import { driving } from './driving.ts';
+import { failures } from './failures.ts';
+import { figures } from './figures.ts';
+import { headset } from './headset.ts';
+import { link } from './link.ts';
+import { measures } from './measures.ts';
+import { media } from './media.ts';
+import { motion } from './motion.ts';
+import { page } from './page.ts';
+import { people } from './people.ts';
+import { settings } from './settings.ts';
+import { stop } from './stop.ts';
+import { timing } from './timing.ts';
+import { watch } from './watch.ts';
 
 export const german: Texts = {
+  access,
+  clouds,
+  dashboard,
+  dialogs,
   driving,
+  failures,
+  figures,
+  headset,
+  link,
+  measures,
+  media,
+  motion,
+  page,
+  people,
+  settings,
+  stop,
+  timing,
+  watch,
 };

@@ -1,0 +1,32 @@
+import type { Texts } from '../en/catalogue.ts';
+
+export const dialogs: Texts['dialogs'] = {
+  grants: 'Berechtigungen',
+  grantsHint: 'Manche Roboter lassen nur Personen mit einer Berechtigung zu.',
+  signIn: 'Anmelden',
+  signInAt: 'bei',
+  grantsByPerson:
+    'Auch eine Person kann Ihnen eine Berechtigung ausstellen: Senden Sie ihr den Schlüssel dieses Browsers und fügen Sie ein, was Sie zurückerhalten.',
+  browsersKey: 'Schlüssel dieses Browsers',
+  copy: 'Kopieren',
+  grantOrTicket: 'Berechtigung oder Ticket',
+  addGrant: 'Berechtigung hinzufügen',
+  grantsHere: 'Berechtigungen in diesem Browser',
+  robotsKnown: 'Roboter, die dieser Browser kennt',
+  knownRobots: 'Bekannte Roboter',
+  close: 'Schließen',
+  handOver: 'Steuerung übergeben',
+  handOverTo: 'Wem sie angeboten wird',
+  handOverHint: 'Jetzt kann nichts angeboten werden: Ein Angebot wartet auf Antwort, oder STOP ist aktiv.',
+  cancel: 'Abbrechen',
+  giveUp: 'Abgeben',
+  endSessionText: 'Fährt diese Person, hält der Roboter an, und die Steuerung ist frei.',
+  endSessionBlock: 'Auch die Berechtigung dieser Person ablehnen, bis sie abläuft',
+  endSession: 'Sitzung beenden',
+  youSignInAt: 'Sie melden sich an bei',
+  knownKey: 'Bekannter Schlüssel',
+  shownNow: 'Jetzt gezeigt',
+  trust: 'Neuem Schlüssel vertrauen',
+  tryAgain: 'Erneut versuchen',
+  openGrants: 'Berechtigungen…',
+};

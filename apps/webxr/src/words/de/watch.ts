@@ -1,0 +1,35 @@
+import type { Texts } from '../en/catalogue.ts';
+
+export const watch: Texts['watch'] = {
+  title: 'Farpoint: zusehen',
+  surroundings: 'Die Umgebung des Roboters',
+  fromAbove: 'Von oben',
+  fromAboveTitle: 'Von oben (T)',
+  view: 'Ansicht',
+  viewTitle: 'Eigene Sicht oder Sicht von außen (V)',
+  cameras: 'Kameras',
+  obstacles: {
+    'relay-unreachable': 'Janus ist nicht erreichbar. Neuer Versuch…',
+    'no-broadcast': 'Der Roboter sendet nicht. Die Seite wartet auf ihn…',
+    'not-a-broadcast': 'Dieser Mountpoint ist keine Sendung eines Roboters. Neuer Versuch…',
+    refused: 'Janus lehnt ab: Prüfen Sie die PIN. Neuer Versuch…',
+    lost: 'Die Verbindung ist weg. Neuer Versuch…',
+  },
+  connecting: 'Verbindet…',
+  firstPictures: 'Wartet auf die ersten Bilder…',
+  live: 'Live',
+  silent: 'Nicht live: Es kommt nichts an',
+  of: (state, robot) => `${state} · ${robot}`,
+  cameraLive: 'live',
+  cameraWaiting: 'wartet',
+  cameraHidden: 'aus',
+  cameraSilent: (seconds) => `nicht live, ${seconds} s`,
+  nothing: 'Nichts zu sehen',
+  faults: {
+    'no-janus': 'Die Adresse von Janus fehlt: Fügen Sie ?janus=wss://… an die Adresse der Seite an.',
+    'not-websocket': 'Die Adresse von Janus muss mit wss:// oder ws:// beginnen.',
+    'needs-wss': 'Eine Seite von https:// kann Janus nur unter wss:// verwenden.',
+    'bad-mountpoint': 'Der Mountpoint muss eine Zahl ab 1 sein.',
+    'long-pin': 'Die PIN ist zu lang.',
+  },
+};

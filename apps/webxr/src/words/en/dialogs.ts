@@ -1,0 +1,32 @@
+/** What stands in the dialogs for grants, for handing over and for ending a session, and in the panel of an obstacle. */
+
+export const dialogs = {
+  grants: 'Grants',
+  grantsHint: 'Some robots admit only operators with a grant.',
+  signIn: 'Sign in',
+  signInAt: 'at',
+  grantsByPerson:
+    'A person can issue you a grant, too: send them this browser’s key, and paste what you get back.',
+  browsersKey: 'This browser’s key',
+  copy: 'Copy',
+  grantOrTicket: 'Grant or ticket',
+  addGrant: 'Add grant',
+  grantsHere: 'Grants in this browser',
+  robotsKnown: 'Robots that this browser knows',
+  knownRobots: 'Known robots',
+  close: 'Close',
+  handOver: 'Hand over the drive',
+  handOverTo: 'Whom to offer it to',
+  handOverHint: 'Nothing can be offered now: an offer waits for its answer, or STOP is on.',
+  cancel: 'Cancel',
+  giveUp: 'Give it up',
+  endSessionText: 'The robot stops if this operator drives, and the lease is free.',
+  endSessionBlock: 'Also refuse this operator’s grant until it ends',
+  endSession: 'End session',
+  youSignInAt: 'You sign in at',
+  knownKey: 'Known key',
+  shownNow: 'Shown now',
+  trust: 'Trust the new key',
+  tryAgain: 'Try again',
+  openGrants: 'Grants…',
+};
