@@ -34,6 +34,19 @@ const AUDITED: readonly Audited[] = [
       await page.locator('#access-open').click();
     },
   },
+  {
+    what: 'the inputs, while a joystick is set up',
+    state: 'live',
+    async open(page) {
+      await page.evaluate(() => {
+        const buttons = [{ pressed: false, touched: false, value: 0 }];
+        navigator.getGamepads = () => [{ id: 'Stick', mapping: '', axes: [0, 0], buttons }] as never;
+      });
+      await openSettings(page);
+      await page.locator('#inputs-open').click();
+      await page.getByRole('button', { name: 'Set up Stick' }).click();
+    },
+  },
   { what: 'driving', state: 'driving', forMs: 1000 },
   { what: 'an emergency stop that is latched', state: 'stop-latched', forMs: 1000 },
   { what: 'the dashboard', state: 'alarm', open: (page) => page.locator('#dashboard-open').click() },

@@ -155,7 +155,7 @@ test('another service, token or name needs another connection, and the button sa
 test('the settings fit on small screens, and their buttons are always in view', async ({ stage }) => {
   const page = await stage.open({ canvas: '64x36' });
   await openSettings(page);
-  await expect(dialog(page).getByRole('group')).toHaveCount(5);
+  await expect(dialog(page).getByRole('group')).toHaveCount(6);
   for (const textScale of ['1', '2'])
     for (const [width, height] of [
       [1280, 720],

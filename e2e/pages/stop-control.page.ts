@@ -49,6 +49,11 @@ for (const [name, open] of Object.entries({
     await page.locator('#settings-open').click();
     await page.getByRole('button', { name: /Grants and robots/ }).click();
   },
+  Inputs: async (page: Page) => {
+    // The settings stay open beneath.
+    if (!(await page.locator('#settings').isVisible())) await page.locator('#settings-open').click();
+    await page.locator('#inputs-open').click();
+  },
 })) {
   test(`STOP is in reach while a dialog is open: ${name}`, async ({ stage }) => {
     const page = await stage.open();

@@ -11,6 +11,7 @@ import './panels/ui/messages.css';
 import './panels/ui/small-screens.css';
 import './panels/ui/settings.css';
 import './panels/ui/people.css';
+import './panels/ui/inputs.css';
 import { isSoftwareRenderer } from '@farpoint/cloud-view';
 import { transformSupport } from '@farpoint/operator';
 import { readBenchSettings } from './ground/bench-settings.ts';

@@ -4,7 +4,7 @@ import { expect, type Page } from '@playwright/test';
 /** What a hand uses or an eye must find. None may cover another, and each is entirely on the screen. */
 const KEPT = [
   '#bar button, #bar select, #bar #link',
-  '#drive button, #joystick, #holder, #motion-state, #obstacle-guard, #drive-hint, #minimap, #near',
+  '#drive button, #drive input, #joystick, #holder, #motion-state, #obstacle-guard, #drive-hint, #minimap, #near',
   '#sensors button, #sound button, #clouds .heads button, #clouds .legend, #clouds .controls',
   '#about, #handover, #handover button, #facts, #facts-fold, #no-gpu, #people, #alarm, #pictures, #pictures figure button, #dashboard',
   '#stop button, #stop-band, #banner, #notice, #stop-state',

@@ -16,6 +16,7 @@ import type { WristPanel } from '../scene/view/wrist-panel.ts';
 import { type CloudAppearance, openAppearance } from '../state/cloud-appearance.ts';
 import type { Notices } from '../state/notices.ts';
 import { PageState } from '../state/page-state.ts';
+import { readKeyboardLayout } from '../take/drive/keyboard-layout.ts';
 import { ReleaseHold } from '../take/drive/release-hold.ts';
 import { SoundPlayer } from '../take/sound/sound-player.ts';
 import { texts } from '../words/language.ts';
@@ -103,6 +104,7 @@ export class App implements ShownParts {
       vr,
       player,
       release: this.#release,
+      inputs: this.inputs,
       choose: (robotId) => this.choose(robotId),
       nextHeadsetView: () => this.#headset?.nextView(),
     });
@@ -126,6 +128,7 @@ export class App implements ShownParts {
 
   start(): void {
     const { client, settings, panels } = this;
+    void readKeyboardLayout(navigator);
     followRobot(this);
     panels.start();
     client.start();

@@ -6,6 +6,9 @@ import type { StoredRobots } from '../ground/access/stored-robots.ts';
 import type { LiveSettings } from '../ground/live-settings.ts';
 import type { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
 import { DashboardOpener } from '../panels/dashboard/dashboard-opener.ts';
+import { startInputsDialog } from '../panels/inputs/inputs-dialog.ts';
+import { showKeyHints } from '../panels/inputs/key-hints.ts';
+import { showSpeedChoice } from '../panels/inputs/speed-controls.ts';
 import { AccessUi } from '../panels/ui/access-ui.ts';
 import { listenToCanvas } from '../panels/ui/canvas-events.ts';
 import { CloudPanel } from '../panels/ui/cloud-panel.ts';
@@ -13,6 +16,7 @@ import { ControlsUi } from '../panels/ui/controls-ui.ts';
 import { elements } from '../panels/ui/elements.ts';
 import { EstopUi } from '../panels/ui/estop-ui.ts';
 import { showNearWords } from '../panels/ui/near-panel.ts';
+import type { OperatorInputs } from '../panels/ui/operator-inputs.ts';
 import { keepRobotInAddress, showTitle } from '../panels/ui/page-title.ts';
 import { showPeople } from '../panels/ui/people-panel.ts';
 import { showPicturePanels } from '../panels/ui/picture-panels.ts';
@@ -26,6 +30,7 @@ import type { VrSession } from '../scene/view/vr-session.ts';
 import type { CloudAppearance } from '../state/cloud-appearance.ts';
 import type { PageState } from '../state/page-state.ts';
 import type { ReleaseHold } from '../take/drive/release-hold.ts';
+import { inputSettings } from '../take/drive/stored-inputs.ts';
 import type { SoundPlayer } from '../take/sound/sound-player.ts';
 import type { Words } from '../words/words.ts';
 import type { PageViews } from './page-views.ts';
@@ -45,6 +50,7 @@ export interface PagePanelsParts {
   readonly vr: VrSession;
   readonly player: SoundPlayer;
   readonly release: ReleaseHold;
+  readonly inputs: Pick<OperatorInputs, 'settingUp'>;
   /** Connects to this robot. */
   choose(robotId: string): void;
   /** Shows the next view in the headset. */
@@ -98,7 +104,10 @@ export class PagePanels {
 
   /** Lets hands reach the controls. Call it before the client starts. */
   start(): void {
-    const { stage, state } = this.#parts;
+    const { stage, state, inputs } = this.#parts;
+    const { maxLinear } = state.robot;
+    startInputsDialog({ inputs, settings: inputSettings, maxLinear });
+    showSpeedChoice(inputSettings.speed, maxLinear, state.driving.role);
     listenToCanvas(elements.stage, stage, state.notices);
     this.controls.start();
     this.sound.start();
@@ -109,6 +118,7 @@ export class PagePanels {
   show(): void {
     const { client, state, vr, choose } = this.#parts;
     showTitle(state.link);
+    showKeyHints();
     keepRobotInAddress(state.link);
     showStatus(state);
     showNearWords(state);

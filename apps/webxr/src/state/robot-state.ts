@@ -2,9 +2,11 @@
 import type { RobotClient } from '@farpoint/operator';
 import { nearView } from '../ground/near-field/near-view.ts';
 import { arePointsHeard } from '../ground/silence.ts';
+import { inputSettings } from '../take/drive/stored-inputs.ts';
 import { alarmWords, raisedFirst } from '../words/alarm-words.ts';
 import { latchedStop } from '../words/estop-words.ts';
 import { driverWords, listedNameWords } from '../words/handover-words.ts';
+import { withChosenSpeed } from '../words/input-words.ts';
 import { motionWords, obstacleGuardWords, speedWords } from '../words/motion-words.ts';
 import { readingsWithNavigation } from '../words/navigation-words.ts';
 import { isRobotHeard } from './link-state.ts';
@@ -68,7 +70,8 @@ export function robotState(client: RobotClient, samples: Sampler) {
     speed: whileHeard(() => {
       const { telemetry, welcome } = link.session;
       if (telemetry === null || welcome === null) return null;
-      return speedWords(telemetry, welcome.limits.maxLinear, driver.stream.asked);
+      const words = speedWords(telemetry, welcome.limits.maxLinear, driver.stream.asked);
+      return withChosenSpeed(words, inputSettings.speed.share.peek());
     }),
     /** The most that it drives, m/s. */
     maxLinear: samples.of(() => link.session.welcome?.limits.maxLinear ?? 0),

@@ -1,7 +1,9 @@
 /** What the page says to a hand on the controls that moves nothing. */
 import type { DriveInput, GripLoss } from '@farpoint/operator';
 import type { LeaseState, Role } from '@farpoint/protocol';
-import { gamepadName } from '../take/drive/pick-gamepad.ts';
+import { mainKey } from '../take/drive/key-map.ts';
+import { inputSettings } from '../take/drive/stored-inputs.ts';
+import { keyName } from './input-words.ts';
 import { texts } from './language.ts';
 
 /** A stick or key is pushed without a grip. @returns what has to be done first */
@@ -10,10 +12,11 @@ export function missingGripWords(
   holder: LeaseState['holder'],
   role: Role | null,
 ): string {
-  const { grip, gripMissing, rejections } = texts().driving;
+  const { grip, gripMissing, holdKey, rejections } = texts().driving;
   if (role === 'watch') return rejections['not-permitted'];
   if (holder === 'other') return rejections['not-lease-holder'];
-  return gripMissing(grip[device]);
+  const key = mainKey(inputSettings.keys.peek(), 'grip');
+  return gripMissing(device === 'keyboard' && key !== undefined ? holdKey(keyName(key)) : grip[device]);
 }
 
 /** Another has taken the lease. @param driver its name, by its grant; empty if it has none */
@@ -35,10 +38,4 @@ export function vainGripWords({ gripLost, takenOverBy }: HandFacts): { title: st
   if (takenOverBy !== null)
     return { title: said.takenOverTitle, text: `${takenOverWords(takenOverBy)} ${said.letGo}` };
   return gripLost === null ? null : { title: said.letGoTitle, text: said.gripLost[gripLost] };
-}
-
-/** What people are told of a gamepad that cannot drive. @param id as browsers give it */
-export function unknownGamepadWords(id: string): string {
-  const { gamepadCannotDrive, unknownGamepad } = texts().driving;
-  return gamepadCannotDrive(gamepadName(id) || unknownGamepad);
 }

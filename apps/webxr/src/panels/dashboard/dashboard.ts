@@ -8,6 +8,7 @@ import type { Moment } from '../../ground/telemetry/moment.ts';
 import type { TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
 import { texts } from '../../words/language.ts';
 import type { Words } from '../../words/words.ts';
+import { followKey } from '../ui/key-title.ts';
 import { quietButton, selectOf } from '../ui/panel-parts.ts';
 import {
   changed,
@@ -210,6 +211,7 @@ export class Dashboard {
     });
     const close = quietButton('✕', said.closeTitle, () => this.#parts.close());
     close.ariaLabel = said.close;
+    followKey(close, 'dashboard');
     header.append(title, this.#state, span, reset, arrange, close);
     return header;
   }

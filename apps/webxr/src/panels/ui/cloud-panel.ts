@@ -19,6 +19,7 @@ import { texts } from '../../words/language.ts';
 import { fixed, grouped } from '../../words/numbers.ts';
 import { colourControls } from './colour-controls.ts';
 import { elements } from './elements.ts';
+import { followKey } from './key-title.ts';
 import { cssOf, type Legend, legendOf } from './legend.ts';
 import { quietButton, rowOf, selectOf, sliderOf } from './panel-parts.ts';
 import type { RememberedWorld } from './remembered-world.ts';
@@ -184,6 +185,7 @@ export class CloudPanel {
       appearance.fromAbove.value = !appearance.fromAbove.peek();
     });
     fromAbove.id = 'from-above';
+    followKey(fromAbove, 'from-above');
     const colours = quietButton(said.colours, said.coloursTitle, () => {
       open.value = !open.peek();
     });
@@ -255,6 +257,7 @@ function hazardSwitch({ hazards }: CloudAppearance): HTMLElement {
     hazards.value = !hazards.peek();
   });
   button.id = 'hazards';
+  followKey(button, 'hazards');
   effect(() => {
     button.textContent = hazards.value ? said.tinted : said.notTinted;
     button.ariaPressed = String(hazards.value);

@@ -7,8 +7,10 @@ import type { Stage } from '../../scene/view/stage.ts';
 import type { HeadsetMode, VrSession } from '../../scene/view/vr-session.ts';
 import type { CloudAppearance } from '../../state/cloud-appearance.ts';
 import type { PageState } from '../../state/page-state.ts';
+import { inputSettings } from '../../take/drive/stored-inputs.ts';
 import { ms } from '../../words/facts.ts';
 import { hazardNotice } from '../../words/hazard-words.ts';
+import { speedShareWords } from '../../words/input-words.ts';
 import { texts } from '../../words/language.ts';
 import { predictionWords } from '../../words/view-words.ts';
 import { elements } from './elements.ts';
@@ -98,6 +100,10 @@ export class ControlsUi {
         return;
       case 'next-robot':
         this.#nextRobot();
+        return;
+      case 'faster':
+      case 'slower':
+        this.#shift(action);
     }
   }
 
@@ -126,6 +132,16 @@ export class ControlsUi {
     const { hazards } = appearance;
     hazards.value = !hazards.peek();
     state.notices.tell(hazardNotice(hazards.peek(), state.robot.heights.peek()));
+  }
+
+  #shift(way: 'faster' | 'slower'): void {
+    const { notices, robot } = this.#parts.state;
+    const { speed } = inputSettings;
+    speed[way]();
+    notices.tell(
+      texts().inputs.speedNotice(speedShareWords(speed.share.peek(), robot.maxLinear.peek())),
+      'neutral',
+    );
   }
 
   #nextRobot(): void {

@@ -1,14 +1,18 @@
 /** Every input device of the page. Held inputs count as released when the page no longer receives their events. */
 import type { DriveInput, PressedButtons } from '@farpoint/operator';
+import { effect } from '@preact/signals-core';
 import type { HeadsetSettings } from '../../ground/headset-settings.ts';
 import type { Notices } from '../../state/notices.ts';
-import { GamepadInput } from '../../take/drive/gamepad-input.ts';
+import { Gamepads } from '../../take/drive/gamepads.ts';
 import { HeadsetInput, type Tracks, type XrController } from '../../take/drive/headset-input.ts';
+import { type KeyRole, roleOf, STOP_KEY_ALWAYS } from '../../take/drive/key-map.ts';
 import { KeyboardInput } from '../../take/drive/keyboard-input.ts';
-import { PickGamepad } from '../../take/drive/pick-gamepad.ts';
 import type { ReleaseControl } from '../../take/drive/release-hold.ts';
+import { ScaledInput } from '../../take/drive/speed-choice.ts';
+import { inputSettings } from '../../take/drive/stored-inputs.ts';
 import { TouchJoystick } from '../../take/drive/touch-joystick.ts';
-import { unknownGamepadWords } from '../../words/driving-words.ts';
+import { controllerName } from '../../words/input-words.ts';
+import { texts } from '../../words/language.ts';
 import { elements } from './elements.ts';
 import { isDialogOpen } from './open-dialog.ts';
 import { takesText } from './takes-text.ts';
@@ -38,28 +42,25 @@ export type Action =
   | 'dashboard'
   | 'predict'
   | 'swap'
-  | 'next-robot';
+  | 'next-robot'
+  | 'faster'
+  | 'slower';
 
-/** Stops the robot wherever the focus is, except in a text field. */
-const STOP_KEY = 'KeyX';
-/** Stops the robot wherever the focus is: it writes nothing, and browsers leave it to the page. */
-const STOP_KEY_ALWAYS = 'F9';
-const ACTION_KEYS: Readonly<Record<string, Action>> = {
-  KeyL: 'latency-test',
-  KeyC: 'recentre',
-  KeyV: 'view',
-  KeyT: 'from-above',
-  KeyH: 'hazards',
-  KeyE: 'enlarge',
-  KeyB: 'dashboard',
-  KeyF: 'swap',
-  KeyP: 'predict',
-  KeyN: 'next-robot',
-};
-/** Hold to release the emergency stop. Enter on the release control does the same. */
-const RELEASE_KEY = 'KeyR';
-/** Hold to speak. */
-const TALK_KEY = 'KeyM';
+/** The keys with these roles do something at once. */
+const ACTIONS: ReadonlySet<string> = new Set<Action>([
+  'latency-test',
+  'recentre',
+  'view',
+  'from-above',
+  'hazards',
+  'enlarge',
+  'dashboard',
+  'predict',
+  'swap',
+  'next-robot',
+  'faster',
+  'slower',
+]);
 
 export interface InputPort {
   /** A grip or a stick changed. */
@@ -76,20 +77,23 @@ export interface InputPort {
 export class OperatorInputs {
   readonly all: readonly DriveInput[];
   readonly #keyboard = new KeyboardInput();
-  readonly #gamepad = new GamepadInput();
+  readonly #gamepads: Gamepads;
   readonly #headset: HeadsetInput;
   readonly #touch: TouchJoystick;
   readonly #port: InputPort;
-  readonly #notices: Pick<Notices, 'tell'>;
-  readonly #pick = new PickGamepad();
 
   /** @param headset with the hand that drives in the headset, which may become the other one */
   constructor(port: InputPort, headset: Pick<HeadsetSettings, 'driveHand'>, notices: Pick<Notices, 'tell'>) {
     this.#port = port;
-    this.#notices = notices;
     this.#headset = new HeadsetInput(headset);
     this.#touch = new TouchJoystick(elements.joystick, elements.knob, () => port.onChange());
-    this.all = [this.#headset, this.#touch, this.#gamepad, this.#keyboard];
+    this.#gamepads = new Gamepads(inputSettings, {
+      onUnknown: (id) => notices.tell(texts().inputs.unknown(controllerName(id)), 'warning'),
+      onUnplugged: (id) => notices.tell(texts().inputs.unplugged(controllerName(id)), 'warning'),
+    });
+    const devices = [this.#headset, this.#touch, ...this.#gamepads.all, this.#keyboard];
+    this.all = devices.map((device) => new ScaledInput(device, inputSettings.speed));
+    effect(() => this.#keyboard.setKeys(inputSettings.keys.value));
     window.addEventListener('keydown', (event) => this.#onKey(event, true));
     window.addEventListener('keyup', (event) => this.#onKey(event, false));
     window.addEventListener('blur', () => this.releaseAll());
@@ -102,7 +106,7 @@ export class OperatorInputs {
     this.#keyboard.releaseAll();
     this.#touch.release();
     this.#headset.release();
-    this.#gamepad.release();
+    this.#gamepads.release();
     for (const control of ['key', 'pointer', 'headset'] as const) {
       this.#port.onRelease(control, false);
       this.#port.onTalk(control, false);
@@ -117,10 +121,19 @@ export class OperatorInputs {
   poll(nowMs: number): void {
     this.#keyboard.runs(nowMs);
     this.#touch.runs(nowMs);
-    const pad = this.#pick.pick(navigator.getGamepads?.() ?? [], (name) =>
-      this.#notices.tell(unknownGamepadWords(name), 'warning'),
-    );
-    this.#buttons(this.#gamepad.read(pad, nowMs), 'gamepad');
+    const pressed = this.#gamepads.read(navigator.getGamepads?.() ?? [], nowMs);
+    this.#buttons(pressed, 'gamepad');
+    if (pressed.faster) this.#port.onAction('faster', nowMs);
+    if (pressed.slower) this.#port.onAction('slower', nowMs);
+  }
+
+  /**
+   * Whether devices are being set up. Whoever does that moves them: they drive nothing meanwhile, and afterwards only once
+   * their grip has been opened. Their buttons for STOP work.
+   */
+  set settingUp(settingUp: boolean) {
+    this.#gamepads.settingUp = settingUp;
+    this.releaseAll();
   }
 
   /** Whether the headset's grip is held. */
@@ -157,20 +170,21 @@ export class OperatorInputs {
 
   #onKey(event: KeyboardEvent, down: boolean): void {
     const { target } = event;
+    const role = roleOf(inputSettings.keys.peek(), event.code);
     const typing = takesText(target);
     const elsewhere = typing || isDialogOpen();
     const driving = this.#port.mayDrive() && !elsewhere;
     // A released key counts as released wherever the focus is by now.
     if (!down) {
-      if (event.code === RELEASE_KEY || event.code === 'Enter') this.#port.onRelease('key', false);
-      if (event.code === TALK_KEY) this.#port.onTalk('key', false);
+      if (role === 'release' || event.code === 'Enter') this.#port.onRelease('key', false);
+      if (role === 'talk') this.#port.onTalk('key', false);
       if (!this.#keyboard.key(event.code, false, performance.now())) return;
       if (driving) event.preventDefault();
       this.#port.onChange();
       return;
     }
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if ((!typing || event.code === STOP_KEY_ALWAYS) && this.#onEstopKey(event)) return;
+    if ((!typing || event.code === STOP_KEY_ALWAYS) && this.#onEstopKey(event, role)) return;
     if (elsewhere) return;
     const choosing = target instanceof HTMLSelectElement || target instanceof HTMLInputElement;
     if (choosing && event.code.startsWith('Arrow')) return;
@@ -182,28 +196,27 @@ export class OperatorInputs {
       if (!event.repeat) this.#port.onChange();
       return;
     }
-    if (event.code === TALK_KEY && driving) {
+    if (role === 'talk' && driving) {
       if (choosing) event.preventDefault();
       if (!event.repeat) this.#port.onTalk('key', true);
       return;
     }
-    const action = ACTION_KEYS[event.code];
-    if (action === undefined) return;
+    if (role === undefined || !isAction(role)) return;
     // A letter would also select an entry of the list.
     if (choosing) event.preventDefault();
-    if (!event.repeat) this.#port.onAction(action, event.timeStamp);
+    if (!event.repeat) this.#port.onAction(role, event.timeStamp);
   }
 
   /**
    * Handles the keys of the emergency stop, which take precedence over all others. @returns whether it was one of
    * them
    */
-  #onEstopKey(event: KeyboardEvent): boolean {
+  #onEstopKey(event: KeyboardEvent, role: KeyRole | undefined): boolean {
     const { target, code } = event;
     const { estop, estopRelease } = elements;
     const isSpaceOnControl = code === 'Space' && (target === estop || target === estopRelease);
-    const isRelease = code === RELEASE_KEY || (code === 'Enter' && target === estopRelease);
-    if (code === STOP_KEY || code === STOP_KEY_ALWAYS || isSpaceOnControl) {
+    const isRelease = role === 'release' || (code === 'Enter' && target === estopRelease);
+    if (role === 'estop' || code === STOP_KEY_ALWAYS || isSpaceOnControl) {
       if (!event.repeat) this.#port.onAction('estop', event.timeStamp);
     } else if (isRelease && !isDialogOpen()) {
       // Key repeat is not a new press.
@@ -217,4 +230,8 @@ export class OperatorInputs {
 
 function isPanelKey({ target, code }: KeyboardEvent): boolean {
   return target instanceof HTMLElement && target.dataset.panel !== undefined && code.startsWith('Arrow');
+}
+
+function isAction(role: KeyRole): role is KeyRole & Action {
+  return ACTIONS.has(role);
 }

@@ -9,6 +9,7 @@ import { cameraWords } from '../../words/camera-words.ts';
 import { texts } from '../../words/language.ts';
 import { videoReport } from '../../words/video-report.ts';
 import { elements } from './elements.ts';
+import { followKey } from './key-title.ts';
 import { type MovablePanel, PanelMover, type PanelMoverParts, showResetButton } from './panel-mover.ts';
 import { quietButton, rowOf, selectOf } from './panel-parts.ts';
 
@@ -181,7 +182,8 @@ export function showPicturePanels(state: PageState, { inVr, isGripped }: Picture
       hide.ariaLabel = shown ? said.hide(name) : said.show(name);
       const fills = filling.value === view;
       swap.ariaLabel = fills ? said.fillWithCloud : said.fillWith(name);
-      swap.title = said.withKey(swap.ariaLabel, 'F');
+      swap.title = swap.ariaLabel;
+      followKey(swap, 'swap');
       swap.hidden = !shown;
     }
   });
@@ -228,6 +230,7 @@ function panelOf(view: CameraView, state: PageState, filling: ReadonlySignal<Cam
   const fault = document.createElement('p');
   fault.className = 'fault';
   view.canvas.title = texts().clouds.enlargeTitle;
+  followKey(view.canvas, 'enlarge');
   view.canvas.onclick = () => {
     if (filling.peek() !== view) state.enlarged.toggle(view);
   };

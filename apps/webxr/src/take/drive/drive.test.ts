@@ -4,6 +4,7 @@ import { describe, expect, test } from 'vitest';
 import { shapeAxis } from './dead-zone.ts';
 import { GamepadInput } from './gamepad-input.ts';
 import { HeadsetInput } from './headset-input.ts';
+import { KEY_PRESETS } from './key-map.ts';
 import { KeyboardInput } from './keyboard-input.ts';
 
 const RESPONSE = { deadZone: 0.12, expo: 0.4 };
@@ -51,6 +52,19 @@ describe('KeyboardInput', () => {
     expect(keys.wish).toEqual({ forward: 0, left: 0 });
     expect(keys.key('KeyQ', true, 0)).toBe(false);
   });
+});
+
+test('other keys drive once they are chosen, and whatever was held counts as released', () => {
+  const keys = new KeyboardInput();
+  keys.key('Space', true, 0);
+  keys.key('KeyW', true, 0);
+  keys.setKeys(KEY_PRESETS.right);
+  expect([keys.held, keys.wish.forward]).toEqual([false, 0]);
+  expect(keys.key('KeyW', true, 0)).toBe(false);
+  keys.key('Numpad0', true, 0);
+  keys.key('Numpad8', true, 0);
+  keys.key('KeyJ', true, 0);
+  expect([keys.held, keys.wish]).toEqual([true, { forward: 1, left: 1 }]);
 });
 
 test('a keyboard is read while the page runs, at a new grip and when it opens', () => {

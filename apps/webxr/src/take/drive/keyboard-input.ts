@@ -1,26 +1,29 @@
-/** W, A, S, D or the arrow keys, while Space or Shift is held. Pure: the caller passes in the codes of the keys. */
+/** The keys that drive, while the grip is held. Pure: the caller passes in the codes of the keys. */
 import type { DriveInput, DriveWish } from '@farpoint/operator';
 import { EventReading } from './event-reading.ts';
+import { DEFAULT_KEYS, type KeyMap } from './key-map.ts';
 
-const GRIPS: readonly string[] = ['Space', 'ShiftLeft', 'ShiftRight'];
-const FORWARD: readonly string[] = ['KeyW', 'ArrowUp'];
-const BACK: readonly string[] = ['KeyS', 'ArrowDown'];
-const LEFT: readonly string[] = ['KeyA', 'ArrowLeft'];
-const RIGHT: readonly string[] = ['KeyD', 'ArrowRight'];
-const KEYS: ReadonlySet<string> = new Set([...GRIPS, ...FORWARD, ...BACK, ...LEFT, ...RIGHT]);
+const WAYS = ['forward', 'back', 'left', 'right'] as const;
 
 export class KeyboardInput implements DriveInput {
   readonly name = 'keyboard';
   readonly wish: DriveWish = { forward: 0, left: 0 };
   readonly #reading = new EventReading();
   readonly #down = new Set<string>();
+  #keys: KeyMap = DEFAULT_KEYS;
 
   get readMs(): number {
     return this.#reading.readMs;
   }
 
   get held(): boolean {
-    return this.#any(GRIPS);
+    return this.#any('grip');
+  }
+
+  /** Other keys drive from now on. Whatever is held counts as released. */
+  setKeys(keys: KeyMap): void {
+    this.#keys = keys;
+    this.releaseAll();
   }
 
   /** Keys stay down between events for as long as the page runs: call this regularly while it does. */
@@ -30,14 +33,14 @@ export class KeyboardInput implements DriveInput {
 
   /** @param code KeyboardEvent.code @param nowMs of now, not of the event @returns whether this input uses the key */
   key(code: string, down: boolean, nowMs: number): boolean {
-    if (!KEYS.has(code)) return false;
+    if (!this.#keys.grip.includes(code) && !WAYS.some((way) => this.#keys[way].includes(code))) return false;
     const wasHeld = this.held;
     if (down) this.#down.add(code);
     else this.#down.delete(code);
     // A new grip and an open one are news of the hand. A repeated key says nothing about the time before it.
     if (!wasHeld || !this.held) this.#reading.told(nowMs);
-    this.wish.forward = Number(this.#any(FORWARD)) - Number(this.#any(BACK));
-    this.wish.left = Number(this.#any(LEFT)) - Number(this.#any(RIGHT));
+    this.wish.forward = Number(this.#any('forward')) - Number(this.#any('back'));
+    this.wish.left = Number(this.#any('left')) - Number(this.#any('right'));
     return true;
   }
 
@@ -48,7 +51,7 @@ export class KeyboardInput implements DriveInput {
     this.wish.left = 0;
   }
 
-  #any(codes: readonly string[]): boolean {
-    return codes.some((code) => this.#down.has(code));
+  #any(role: 'grip' | (typeof WAYS)[number]): boolean {
+    return this.#keys[role].some((code) => this.#down.has(code));
   }
 }

@@ -8,6 +8,7 @@ import { driving } from './driving.ts';
 import { failures } from './failures.ts';
 import { figures } from './figures.ts';
 import { headset } from './headset.ts';
+import { inputs } from './inputs.ts';
 import { link } from './link.ts';
 import { measures } from './measures.ts';
 import { media } from './media.ts';
@@ -38,4 +39,5 @@ export const german: Texts = {
   stop,
   timing,
   watch,
+  inputs,
 };

@@ -4,7 +4,7 @@ export const dashboard: Texts['dashboard'] = {
   title: 'Dashboard',
   cannotLoad: 'Das Dashboard ließ sich nicht laden. Versuchen Sie es noch einmal.',
   close: 'Dashboard schließen',
-  closeTitle: 'Dashboard schließen (B)',
+  closeTitle: 'Dashboard schließen',
   span: 'Wie weit Kurven zurückreichen',
   arrange: 'Anordnen',
   arrangeTitle: 'Kacheln wählen, ordnen und ihre Größe ändern',

@@ -2,12 +2,13 @@ import type { Texts } from '../en/catalogue.ts';
 
 export const driving: Texts['driving'] = {
   grip: {
-    keyboard: 'Halten Sie die Leertaste',
-    gamepad: 'Halten Sie eine Schultertaste',
+    keyboard: 'Halten Sie die Grifftaste',
+    gamepad: 'Halten Sie eine Schultertaste oder den gewählten Griff',
     touch: 'Halten Sie den Joystick',
     headset: 'Drücken Sie die Grifftaste',
     script: 'Halten Sie den Griff',
   },
+  holdKey: (key) => `Halten Sie ${key}`,
   gripMissing: (grip) => `${grip} dazu: Der Roboter fährt nur, solange Sie das tun.`,
   anotherOperator: 'Jemand anderes',
   takenOver: (driver) => `${driver} hat übernommen und fährt jetzt. Sie fahren nicht.`,
@@ -73,7 +74,4 @@ export const driving: Texts['driving'] = {
   },
   leaving: 'Dieser Roboter wird erst angehalten…',
   noOtherRobot: 'Kein anderer Roboter ist verfügbar.',
-  unknownGamepad: 'Dieses Gamepad',
-  gamepadCannotDrive: (name) =>
-    `${name} kann weder fahren noch anhalten: Dieser Browser kennt seine Tasten nicht. Versuchen Sie den XInput-Modus oder einen anderen Browser.`,
 };

@@ -10,6 +10,7 @@ import { driving } from './driving.ts';
 import { failures } from './failures.ts';
 import { figures } from './figures.ts';
 import { headset } from './headset.ts';
+import { inputs } from './inputs.ts';
 import { link } from './link.ts';
 import { measures } from './measures.ts';
 import { media } from './media.ts';
@@ -40,6 +41,7 @@ export const english = {
   stop,
   timing,
   watch,
+  inputs,
 };
 
 /** What a catalogue of any language has. */

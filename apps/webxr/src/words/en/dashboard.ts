@@ -6,7 +6,7 @@ export const dashboard = {
   title: 'Dashboard',
   cannotLoad: 'The dashboard could not be loaded. Try again.',
   close: 'Close the dashboard',
-  closeTitle: 'Close the dashboard (B)',
+  closeTitle: 'Close the dashboard',
   span: 'How far back curves reach',
   arrange: 'Arrange',
   arrangeTitle: 'Choose, order and size the tiles',

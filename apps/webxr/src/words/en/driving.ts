@@ -5,12 +5,14 @@ import type { CommandRejection, DriveState } from '@farpoint/protocol';
 export const driving = {
   /** How the grip is held, by device. */
   grip: {
-    keyboard: 'Hold Space',
-    gamepad: 'Hold a shoulder button',
+    keyboard: 'Hold the grip key',
+    gamepad: 'Hold a shoulder button, or the grip that you chose',
     touch: 'Hold the joystick',
     headset: 'Squeeze the grip',
     script: 'Hold the grip',
   } satisfies Record<DriveInput['name'], string>,
+  /** @param key its name */
+  holdKey: (key: string) => `Hold ${key}`,
   /** @param grip how it is held */
   gripMissing: (grip: string) => `${grip}, too: the robot moves only while you do.`,
   anotherOperator: 'Another operator',
@@ -81,7 +83,4 @@ export const driving = {
   /** Shown when another robot has been chosen. */
   leaving: 'Stopping this robot first…',
   noOtherRobot: 'No other robot is available.',
-  unknownGamepad: 'This gamepad',
-  gamepadCannotDrive: (name: string) =>
-    `${name} cannot drive or stop: this browser does not know its buttons. Try its XInput mode, or another browser.`,
 };

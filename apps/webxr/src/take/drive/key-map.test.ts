@@ -1,0 +1,104 @@
+import fc from 'fast-check';
+import { expect, test } from 'vitest';
+import {
+  assignKey,
+  DEFAULT_KEYS,
+  isFreeKey,
+  KEY_PRESETS,
+  KEY_ROLES,
+  type KeyMap,
+  MOST_KEYS,
+  mainKey,
+  removeKey,
+  roleOf,
+  STOP_KEY_ALWAYS,
+  usableKeys,
+} from './key-map.ts';
+
+function mapAfter(change: ReturnType<typeof assignKey>): KeyMap {
+  if (!('keys' in change)) throw new Error(change.reason);
+  return change.keys;
+}
+
+function expectSafe(keys: KeyMap): void {
+  expect(keys.estop.length).toBeGreaterThan(0);
+  const all = KEY_ROLES.flatMap((role) => keys[role]);
+  expect(new Set(all).size).toBe(all.length);
+  for (const code of all) expect(isFreeKey(code), code).toBe(true);
+  for (const role of KEY_ROLES) expect(keys[role].length).toBeLessThanOrEqual(MOST_KEYS);
+}
+
+test('all presets are usable, and have a key for everything', () => {
+  for (const preset of Object.values(KEY_PRESETS)) {
+    expectSafe(preset);
+    expect(usableKeys(preset)).toEqual(preset);
+    for (const role of KEY_ROLES) expect(preset[role].length, role).toBeGreaterThan(0);
+  }
+  expect(usableKeys({})).toEqual(DEFAULT_KEYS);
+});
+
+test('the keys of the left hand lie at the left, those of the right hand at the right; X stops in all of them', () => {
+  const left = /^(Digit[1-5]|Key[QWERTASDFGXCVB]|Space|ShiftLeft)$/;
+  const right = /^(Digit[6-90]|Minus|Key[YUIOPHJKLNM]|Comma|Period|Space|ShiftRight|Numpad.+)$/;
+  for (const role of KEY_ROLES) {
+    for (const code of KEY_PRESETS.left[role]) expect(code).toMatch(left);
+    for (const code of KEY_PRESETS.right[role]) if (code !== 'KeyX') expect(code).toMatch(right);
+  }
+  for (const { estop } of Object.values(KEY_PRESETS)) expect(estop).toContain('KeyX');
+});
+
+test('a key moves to another role once it has been removed', () => {
+  expect(assignKey(DEFAULT_KEYS, 'forward', 'KeyR')).toEqual({ reason: 'taken', by: 'release' });
+  const free = mapAfter(removeKey(DEFAULT_KEYS, 'release', 'KeyR'));
+  const moved = mapAfter(assignKey(free, 'forward', 'KeyR'));
+  expect(roleOf(moved, 'KeyR')).toBe('forward');
+  expect(moved.release).toEqual([]);
+});
+
+test('a role is known by its usual key, or else by the one that was chosen in its place', () => {
+  const added = mapAfter(assignKey(DEFAULT_KEYS, 'forward', 'KeyI'));
+  expect(mainKey(added, 'forward')).toBe('KeyW');
+  const changed = mapAfter(removeKey(added, 'forward', 'KeyW'));
+  expect([changed.forward, mainKey(changed, 'forward')]).toEqual([['ArrowUp', 'KeyI'], 'KeyI']);
+  const arrow = mapAfter(removeKey(changed, 'forward', 'KeyI'));
+  expect(mainKey(arrow, 'forward')).toBe('ArrowUp');
+  expect(mainKey(mapAfter(removeKey(arrow, 'forward', 'ArrowUp')), 'forward')).toBe(undefined);
+});
+
+test('X may give way to another key for STOP, but the last one stays; F9 gets no other use', () => {
+  expect(removeKey(DEFAULT_KEYS, 'estop', 'KeyX')).toEqual({ reason: 'last-stop' });
+  const more = mapAfter(assignKey(DEFAULT_KEYS, 'estop', 'Numpad0'));
+  const other = mapAfter(removeKey(more, 'estop', 'KeyX'));
+  expect(other.estop).toEqual(['Numpad0']);
+  expect(mapAfter(assignKey(other, 'recentre', 'KeyX')).recentre).toEqual(['KeyC', 'KeyX']);
+  expect(assignKey(DEFAULT_KEYS, 'recentre', STOP_KEY_ALWAYS)).toEqual({ reason: 'always-stops' });
+});
+
+test('keys with which the page is used without a mouse stay free, and a role has four at most', () => {
+  for (const code of ['Tab', 'Enter', 'Escape', 'F5', 'ControlLeft', 'nonsense', '', 'Key W'])
+    expect(assignKey(DEFAULT_KEYS, 'grip', code)).toEqual({ reason: 'reserved' });
+  const four = mapAfter(assignKey(DEFAULT_KEYS, 'grip', 'Numpad0'));
+  expect(assignKey(four, 'grip', 'Numpad1')).toEqual({ reason: 'full' });
+});
+
+test('whatever is stored, assigned and removed: a key stops, and no key does two things', () => {
+  const code = fc.oneof(
+    fc.constantFrom('KeyX', 'KeyW', 'Space', 'Tab', 'F9', 'Numpad0', 'KeyR', '__proto__', 'Enter'),
+    fc.string(),
+  );
+  const role = fc.constantFrom(...KEY_ROLES);
+  const stored = fc.dictionary(role, fc.array(code, { maxLength: 6 }));
+  const step = fc.record({ role, code, add: fc.boolean() });
+  fc.assert(
+    fc.property(stored, fc.array(step, { maxLength: 20 }), (stored, steps) => {
+      let keys = usableKeys(stored);
+      expectSafe(keys);
+      for (const { role, code, add } of steps) {
+        const change = add ? assignKey(keys, role, code) : removeKey(keys, role, code);
+        if ('keys' in change) keys = change.keys;
+        expectSafe(keys);
+      }
+    }),
+    { seed: 12, numRuns: 500 },
+  );
+});

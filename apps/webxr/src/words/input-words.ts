@@ -1,0 +1,186 @@
+/** What the page says about keys, devices and the speed that the operator chooses. */
+import {
+  AXIS_ROLES,
+  type AxisRole,
+  type ButtonRole,
+  type ControllerMap,
+  type MapRefusal,
+  missingOf,
+} from '../take/drive/controller-map.ts';
+import { KEY_ROLES, type KeyMap, type KeyRefusal, type KeyRole, mainKey } from '../take/drive/key-map.ts';
+import { keyboardLayout } from '../take/drive/keyboard-layout.ts';
+import { texts } from './language.ts';
+import { fixed } from './numbers.ts';
+import type { Words } from './words.ts';
+
+/** What is written on keys of a US keyboard that have no letter or digit. */
+const SYMBOLS: Readonly<Record<string, string>> = {
+  ArrowUp: '↑',
+  ArrowDown: '↓',
+  ArrowLeft: '←',
+  ArrowRight: '→',
+  Comma: ',',
+  Period: '.',
+  Slash: '/',
+  Backslash: '\\',
+  Semicolon: ';',
+  Quote: "'",
+  Minus: '-',
+  Equal: '=',
+  BracketLeft: '[',
+  BracketRight: ']',
+  Backquote: '`',
+  Add: '+',
+  Subtract: '-',
+  Multiply: '*',
+  Divide: '/',
+  Decimal: '.',
+};
+
+/** @param code KeyboardEvent.code @returns what is written on this key, by the browser's word or as on a US keyboard */
+export function keyName(code: string): string {
+  const { keyNames, keypad } = texts().inputs;
+  const named = keyNames[code];
+  if (named !== undefined) return named;
+  const pad = /^Numpad(.+)$/.exec(code)?.[1];
+  if (pad !== undefined) return keypad(SYMBOLS[pad] ?? pad);
+  const typed = keyboardLayout.value.get(code)?.trim() ?? '';
+  // ß has no capital that anybody knows.
+  if (typed !== '') return typed.toUpperCase().length === typed.length ? typed.toUpperCase() : typed;
+  return (
+    SYMBOLS[code] ?? /^(?:Key|Digit)(.)$/.exec(code)?.[1] ?? code.replaceAll(/(?<=[a-z])(?=[A-Z0-9])/g, ' ')
+  );
+}
+
+/** A title with the key of this role in brackets at its end, in place of the one that is there. */
+export function withKey(title: string, keys: KeyMap, role: KeyRole): string {
+  const bare = title.replace(/ \([^()]*\)$/, '');
+  const code = mainKey(keys, role);
+  return code === undefined ? bare : `${bare} (${keyName(code)})`;
+}
+
+/** A piece of the hint beside the controls: words, or a key's name. */
+export interface HintPart {
+  readonly text: string;
+  readonly isKey: boolean;
+}
+
+/** The hint beside the controls, one list for each thing that keys do. What has no key is left out. */
+export function hintParts(keys: KeyMap): HintPart[][] {
+  const first = (...roles: readonly KeyRole[]) => roles.flatMap((role) => mainKey(keys, role) ?? []);
+  const named: Record<string, readonly string[]> = {
+    ...Object.fromEntries(KEY_ROLES.map((role) => [role, first(role)])),
+    ways: first('forward', 'left', 'back', 'right'),
+    gears: first('slower', 'faster'),
+  };
+  return Object.values(texts().inputs.hint).flatMap((template) => {
+    const parts = template.split(/\{(.+?)\}/).flatMap((piece, i): HintPart[] => {
+      if (i % 2 === 0) return piece === '' ? [] : [{ text: piece, isKey: false }];
+      return (named[piece] ?? []).map((code) => ({ text: keyName(code), isKey: true }));
+    });
+    return parts.some(({ isKey }) => isKey) ? [parts] : [];
+  });
+}
+
+export function keyRefusalWords(code: string, refusal: KeyRefusal): string {
+  const { taken, full, lastStop, alwaysStops, reserved, keyRoles } = texts().inputs;
+  switch (refusal.reason) {
+    case 'last-stop':
+      return lastStop;
+    case 'taken':
+      return taken(keyName(code), keyRoles[refusal.by]);
+    case 'always-stops':
+      return alwaysStops(keyName(code));
+    case 'reserved':
+      return reserved(keyName(code));
+    case 'full':
+      return full;
+  }
+}
+
+/** @param what an axis or a button, by its name */
+export function mapRefusalWords(what: string, refusal: MapRefusal): string {
+  const { taken, full, keepsStop } = texts().inputs;
+  switch (refusal.reason) {
+    case 'taken':
+      return taken(capital(what), roleWords(refusal.by));
+    case 'full':
+      return full;
+    case 'keeps-stop':
+      return keepsStop(capital(what));
+  }
+}
+
+/** What is written on the buttons of a gamepad in the standard mapping, the axes of the pad as arrows. */
+const STANDARD_BUTTONS = [
+  'A',
+  'B',
+  'X',
+  'Y',
+  'LB',
+  'RB',
+  'LT',
+  'RT',
+  'Back',
+  'Start',
+  'L3',
+  'R3',
+  '↑',
+  '↓',
+  '←',
+  '→',
+  'Home',
+] as const;
+
+/** @param isStandard whether the browser knows which button it is */
+export function buttonName(button: number, isStandard: boolean): string {
+  return (isStandard ? STANDARD_BUTTONS[button] : undefined) ?? texts().inputs.button(button + 1);
+}
+
+/** What a sentence begins with. */
+export function capital(words: string): string {
+  return words.slice(0, 1).toUpperCase() + words.slice(1);
+}
+
+function roleWords(role: ButtonRole | AxisRole): string {
+  const { axisRoles, buttonRoles } = texts().inputs;
+  return isAxisRole(role) ? axisRoles[role] : buttonRoles[role];
+}
+
+function isAxisRole(role: ButtonRole | AxisRole): role is AxisRole {
+  return (AXIS_ROLES as readonly string[]).includes(role);
+}
+
+/** What has been measured. @param still indexes of axes that did not move */
+export function measuredWords(still: readonly number[]): string {
+  const { measuredAll, notMoved, axis } = texts().inputs;
+  return still.length === 0 ? measuredAll : notMoved(still.map((each) => axis(each + 1)).join(', '));
+}
+
+/** Why what was chosen for a device cannot be saved; `null` if it can. */
+export function missingWords(map: ControllerMap): string | null {
+  const missing = missingOf(map);
+  return missing === null ? null : texts().inputs.missing[missing];
+}
+
+/** The most characters of a device's name that are shown. Chosen: a line of the dialog; input-words.test.ts holds it. */
+const MOST_NAME = 60;
+
+/** What a device calls itself, without the numbers of its maker. */
+export function controllerName(id: string | undefined): string {
+  const name = (id ?? '').replace(/\s*\((?:STANDARD GAMEPAD\s*)?(?:Vendor:.*)?\)\s*$/i, '').trim();
+  return name === '' ? texts().inputs.unnamed : name.slice(0, MOST_NAME);
+}
+
+/** @param maxLinear the most that the robot ever drives, m/s; 0 while it is not known */
+export function speedShareWords(share: number, maxLinear: number): string {
+  const { speedShare, speedKnown } = texts().inputs;
+  const percent = Math.round(share * 100);
+  return maxLinear > 0 ? speedKnown(percent, fixed(share * maxLinear, 2)) : speedShare(percent);
+}
+
+/** How fast the robot is, with what its operator has chosen where that is less than all. */
+export function withChosenSpeed(words: Words, share: number): Words {
+  if (share >= 1) return words;
+  return { ...words, text: `${words.text} (${texts().inputs.speedChosen(Math.round(share * 100))})` };
+}
