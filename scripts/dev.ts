@@ -92,6 +92,7 @@ try {
       name: `Simulated robot ${index + 1}`,
       args: [
         ...simArguments(availableParallelism()),
+        '--sim-commands',
         '--sim-seed',
         String(index + 1),
         ...args,

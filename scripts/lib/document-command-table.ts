@@ -86,6 +86,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'rostopic pub -r 10 /stop std_msgs/Bool false': { because: 'needs a ROS installation' },
   "ros2 topic pub -r 10 /stop std_msgs/msg/Bool 'data: false'": { because: 'needs a ROS installation' },
   'npx -y pnpm@12 robot --record session.mcap …': robot,
+  'npx -y pnpm@12 robot --record-folder /data/recordings …': robot,
   'npx -y pnpm@12 robot --source recording --path drive.mcap --topic /velodyne_points …': {
     refused: /^could not start: recording: drive\.mcap does not exist$/,
     also: ALONE,

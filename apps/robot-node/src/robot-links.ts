@@ -10,6 +10,7 @@ import { monotonicMs } from './ground/clock.ts';
 import type { RobotCounters } from './ground/robot-counters.ts';
 import { StageTimer } from './ground/stage-timer.ts';
 import type { Drive } from './motion/open-drive.ts';
+import { stands } from './motion/standing.ts';
 import type { RobotStops } from './motion/stops/robot-stops.ts';
 import { hasSound, type RobotOptions } from './program/robot-configuration.ts';
 import type { RobotParts } from './robot-parts.ts';
@@ -117,15 +118,17 @@ export function linkCore(
 export function linkSessions(
   context: RobotContext,
   streams: RobotStreams,
-  { host, paths }: DriveCore,
+  { host, paths, driving }: DriveCore,
 ): OperatorSessions {
   const { options, parts, signaling, counters, logs, board, log } = context;
-  const { grants, robotKey, audit, videos, recording } = parts;
+  const { grants, robotKey, audit, videos, recording, commands } = parts;
   const about = () => robotAbout(options, recording?.writes ?? false);
   const sessions = openSessions(options, {
     grants,
     robotKey,
     audit,
+    commands,
+    stands: () => stands(driving),
     peer: {
       ...peerOptions(context),
       videos: videos.map(({ codecs }) => codecs),
@@ -145,7 +148,7 @@ export function linkSessions(
     },
   });
   if (recording !== null)
-    recording.onEnded = () => {
+    recording.onChanged = () => {
       for (const { messages } of sessions.operators.values()) messages.send(about());
     };
   return sessions;

@@ -14,6 +14,7 @@ import { BaseThread } from './sense/base/base-thread.ts';
 import type { Capture } from './sense/capture/capture.ts';
 import type { VideoCamera } from './sense/video/video-encoder.ts';
 import { openVideoCameras, type VideoCameraOptions } from './serve/cameras/open-video-cameras.ts';
+import { openCommands, type RobotCommands } from './serve/commands/open-commands.ts';
 import { SessionRecording } from './tell/session-recording.ts';
 
 /** Gives simulated sensors the world of the simulated base, so that they see the robot move. */
@@ -59,6 +60,8 @@ export interface RobotParts {
   audit: RobotAudit;
   /** The cameras that are streamed as video. */
   videos: readonly VideoCamera[];
+  /** What operators may make the robot do besides driving, and what does it. */
+  commands: RobotCommands;
 }
 
 /**
@@ -97,7 +100,8 @@ export async function openParts(options: RobotOptions, log: Logger, audit: Robot
       capture !== null && hasOdometry(capture.source),
       log,
     );
-    return { captures, obstacles, base, sink, recording, videos, grants, robotKey, audit };
+    const commands = openCommands(options.commands, recording, log);
+    return { captures, obstacles, base, sink, recording, videos, grants, robotKey, audit, commands };
   } catch (error) {
     for (const capture of captures) await capture.close();
     await base?.close();

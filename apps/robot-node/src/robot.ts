@@ -125,6 +125,7 @@ export class Robot implements StreamsAudience {
     this.drive.guard.latchEstop('robot');
     this.drive.halt();
     clearInterval(this.#updating);
+    await this.sessions.closeCommands();
     const reported = this.#reports.close();
     this.sessions.close();
     this.reference?.close();

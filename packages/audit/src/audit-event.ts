@@ -18,6 +18,8 @@ export const auditKinds = [
   'estop-released',
   'return-began', // a robot without operators drives back by itself
   'return-ended', // with the reason; perhaps before it has begun
+  'command-began', // a robot command, a recording or a bookmark, as named in the details
+  'command-ended',
   'refused',
   // About the log itself:
   'torn-entry', // the program ended while it wrote; the bytes before this entry are what it left

@@ -14,8 +14,11 @@ export type {
   Broadcast,
   Cameras,
   CloudFormat,
+  CommandBar,
+  CommandRefusal,
   CommandRejected,
   CommandRejection,
+  CommandState,
   DiagnosticLevel,
   DiagnosticReport,
   Diagnostics,
@@ -47,8 +50,10 @@ export type {
   Quaternion,
   Reading,
   ReadingLevel,
+  RecordingState,
   RobotAbout,
   RobotBody,
+  RobotCommand,
   RobotListing,
   RobotStop,
   Role,
@@ -97,6 +102,7 @@ export {
 export { DEFAULT_EXTENT } from './cloud/image-extent.ts';
 export type { DropCounts, DropReason } from './cloud/packet-intake.ts';
 export type { IntakeReport } from './cloud/worker-messages.ts';
+export { type CommandEnd, type CommandRunning, RobotCommands } from './commands/robot-commands.ts';
 export { activeInput, type DriveInput, type PressedButtons } from './drive/drive-input.ts';
 export type { Driver } from './drive/driver.ts';
 export { type GripLoss, READING_HOLDS_MS } from './drive/grips.ts';

@@ -82,6 +82,21 @@ export * from './return-state.ts';
 export { type RobotAbout, shownSources } from './robot-about.ts';
 export { type BodyHeights, OWN_BODY_M, type RobotBody } from './robot-body.ts';
 export {
+  BOOKMARK_LENGTH,
+  COMMAND_DETAIL_LENGTH,
+  COMMAND_ID,
+  type CommandBar,
+  type CommandCall,
+  type CommandCancel,
+  type CommandRefusal,
+  type CommandRefused,
+  type CommandRun,
+  type CommandState,
+  MAX_ROBOT_COMMANDS,
+  type RecordingState,
+  type RobotCommand,
+} from './robot-command.ts';
+export {
   type JointPositions,
   MAX_JOINT_POSITION,
   MAX_MODEL_LINKS,

@@ -6,6 +6,7 @@ import { clockAnswerCodec, commandRejections, operatorControlCodec, robotControl
 import { ProtocolError } from './errors.ts';
 import { decodeJson, encodeJson, encodeJsonBytes, type JsonCodec, type MessageData } from './json.ts';
 import { referenceControlCodec } from './reference-bridge.ts';
+import { commandRefusals } from './robot-command.ts';
 import { operatorSessionCodec, robotSessionCodec } from './session-codecs.ts';
 import { faultReasons } from './session-messages.ts';
 import {
@@ -133,7 +134,7 @@ describe.each(codecs)('%s', (file, codec) => {
 });
 
 test.each([
-  ['robot-session', 'reason', [...commandRejections, ...faultReasons]],
+  ['robot-session', 'reason', [...commandRejections, ...faultReasons, ...commandRefusals]],
   ['telemetry', 'drive', driveStates],
   ['signaling-service-to-robot', 'code', signalingErrorCodes],
   ['signaling-service-to-robot', 'reason', operatorEndReasons],

@@ -18,6 +18,14 @@ import { MAX_SENSORS } from './placement.ts';
 import { operatorsSchema, roles } from './present-operators.ts';
 import { quantitySchema } from './quantity.ts';
 import { robotAboutSchema } from './robot-about.ts';
+import {
+  commandCallSchema,
+  commandCancelSchema,
+  commandRefusedSchema,
+  commandRunSchema,
+  recordingStateSchema,
+  robotCommandSchema,
+} from './robot-command.ts';
 import { robotModelSchema } from './robot-model.ts';
 import { sensorRingsSchema, sensorSchema } from './sensor-rings.ts';
 import {
@@ -172,6 +180,10 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
     z.strictObject({ type: z.literal('expires'), inS: secondsSchema }),
     operatorsSchema,
     handoverSchema,
+    robotCommandSchema,
+    commandRunSchema,
+    commandRefusedSchema,
+    recordingStateSchema,
     z.strictObject({
       type: z.literal('fault'),
       message: z.string().check(z.maxLength(512)),
@@ -196,6 +208,8 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
     driveOfferSchema,
     driveAnswerSchema,
     driveWithdrawSchema,
+    commandCallSchema,
+    commandCancelSchema,
     z.strictObject({ type: z.literal('stream'), running: z.boolean() }),
     z.strictObject({
       type: z.literal('cloudFormats'),

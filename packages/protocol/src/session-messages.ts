@@ -10,6 +10,7 @@ import type { Operators, Role } from './present-operators.ts';
 import type { Quantity } from './quantity.ts';
 import type { RobotAbout } from './robot-about.ts';
 import type { RobotBody } from './robot-body.ts';
+import type { CommandRefused, CommandRun, RecordingState, RobotCommand } from './robot-command.ts';
 import type { RobotModelParts } from './robot-model.ts';
 import type { SensorRings } from './sensor-rings.ts';
 import type { MicrophoneState, VoiceState } from './sound-media.ts';
@@ -277,6 +278,10 @@ export type RobotSessionMessage =
   | GrantExpires
   | Operators
   | Handover
+  | RobotCommand
+  | CommandRun
+  | CommandRefused
+  | RecordingState
   | SessionFault;
 
 export const PROTOCOL_VERSION = 1;

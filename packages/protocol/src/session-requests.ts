@@ -1,6 +1,7 @@
 /** What an operator sends on the `session` channel; what the robot sends on it is in session-messages.ts. */
 import type { CloudFormat } from './cloud-format.ts';
 import type { DriveRequest } from './handover.ts';
+import type { CommandCall, CommandCancel } from './robot-command.ts';
 
 /** Requests the lease. `take` asks to take over from another operator; the robot's policy decides. */
 export interface LeaseRequest {
@@ -134,4 +135,6 @@ export type OperatorSessionMessage =
   | Speak
   | EndSession
   | DriveRequest
+  | CommandCall
+  | CommandCancel
   | LatencyMeasured;

@@ -691,6 +691,27 @@ robot_session.spoil(asked, ("id", -1), ("id", ABSENT), ("kind", "give"), ("kind"
                     ("to.role", "drive", "to"), ("yours", ABSENT), ("yours", 1), ("leftMs", -1), ("leftMs", 15001), ("leftMs", 0.5), ("leftMs", ABSENT, "ended"),
                     ("ended", "accepted"), ("lease", "0f3a9c", ""))
 robot_session.spoil(over, ("ended", "given"), ("ended", ABSENT))
+button = robot_session.good({"type": "robotCommand", "id": "dock", "label": "Dock", "group": "Power", "confirm": True, "cancel": True, "barred": "moving"})
+robot_session.good({"type": "robotCommand", "id": "0", "label": "Lights"}, "robotCommand: the least")
+for part in ["start", "stop", "bookmark"]:
+    robot_session.good({"type": "robotCommand", "id": "record-" + part, "label": "Record", "recording": part}, "robotCommand: recording " + part)
+for bar in ["not-permitted", "not-driver", "estop"]:
+    robot_session.good({**button, "barred": bar}, "robotCommand: barred " + bar)
+robot_session.spoil(button, ("id", ""), ("id", "Dock"), ("id", "-dock"), ("id", "d" * 33), ("id", ABSENT), ("label", ""), ("label", ABSENT), ("label", "a\nb"),
+                    ("group", ""), ("confirm", False), ("cancel", 1), ("recording", "pause"), ("barred", "no"), ("topic", "/dock", ""))
+run = robot_session.good({"type": "commandRun", "run": 3, "id": "dock", "by": ada, "request": 9, "state": "running", "progress": 0.25, "detail": "turning"})
+robot_session.good({"type": "commandRun", "run": 2 ** 32 - 1, "id": "dock", "by": bob, "state": "done"}, "commandRun: for others")
+for end in ["failed", "cancelled", "timed-out"]:
+    robot_session.good({"type": "commandRun", "run": 3, "id": "dock", "by": ada, "state": end, "detail": "x" * 200}, "commandRun: " + end)
+robot_session.spoil(run, ("run", -1), ("run", ABSENT), ("id", "/dock"), ("by", ABSENT), ("by.name", ""), ("request", 0.5), ("state", "refused"), ("state", ABSENT),
+                    ("progress", -0.1), ("progress", 1.1), ("detail", ""), ("detail", "x" * 201), ("value", 1, ""))
+no = robot_session.good({"type": "commandRefused", "request": 9, "reason": "moving"})
+for why in ["not-permitted", "not-driver", "estop", "unknown", "too-often", "busy", "repeated", "stale", "no-text", "not-cancellable"]:
+    robot_session.good({**no, "reason": why}, "commandRefused: " + why)
+robot_session.spoil(no, ("request", -1), ("request", ABSENT), ("reason", "because"), ("reason", ABSENT), ("detail", "x", ""))
+recorded = robot_session.good({"type": "recording", "on": True, "bytes": 48000000, "forS": 62})
+robot_session.good({"type": "recording", "on": False, "bytes": 0, "forS": 0}, "recording: none")
+robot_session.spoil(recorded, ("on", 1), ("on", ABSENT), ("bytes", -1), ("bytes", 0.5), ("bytes", ABSENT), ("forS", -1), ("forS", 0.5), ("path", "/tmp/a.mcap", ""))
 write("robot-session.json", robot_session.lists())
 
 operator_session = Messages()
@@ -711,6 +732,13 @@ operator_session.spoil(asks, ("to", 7, ""), ("lease", "0f3a9c", ""))
 operator_session.spoil(offers, ("to", -1), ("to", 2 ** 32), ("to", "Bob"), ("to", ABSENT), ("lease", "0f3a9c", ""))
 operator_session.spoil(answers, ("id", -1), ("id", ABSENT), ("accept", ABSENT), ("accept", 1), ("from", 7, ""))
 operator_session.spoil(withdraws, ("id", ABSENT), ("id", 0.5), ("kind", "ask", ""))
+called = operator_session.good({"type": "callCommand", "id": "dock", "request": 9, "timeMs": 51042.25})
+noted = operator_session.good({"type": "callCommand", "id": "bookmark", "request": 2 ** 32 - 1, "timeMs": 0, "text": "x" * 120}, "callCommand: with a text")
+operator_session.spoil(called, ("id", ""), ("id", "/dock"), ("id", "d" * 33), ("id", ABSENT), ("request", -1), ("request", ABSENT), ("timeMs", -1), ("timeMs", "0"),
+                       ("timeMs", ABSENT), ("topic", "/cmd_vel", ""), ("message", {}, ""))
+operator_session.spoil(noted, ("text", ""), ("text", "x" * 121), ("text", "a\nb"), ("text", "a\u0007"), ("text", "a\u202eb"), ("text", 1))
+cancels = operator_session.good({"type": "cancelCommand", "run": 3})
+operator_session.spoil(cancels, ("run", -1), ("run", ABSENT), ("id", "dock", ""))
 stream = operator_session.good({"type": "stream", "running": False})
 formats = operator_session.good({"type": "cloudFormats", "formats": ["points64", "organised", "unorganised"]})
 operator_session.good({"type": "cloudFormats", "formats": []}, "cloudFormats: none")

@@ -67,6 +67,11 @@ export class CloudTap {
     return this.#lanes.captured.pending + this.#lanes.sent.pending;
   }
 
+  /** Whether clouds are copied for a file, by what the writer last said: it comes by another way than the file's opening. */
+  get recording(): boolean {
+    return this.#wishes.file;
+  }
+
   captured(cloud: TappedCloud, { width, height, camera }: TapGrid): void {
     const { capturedAtMs, cameraPose: pose } = cloud;
     const to = this.#destinations('captured', capturedAtMs);

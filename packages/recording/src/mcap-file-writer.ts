@@ -231,6 +231,11 @@ export class McapFileWriter {
     await this.#file.close();
   }
 
+  /** Leaves the file as it is: whole up to its last chunk. */
+  abandon(): void {
+    void this.#file.close().catch(() => {});
+  }
+
   /** The largest size that the file would have if it were closed now. */
   #closedBytes(): number {
     const chunk =

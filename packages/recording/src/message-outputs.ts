@@ -16,15 +16,15 @@ export interface MessageOptions {
 
 type FileWriter = Pick<
   McapFileWriter,
-  'add' | 'addChannel' | 'bytes' | 'close' | 'flush' | 'messages' | 'sync'
+  'abandon' | 'add' | 'addChannel' | 'bytes' | 'close' | 'flush' | 'messages' | 'sync'
 >;
 
 /** The receivers of a robot's messages: a file, live viewers, or both, with the same channels. */
 export class MessageOutputs {
   readonly live: LiveServer | null;
-  readonly #file: FileWriter | null;
+  #file: FileWriter | null;
   #fileOpen: boolean;
-  readonly #liveChannels: number[] = [];
+  readonly #channels: { spec: ChannelSpec; live: number }[] = [];
 
   constructor(file: FileWriter | null, live: LiveServer | null) {
     this.#file = file;
@@ -55,12 +55,12 @@ export class MessageOutputs {
   /** @returns the channel's number, from 0 */
   addChannel(spec: ChannelSpec): number {
     if (this.#fileOpen) this.#file?.addChannel(spec);
-    return this.#liveChannels.push(this.live?.addChannel(spec) ?? 0) - 1;
+    return this.#channels.push({ spec, live: this.live?.addChannel(spec) ?? 0 }) - 1;
   }
 
   /** Whether a live viewer subscribes to the channel. */
   wantsLive(channel: number): boolean {
-    return this.live?.wants(this.#liveChannels[channel] ?? 0) ?? false;
+    return this.live?.wants(this.#channels[channel]?.live ?? 0) ?? false;
   }
 
   /** Whether a message for these receivers has any. If not, it need not be made. */
@@ -70,7 +70,7 @@ export class MessageOutputs {
 
   /** The channel that live viewers know by this number; -1 if there is none. */
   channelOfLive(id: number): number {
-    return this.#liveChannels.indexOf(id);
+    return this.#channels.findIndex(({ live }) => live === id);
   }
 
   /**
@@ -88,10 +88,17 @@ export class MessageOutputs {
       // Viewers may read it long after the caller has used the memory of several parts again.
       const [only] = data;
       const bytes = data.length === 1 && only !== undefined ? only : Buffer.concat(data);
-      this.live?.publish({ channel: this.#liveChannels[channel] as number, ns, bytes, link });
+      this.live?.publish({ channel: this.#channels[channel]?.live ?? 0, ns, bytes, link });
     }
     if (this.#fileOpen && to?.file !== false)
       await this.#file?.add(channel, sequence32Of(sequence), ns, data);
+  }
+
+  /** Begins a file, with all channels so far. The one before must be closed or abandoned. */
+  openFile(file: FileWriter): void {
+    for (const { spec } of this.#channels) file.addChannel(spec);
+    this.#file = file;
+    this.#fileOpen = true;
   }
 
   async flush(): Promise<void> {
@@ -111,6 +118,7 @@ export class MessageOutputs {
 
   /** Nothing more is written to the file, which cannot be written. */
   abandonFile(): void {
+    if (this.#fileOpen) this.#file?.abandon();
     this.#fileOpen = false;
   }
 }

@@ -183,7 +183,7 @@ export interface RecordedAlarm {
   label: string;
 }
 
-export type EventKind = JsonKind | 'velocity' | 'state' | TelemetryRecord['type'];
+export type EventKind = JsonKind | 'velocity' | 'state' | 'bookmark' | TelemetryRecord['type'];
 
 /** What the robot tells about itself besides its state. */
 export type TelemetryRecord =
@@ -214,6 +214,8 @@ export type EventRecord =
   | { type: 'json'; kind: JsonKind; timeMs: number; sequence: number; value: object }
   /** The velocity that the wheels were given. */
   | { type: 'velocity'; timeMs: number; sequence: number; twist: Twist }
+  /** An instant that somebody wants to find again. @param by who wants it @param text says which, for people */
+  | { type: 'bookmark'; timeMs: number; sequence: number; by: string; text: string }
   /** Pose of base_link in the world. */
   | { type: 'state'; timeMs: number; sequence: number; pose: Pose; twist: Twist };
 
@@ -229,6 +231,10 @@ export type RecorderRequest =
   | { type: 'telemetry'; quantities: readonly RecordedQuantity[]; alarms: readonly RecordedAlarm[] }
   /** Sent before the first reports of the topic's components. */
   | { type: 'components'; topic: string }
+  /** Begins another file, which must not exist yet, if none is being written. */
+  | { type: 'openFile'; path: string }
+  /** Completes the file. */
+  | { type: 'closeFile' }
   | { type: 'close' };
 
 export type RecorderReport =
@@ -241,6 +247,10 @@ export type RecorderReport =
   | ({ type: 'live' } & LiveReport)
   /** An event, a picture or a frame of a video was processed. */
   | { type: 'done'; kind: 'events' | 'pictures' | 'videos' }
+  /** Another file was begun, or could not be: then `failed` says why. */
+  | { type: 'fileOpened'; path: string; failed: string | null }
+  /** The file is complete. */
+  | { type: 'fileClosed' }
   /** The file has reached its maximum size and is closed. */
   | { type: 'full' }
   /** Nothing more is written. */

@@ -26,7 +26,17 @@ const LINGER_MS = 2000;
 const port = parentPort;
 if (port === null) throw new Error('recorder-worker.ts runs as a worker only');
 const { clouds, ...options } = workerData as RecorderOptions & { clouds: MessagePort };
-const send = (report: RecorderReport) => port.postMessage(report);
+const FILE_CHANGES: ReadonlySet<RecorderReport['type']> = new Set([
+  'fileOpened',
+  'fileClosed',
+  'full',
+  'failed',
+]);
+const send = (report: RecorderReport) => {
+  port.postMessage(report);
+  // The capture thread copies clouds only while somebody takes them.
+  if (FILE_CHANGES.has(report.type)) answer(null);
+};
 
 const name = { name: options.robotId, sessionId: String(options.epochNs) };
 let wishes = NO_LIVE_WISHES;
@@ -61,6 +71,7 @@ clouds.on('message', async (record: CloudRecord) => {
   await recorder.addCloud(record);
   answer({ kind: record.type === 'sent' ? 'sent' : 'captured', buffer: record.buffer });
 });
+answer(null);
 const cloudsEnd = new Promise<void>((resolve) => clouds.once('close', resolve));
 
 port.on('message', async (request: RecorderRequest) => {

@@ -27,6 +27,11 @@ function setUp(answer: (cloud: number) => Promise<void> = async () => undefined,
     addComponents: () => void done.push('components'),
     addEvent: note('event'),
     addOwnState: note('state'),
+    openFile: async (path) => {
+      if (path === 'full-disk.mcap') throw new Error('no space left on device');
+      done.push(`open ${path}`);
+      open(true);
+    },
     out: {
       ...{ messages: 7, bytes: 900, fileOpen: true, flush: note('flush'), sync: note('sync') },
       get open() {
@@ -93,5 +98,32 @@ describe('Recorder', () => {
     }, true);
     for (let i = 0; i < 3; i++) await recorder.addCloud(CLOUD);
     expect(done).toEqual(['cloud 0', 'close', 'cloud 2']);
+  });
+
+  it('begins a file after one that ended, in its turn, and refuses one while another is open', async () => {
+    const { recorder, done, reports } = setUp();
+    recorder.onRequest({ type: 'openFile', path: 'b.mcap' });
+    recorder.onRequest({ type: 'closeFile' });
+    recorder.onRequest({ type: 'openFile', path: 'b.mcap' });
+    await recorder.addCloud(CLOUD);
+    expect(done).toEqual(['state', 'close', 'open b.mcap', 'cloud 0']);
+    expect(reports.filter(({ type }) => type !== 'written')).toEqual([
+      { type: 'fileOpened', path: 'b.mcap', failed: 'another file is being written' },
+      { type: 'fileClosed' },
+      { type: 'fileOpened', path: 'b.mcap', failed: null },
+    ]);
+  });
+
+  it('says why a file cannot be begun, and begins another', async () => {
+    const { recorder, done, reports } = setUp();
+    await recorder.close();
+    recorder.onRequest({ type: 'openFile', path: 'full-disk.mcap' });
+    recorder.onRequest({ type: 'openFile', path: 'b.mcap' });
+    await recorder.addCloud(CLOUD);
+    expect(done.slice(2)).toEqual(['open b.mcap', 'cloud 0']);
+    expect(reports.slice(1)).toEqual([
+      { type: 'fileOpened', path: 'full-disk.mcap', failed: 'no space left on device' },
+      { type: 'fileOpened', path: 'b.mcap', failed: null },
+    ]);
   });
 });

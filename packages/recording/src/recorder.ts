@@ -21,6 +21,7 @@ export type RecorderTarget = Pick<
   | 'addVideos'
   | 'dropped'
   | 'faults'
+  | 'openFile'
 > & {
   readonly out: Pick<
     MessageOutputs,
@@ -30,7 +31,7 @@ export type RecorderTarget = Pick<
 
 /**
  * A recording in progress: processes requests in order. When the file is full or cannot be written, it ends; live
- * viewers go on.
+ * viewers go on, and another file may be begun.
  */
 export class Recorder {
   readonly #writer: RecorderTarget;
@@ -56,14 +57,18 @@ export class Recorder {
 
   /** Handles all requests except `close`. */
   onRequest(request: Exclude<RecorderRequest, { type: 'close' }>): void {
-    if (request.type === 'cameras') {
-      void this.#inTurn(async () => this.#writer.addCameras(request.cameras));
+    if (request.type === 'openFile') {
+      void this.#openFile(request.path);
+    } else if (request.type === 'closeFile') {
+      void this.#closeFile().then(() => this.#send({ type: 'fileClosed' }));
+    } else if (request.type === 'cameras') {
+      this.#describe(() => this.#writer.addCameras(request.cameras));
     } else if (request.type === 'videos') {
-      void this.#inTurn(async () => this.#writer.addVideos(request.videos));
+      this.#describe(() => this.#writer.addVideos(request.videos));
     } else if (request.type === 'telemetry') {
-      void this.#inTurn(async () => this.#writer.addTelemetry(request.quantities, request.alarms));
+      this.#describe(() => this.#writer.addTelemetry(request.quantities, request.alarms));
     } else if (request.type === 'components') {
-      void this.#inTurn(async () => this.#writer.addComponents(request.topic));
+      this.#describe(() => this.#writer.addComponents(request.topic));
     } else if (request.type === 'video') {
       const added = this.#inTurn(() => this.#writer.addVideo(request));
       void added.then(() => this.#send({ type: 'done', kind: 'videos' }));
@@ -89,11 +94,30 @@ export class Recorder {
 
   /** Completes and closes the file. */
   async close(): Promise<void> {
+    await this.#closeFile();
+  }
+
+  async #closeFile(): Promise<void> {
     await this.#inTurn(async () => {
       await this.#addOwnState();
       await this.#writer.out.closeFile();
     });
     this.#tell();
+  }
+
+  #openFile(path: string): Promise<void> {
+    this.#tail = this.#tail.then(async () => {
+      let failed: string | null = null;
+      try {
+        if (this.#writer.out.fileOpen) failed = 'another file is being written';
+        else await this.#writer.openFile(path);
+      } catch (error) {
+        this.#writer.out.abandonFile();
+        failed = detailOf(error);
+      }
+      this.#send({ type: 'fileOpened', path, failed });
+    });
+    return this.#tail;
   }
 
   /** Syncs without anything waiting for it: a slow disk shows in the number of dropped records. */
@@ -108,9 +132,15 @@ export class Recorder {
       });
   }
 
-  #inTurn(work: () => Promise<void>): Promise<void> {
+  /** In its turn, too, but also where nothing takes messages yet: a file may be begun later. */
+  #describe(work: () => void): void {
+    void this.#inTurn(async () => work(), true);
+  }
+
+  /** @param always also where nothing takes messages */
+  #inTurn(work: () => Promise<void>, always = false): Promise<void> {
     this.#tail = this.#tail.then(async () => {
-      if (!this.#writer.out.open) return;
+      if (!always && !this.#writer.out.open) return;
       try {
         await work().catch((error: unknown) => this.#endIfFull(error));
       } catch (error) {

@@ -22,6 +22,7 @@ import {
 import {
   FOXGLOVE_COMPRESSED_IMAGE_SCHEMA,
   FOXGLOVE_COMPRESSED_VIDEO_SCHEMA,
+  FOXGLOVE_LOG_SCHEMA,
   ODOMETRY_SCHEMA,
   POINT_CLOUD2_SCHEMA,
   TF_MESSAGE_SCHEMA,
@@ -32,6 +33,7 @@ import {
   CAMERA_FRAME,
   compressedImage,
   compressedVideo,
+  logLine,
   odometryOf,
   pointCloud2,
   transformOf,
@@ -47,6 +49,7 @@ const ROS_TOPICS = {
   tf: ['/tf', 'tf2_msgs/msg/TFMessage', TF_MESSAGE_SCHEMA],
   velocity: ['/farpoint/cmd_vel', 'geometry_msgs/msg/TwistStamped', TWIST_STAMPED_SCHEMA],
   odometry: ['/odom', 'nav_msgs/msg/Odometry', ODOMETRY_SCHEMA],
+  bookmark: ['/farpoint/bookmarks', 'foxglove_msgs/msg/Log', FOXGLOVE_LOG_SCHEMA],
 } as const;
 type RosKind = keyof typeof ROS_TOPICS;
 
@@ -65,7 +68,7 @@ export class RecordingWriter {
     videos: 0,
   };
   readonly out: MessageOutputs;
-  readonly #epochNs: bigint;
+  readonly #options: RecorderOptions;
   readonly #decoder: SentCloudDecoder;
   readonly #channels = new Map<RosKind | JsonKind, number>();
   #cameras: { channel: number; frame: string }[] = [];
@@ -78,9 +81,9 @@ export class RecordingWriter {
   #newestNs = 0n;
   #lastTransformNs = 0n;
 
-  private constructor(out: MessageOutputs, epochNs: bigint, decoder: SentCloudDecoder) {
+  private constructor(out: MessageOutputs, options: RecorderOptions, decoder: SentCloudDecoder) {
     this.out = out;
-    this.#epochNs = epochNs;
+    this.#options = options;
     this.#decoder = decoder;
     this.#telemetry = new TelemetryChannels(out, (ms) => this.#nsOf(ms));
     for (const [kind, [topic, name, text]] of Object.entries(ROS_TOPICS)) {
@@ -94,14 +97,21 @@ export class RecordingWriter {
 
   /** @throws {Error} if the file already exists or cannot be created */
   static async create(
-    { path, compression, mostBytes, epochNs, robotId }: RecorderOptions,
+    options: RecorderOptions,
     live: LiveServer | null,
     decoder: SentCloudDecoder,
   ): Promise<RecordingWriter> {
-    const file = path === null ? null : await McapFileWriter.create(path, compression, 'farpoint', mostBytes);
-    const writer = new RecordingWriter(new MessageOutputs(file, live), epochNs, decoder);
-    await file?.addMetadata('farpoint', { robot: robotId, epochNs: String(epochNs) });
+    const writer = new RecordingWriter(new MessageOutputs(null, live), options, decoder);
+    if (options.path !== null) await writer.openFile(options.path);
     return writer;
+  }
+
+  /** Begins a file. The one before must be closed. @throws {Error} if it already exists or cannot be created */
+  async openFile(path: string): Promise<void> {
+    const { compression, mostBytes, epochNs, robotId } = this.#options;
+    const file = await McapFileWriter.create(path, compression, 'farpoint', mostBytes);
+    this.out.openFile(file);
+    await file.addMetadata('farpoint', { robot: robotId, epochNs: String(epochNs) });
   }
 
   /** What live viewers subscribe to. */
@@ -112,6 +122,7 @@ export class RecordingWriter {
     const events: EventKind[] = (Object.keys(JSON_TOPICS) as JsonKind[]).filter(wants);
     if (wants('velocity')) events.push('velocity');
     if (wants('tf') || wants('odometry')) events.push('state');
+    if (wants('bookmark')) events.push('bookmark');
     events.push(...this.#telemetry.liveWishes);
     return {
       clouds: { captured: wants('captured'), sent: wants('sent') },
@@ -244,6 +255,9 @@ export class RecordingWriter {
       case 'velocity':
         await this.#add('velocity', sequence, ns, () => twistStamped(ns, record.twist));
         break;
+      case 'bookmark':
+        await this.#add('bookmark', sequence, ns, () => logLine(ns, record.by, record.text));
+        break;
       case 'state':
         // Viewers place frames only by tf: without this transform, data in base_link would have no position.
         await this.#addTransform(ns, BASE_FRAME, record.pose);
@@ -290,6 +304,6 @@ export class RecordingWriter {
   }
 
   #nsOf(ms: number): bigint {
-    return this.#epochNs + BigInt(Math.round(ms * 1000)) * 1000n;
+    return this.#options.epochNs + BigInt(Math.round(ms * 1000)) * 1000n;
   }
 }

@@ -76,6 +76,15 @@ export const ALARM_SCHEMA = schema(
   TIME,
 );
 
+/** A line of a log, which Foxglove lists. */
+export const FOXGLOVE_LOG_SCHEMA = schema(
+  [
+    'builtin_interfaces/Time timestamp',
+    ...['uint8 level', 'string message', 'string name', 'string file', 'uint32 line'],
+  ].join('\n'),
+  TIME,
+);
+
 export const TF_MESSAGE_SCHEMA = schema(
   'geometry_msgs/TransformStamped[] transforms',
   'MSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\nTransform transform',

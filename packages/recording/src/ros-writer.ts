@@ -8,6 +8,7 @@ import type { VideoFormatName } from './recorder-messages.ts';
 import {
   FOXGLOVE_COMPRESSED_IMAGE_SCHEMA,
   FOXGLOVE_COMPRESSED_VIDEO_SCHEMA,
+  FOXGLOVE_LOG_SCHEMA,
   ODOMETRY_SCHEMA,
   POINT_CLOUD2_SCHEMA,
   TF_MESSAGE_SCHEMA,
@@ -24,6 +25,10 @@ const velocities = velocityWriter(2, 'geometry_msgs/msg/TwistStamped');
 const odometry = writerOf(ODOMETRY_SCHEMA);
 const pictures = writerOf(FOXGLOVE_COMPRESSED_IMAGE_SCHEMA);
 const videos = writerOf(FOXGLOVE_COMPRESSED_VIDEO_SCHEMA);
+const logLines = writerOf(FOXGLOVE_LOG_SCHEMA);
+
+/** Of foxglove.Log. */
+const INFO = 2;
 
 const FIELDS = ['x', 'y', 'z', 'rgb'].map((name, i) => ({
   name,
@@ -118,4 +123,11 @@ export function odometryOf(stampNs: bigint, pose: Pose, twist: Twist): Uint8Arra
     pose: { pose, covariance: NO_COVARIANCE },
     twist: { twist, covariance: NO_COVARIANCE },
   });
+}
+
+/** @param name of what says it */
+export function logLine(stampNs: bigint, name: string, message: string): Uint8Array {
+  const timestamp = timeOf(stampNs);
+  const texts = { message: cdrText(message), name: cdrText(name), file: '' };
+  return logLines.writeMessage({ timestamp, level: INFO, ...texts, line: 0 });
 }

@@ -53,7 +53,7 @@ const frameOf = (video: number, k: number): Uint8Array<ArrayBuffer> =>
 const written = (tap: CloudTap) => eventually(() => tap.pending === 0);
 
 type RecorderOptions = Parameters<typeof SessionRecorder.open>[0];
-const open = (path: string, more: Partial<RecorderOptions> = {}) =>
+const open = (path: string | null, more: Partial<RecorderOptions> = {}) =>
   SessionRecorder.open({ path, compression: 'none', robotId: 'test', epochNs: 0n, ...more });
 
 /** Captures 10,000 points. */
@@ -87,6 +87,11 @@ async function reopened(path: string) {
   const recording = await openRecording(path);
   onTestFinished(() => recording.close());
   return recording;
+}
+
+/** Lets the writer tell the tap that a file is open, or is not. */
+async function told(tap: CloudTap, recording: boolean): Promise<void> {
+  while (tap.recording !== recording) await new Promise((resolve) => setTimeout(resolve, 1));
 }
 
 async function record(path: string, compression: 'none' | 'zstd' = 'none'): Promise<SessionRecorder> {
@@ -143,14 +148,14 @@ function recorded(compression: 'none' | 'zstd'): Promise<{ path: string; recorde
 describe('SessionRecorder', { timeout: 60_000 }, () => {
   it.each(['none', 'zstd'] as const)('what it records (%s) can be played', async (compression) => {
     const { path, recorder } = await recorded(compression);
-    expect(recorder.bytes).toBe(statSync(path).size);
+    expect(recorder.file.bytes).toBe(statSync(path).size);
     const recording = await reopened(path);
     expect(recording.warning).toBeNull();
     const counts = Object.fromEntries(recording.topics.map(({ name, messages }) => [name, messages]));
     expect(counts).toMatchObject({ '/farpoint/captured': FRAMES, '/tf': 2 * FRAMES, '/odom': FRAMES });
     expect(counts).toMatchObject({ '/farpoint/cmd_vel': FRAMES, '/farpoint/telemetry': FRAMES });
     expect(counts).toMatchObject({ [FRONT]: FRAMES, [REAR]: FRAMES / 3 });
-    expect(recorder.messages).toBe(FRAMES * 9 + FRAMES / 3 + (counts['/farpoint/recorder'] ?? 0));
+    expect(recorder.file.messages).toBe(FRAMES * 9 + FRAMES / 3 + (counts['/farpoint/recorder'] ?? 0));
 
     const clock = new FakeClock();
     const player = await CloudPlayer.open({ ...PLAY_ALL, path, along: [FRONT, REAR] }, clock);
@@ -244,7 +249,7 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
       const { size } = statSync(path);
       expect(size).toBeLessThanOrEqual(mostBytes);
       expect(size).toBeGreaterThan(mostBytes * 0.8);
-      expect(recorder.bytes).toBe(size);
+      expect(recorder.file.bytes).toBe(size);
       expect(recording.warning).toBeNull();
       const messages = new Map(recording.topics.map((topic) => [topic.name, topic.messages]));
       const { length: clouds } = await timesOf(recording, '/farpoint/captured');
@@ -365,6 +370,78 @@ describe('SessionRecorder', { timeout: 60_000 }, () => {
   });
 });
 
+describe('files one after another', { timeout: 30_000 }, () => {
+  it('are each complete, with all topics, bookmarks, and videos from a key frame on', async () => {
+    const [first, second] = ['first.mcap', 'second.mcap'].map((name) => join(folder, name)) as [
+      string,
+      string,
+    ];
+    const recorder = await open(null, { epochNs: 1_700_000_000_000_000_000n });
+    const asked: number[] = [];
+    recorder.onKeyFrameNeeded = (video) => asked.push(video);
+    recorder.cameras(CAMERAS);
+    recorder.videos([{ name: 'Front', format: 'h264' }]);
+    const tap = new CloudTap(recorder.clouds, { captured: 1000, sent: 0 });
+    const depth = new Float32Array(16 * 12).fill(2);
+    const colour = new Uint32Array(16 * 12);
+    let k = 0;
+    /** A frame of everything. */
+    const step = async (key: boolean) => {
+      const stamp = { cameraPose: poseAt(k), capturedAtMs: k * 100 };
+      tap.captured({ form: 'images', depth, colour, ...stamp }, GRID);
+      recorder.video({ video: 0, capturedAtMs: k * 100, key, format: 'h264', bytes: frameOf(0, k) });
+      recorder.json('telemetry', k * 100, { k });
+      k++;
+      await written(tap);
+    };
+    await told(tap, false);
+    await step(true);
+    expect(recorder.writing).toBe(false);
+    await recorder.file.open(first);
+    await told(tap, true);
+    await expect(recorder.file.open(second)).rejects.toThrow('another file is being written');
+    await step(false);
+    await step(true);
+    recorder.bookmark(k * 100, 'Ann', 'wheel slips – here');
+    await step(false);
+    await recorder.file.close();
+    await told(tap, false);
+    await step(false);
+    await expect(recorder.file.open(first)).rejects.toThrow('EEXIST');
+    await recorder.file.open(second);
+    await told(tap, true);
+    await step(false);
+    await step(true);
+    await recorder.close();
+
+    const countsOf = async (path: string) => {
+      const recording = await reopened(path);
+      expect(recording.warning).toBeNull();
+      const counts = Object.fromEntries(recording.topics.map(({ name, messages }) => [name, messages]));
+      const marks: unknown[] = [];
+      for await (const { topic, data } of recording.messages(['/farpoint/bookmarks'], 0n))
+        marks.push(topic.decode(data));
+      return { counts, marks };
+    };
+    const one = await countsOf(first);
+    expect(one.counts).toMatchObject({
+      ...{ '/farpoint/captured': 3, '/farpoint/telemetry': 3, '/farpoint/videos/Front': 2 },
+      [FRONT]: 0,
+    });
+    expect(one.marks).toMatchObject([
+      { message: 'wheel slips – here', name: 'Ann', timestamp: { sec: 1_700_000_000 } },
+    ]);
+    const two = await countsOf(second);
+    expect(two.counts).toMatchObject({
+      ...{ '/farpoint/captured': 2, '/farpoint/telemetry': 2, '/farpoint/videos/Front': 1 },
+      '/farpoint/bookmarks': 0,
+    });
+    expect(two.marks).toEqual([]);
+    expect(recorder.file.bytes).toBe(statSync(first).size + statSync(second).size);
+    expect(asked).toContain(0);
+  });
+});
+
 const peers = Peers.install();
 describe.skipIf(typeof peers === 'string')(
   `recordings read by PyPI’s mcap and rosbags ${typeof peers === 'string' ? `(${peers})` : ''}`,
@@ -376,7 +453,7 @@ describe.skipIf(typeof peers === 'string')(
         const { path, recorder } = await recorded(compression);
         const { topics, messages, profile } = (peers as Peers).read(path);
         expect(profile).toBe('ros2');
-        expect(messages).toBe(recorder.messages);
+        expect(messages).toBe(recorder.file.messages);
         for (const topic of ['/farpoint/captured', '/odom', '/farpoint/cmd_vel', '/farpoint/telemetry']) {
           expect(topics[topic]).toMatchObject({ count: FRAMES, sequence: FRAMES - 1 });
         }

@@ -2,6 +2,7 @@ import { MessageChannel, type MessagePort, Worker } from 'node:worker_threads';
 import type { DiagnosticReport, PictureFormat, Pose, Twist } from '@farpoint/protocol';
 import { CreditQueue } from './credit-queue.ts';
 import { RecordingError } from './errors.ts';
+import { RecordedFile } from './recorded-file.ts';
 import {
   type DropKind,
   type EventKind,
@@ -40,17 +41,16 @@ type VideoItem = CodedVideoFrame & Pick<VideoRecord, 'sequence' | 'to'>;
 export class SessionRecorder {
   /** For the capture thread, which makes a `CloudTap` of it. */
   readonly clouds: MessagePort;
-  /** Called once when the file reaches its maximum size: it is then closed and complete. */
+  /** Called when a file reaches its maximum size: it is then closed and complete. */
   onFull: (() => void) | null = null;
-  /** Called once if nothing more can be written. The robot continues. */
+  /** Called if nothing more can be written to a file. The robot continues. */
   onFailure: ((error: RecordingError) => void) | null = null;
   /** Called when a video can go on with a key frame only, or should have one again. */
   onKeyFrameNeeded: ((video: number) => void) | null = null;
   /** Called when live viewers want something else. */
   onLiveWishes: (() => void) | null = null;
-  /** Messages so far. */
-  messages = 0;
-  bytes = 0;
+  /** What is written to, one after another. */
+  readonly file: RecordedFile;
   /** Clouds and pictures that could not be converted to messages. */
   faults = 0;
   #cloudsDropped = { captured: 0, sent: 0 };
@@ -61,16 +61,14 @@ export class SessionRecorder {
   /** The port on which live viewers connect, or why they cannot; `null` if they are not served. */
   readonly live: { port: number } | { failed: string } | null;
   readonly #worker: Worker;
-  readonly #path: string | null;
   readonly #events: CreditQueue<EventRecord>;
   readonly #pictures: CreditQueue<Omit<PictureRecord, 'dropped'>>;
   readonly #videos: VideoQueue<VideoItem>;
   readonly #sequences = new Map<string, number>();
+  #videoCount = 0;
   /** Topics with reports of components. */
   readonly #components = new Set<string>();
   #closing = false;
-  #failed = false;
-  #full = false;
 
   private constructor(
     worker: Worker,
@@ -79,7 +77,11 @@ export class SessionRecorder {
     live: SessionRecorder['live'],
   ) {
     this.#worker = worker;
-    this.#path = path;
+    this.file = new RecordedFile(path, (request) => this.#post(request));
+    // Each video of a file begins with a key frame.
+    this.file.onOpened = () => {
+      for (let video = 0; video < this.#videoCount; video++) this.#videos.skip(video);
+    };
     this.live = live;
     this.clouds = clouds;
     this.#events = new CreditQueue(LIMITS, (event) => this.#post(event));
@@ -87,7 +89,10 @@ export class SessionRecorder {
     this.#videos = new VideoQueue(VIDEO_LIMITS, (frame) => this.#postVideo(frame));
     this.#videos.onKeyFrameNeeded = (video) => this.onKeyFrameNeeded?.(video);
     worker.on('message', (report: RecorderReport) => this.#onReport(report));
-    worker.on('error', (error) => this.#fail(error instanceof Error ? error.message : String(error)));
+    worker.on('error', (error) => {
+      this.file.die();
+      this.#fail(error instanceof Error ? error.message : String(error));
+    });
   }
 
   /** @throws {RecordingError} if the file already exists or cannot be created */
@@ -140,6 +145,7 @@ export class SessionRecorder {
 
   /** The cameras whose videos are recorded: call once, before the first frame. */
   videos(videos: readonly RecordedVideo[]): void {
+    this.#videoCount = videos.length;
     this.#post({ type: 'videos', videos: videos.map(({ name, format }) => ({ name, format })) });
   }
 
@@ -174,6 +180,12 @@ export class SessionRecorder {
   velocity(timeMs: number, twist: Twist): void {
     if (!this.takes('velocity')) return;
     this.#events.push({ type: 'velocity', timeMs, twist, sequence: this.#next('velocity') });
+  }
+
+  /** Marks an instant that somebody wants to find again. @param by who wants it @param text says which, for people */
+  bookmark(timeMs: number, by: string, text: string): void {
+    if (!this.takes('bookmark')) return;
+    this.#events.push({ type: 'bookmark', timeMs, by, text, sequence: this.#next('bookmark') });
   }
 
   /** Records the robot's pose and velocity. */
@@ -231,18 +243,18 @@ export class SessionRecorder {
 
   /** Whether what comes is still written to a file: until it is full, cannot be written, or is closed. */
   get writing(): boolean {
-    return this.#path !== null && !this.#closing && !this.#failed && !this.#full;
+    return this.file.writing && !this.#closing;
   }
 
   #onReport(report: RecorderReport): void {
     if (report.type === 'done') this.#queues[report.kind].done();
     else if (report.type === 'written') {
-      this.messages = report.messages;
-      this.bytes = report.bytes;
+      this.file.onReport(report);
       this.faults = report.faults;
       this.#cloudsDropped = report.dropped;
-    } else if (report.type === 'full') {
-      this.#full = true;
+    } else if (report.type === 'fileOpened' || report.type === 'fileClosed') this.file.onReport(report);
+    else if (report.type === 'full') {
+      this.file.onReport(report);
       this.onFull?.();
     } else if (report.type === 'failed') this.#fail(report.detail);
     else if (report.type === 'wishes') {
@@ -279,9 +291,7 @@ export class SessionRecorder {
   }
 
   #fail(detail: string): void {
-    if (this.#failed) return;
-    this.#failed = true;
-    const where = this.#path === null ? {} : { file: this.#path };
-    this.onFailure?.(new RecordingError('unreadable', `recording stopped: ${detail}`, where));
+    const error = this.file.failed(detail);
+    if (error !== null) this.onFailure?.(error);
   }
 }

@@ -2,6 +2,7 @@
  * A live ROS graph, independent of its transport: ROS 1 through its master, ROS 2 through DDS. It passes bytes and does
  * not know what messages contain. Types are in ROS 2 notation, `sensor_msgs/msg/PointCloud2`, also for ROS 1.
  */
+import type { MessageDefinition } from '@foxglove/message-definition';
 import type { RosFault } from './fault.ts';
 
 /** Settings that subscriber and publisher of ROS 2 must agree on. ROS 1 has TCP, and latching for `transient-local`. */
@@ -52,6 +53,8 @@ export interface Subscription {
 export interface AdvertiseAs {
   topic: string;
   type: string;
+  /** Of a type that is not one of ROS’s own, itself first. ROS 1 tells them to subscribers; ROS 2 needs none. */
+  definitions?: readonly MessageDefinition[] | undefined;
   /** Default: {@link RELIABLE_QOS}. */
   qos?: Qos | undefined;
 }

@@ -3,6 +3,15 @@ export { compressedPicture } from './compressed-picture.ts';
 export { definitionsOf } from './definitions.ts';
 export { DIAGNOSTIC_LEVELS, DiagnosticBoard } from './diagnostic-board.ts';
 export { messageFault, RosFault, type RosFaultCode } from './fault.ts';
+export { fixedMessage } from './fixed-message.ts';
+export {
+  actionTypes,
+  cancelMessage,
+  goalDefinitions,
+  goalMessage,
+  isLastStatus,
+  readGoalStatus,
+} from './goal-wire.ts';
 export {
   type AdvertiseAs,
   type GraphTopic,

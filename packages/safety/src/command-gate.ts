@@ -159,9 +159,13 @@ export class CommandGate {
     return rejected('malformed', detail.slice(0, 200));
   }
 
-  /** Learns the transit time from another timestamped message of the same channel: a clock probe. */
-  observeClock(operatorId: string, sentMs: number, nowMs: number): void {
-    this.#operator(operatorId).delay.observe(sentMs, nowMs);
+  /**
+   * Learns the transit time from another timestamped message.
+   *
+   * @returns how much longer than usual it was under way, ms
+   */
+  observeClock(operatorId: string, sentMs: number, nowMs: number): number {
+    return this.#operator(operatorId).delay.observe(sentMs, nowMs);
   }
 
   /**

@@ -128,6 +128,11 @@ export class DriveGuard {
     this.#gate.observeClock(operatorId, sentMs, nowMs);
   }
 
+  /** @param sentMs the operator's clock @returns how much longer than usual the message was under way, ms */
+  lateMs(operatorId: string, sentMs: number, nowMs: number): number {
+    return this.#gate.observeClock(operatorId, sentMs, nowMs);
+  }
+
   /** A picture or cloud was sent to the operator. */
   onViewSent(operatorId: string, nowMs: number): void {
     if (this.#leases.holder === operatorId) this.view.sent(nowMs);

@@ -55,6 +55,10 @@ export class RobotCounters {
   readonly messagesRefused = new ReasonCounts();
   /** Ends of requests for the drive and offers of it: `ask-refused`, `offer-accepted` and so on. */
   readonly handovers = new ReasonCounts();
+  /** Commands that were begun, by id. */
+  readonly commandCalls = new ReasonCounts();
+  /** What became of commands: how they ended, or why they were refused. */
+  readonly commandOutcomes = new ReasonCounts();
   framesCaptured = 0;
   /** Frames that were captured, but too old when they left the worker. */
   framesStale = 0;

@@ -17,6 +17,7 @@ import type { PicturePolicy } from '../sense/pictures/picture-plan.ts';
 import type { SoundOptions } from '../sense/sound/open-sound-devices.ts';
 import type { BroadcastOptions } from '../serve/broadcast/broadcast-options.ts';
 import type { VideoCameraOptions } from '../serve/cameras/open-video-cameras.ts';
+import type { CommandsConfiguration } from '../serve/commands/command-configuration.ts';
 import type { OperatorPlacesOptions } from '../serve/session/operator-places.ts';
 import type { AlarmRule } from '../tell/alarms/alarm-board.ts';
 import type { LiveOptions, RecordingOptions } from '../tell/recording-options.ts';
@@ -62,6 +63,8 @@ export interface RobotOptions extends RateControlOptions {
   fence?: FenceOptions | undefined;
   /** How it drives back by itself when it hears no operator; if undefined, never. */
   returns?: ReturnConfiguration | undefined;
+  /** What operators may make it do besides driving; if undefined, nothing. */
+  commands?: CommandsConfiguration | undefined;
   /** The stops at the robot itself. */
   stops: RobotStopsOptions;
   /** Where the robot remembers its emergency stop and revoked grants across restarts. */

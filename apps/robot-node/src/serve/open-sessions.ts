@@ -8,7 +8,7 @@ import type { RobotSessionHost } from './session/robot-session-host.ts';
 
 type Given = Pick<
   OperatorSessionsOptions,
-  'grants' | 'robotKey' | 'signaling' | 'counters' | 'audit' | 'packetLog' | 'log'
+  'grants' | 'robotKey' | 'signaling' | 'counters' | 'audit' | 'commands' | 'stands' | 'packetLog' | 'log'
 >;
 
 export interface SessionsParts extends Given {

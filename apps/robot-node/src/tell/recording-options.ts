@@ -12,13 +12,15 @@ export type RecordedVideos = (typeof RECORDED_VIDEOS)[number];
 export const FOXGLOVE_REACHES = ['localhost', 'network'] as const;
 
 export interface RecordingOptions {
-  /** Path of the MCAP file, which must not exist yet. */
-  path: string;
+  /** Path of the MCAP file that is written from the start, which must not exist yet; `null` for none. */
+  path: string | null;
+  /** Where operators' recordings go, and the size of all of them, bytes; `null`: operators begin none. */
+  folder: { path: string; mostBytes: number } | null;
   compression: 'none' | 'zstd';
   /** Highest number of clouds per second; 0 records none. */
   clouds: Readonly<Record<CloudKind, number>>;
   videos: RecordedVideos;
-  /** The recording ends, complete, before it exceeds this size. */
+  /** A recording ends, complete, before it exceeds this size. */
   mostBytes: number;
 }
 

@@ -28,6 +28,7 @@ import type { ReadyPicture } from '../sense/pictures/picture-messages.ts';
 import type { VideoCamera } from '../sense/video/video-encoder.ts';
 import type { EncodedPicture } from '../sense/video/video-frame.ts';
 import type { VideoTaker } from '../sense/video/video-hub.ts';
+import type { RecordControl } from './record-control.ts';
 import type { RecordedVideos, SessionOutputs } from './recording-options.ts';
 import { durationWords, recordingBytesPerSecond, sizeWords } from './recording-rate.ts';
 import type { TelemetryTaker } from './sample-board.ts';
@@ -53,17 +54,19 @@ const UNSEEN = 'these cameras are in VP8, which this robot plays but Foxglove an
 const SEEN_REMEDY = 'an H.264 encoder (docs/video.md)';
 
 /** The main thread's part of a recording, and of the live server. The clouds come from the capture thread. */
-export class SessionRecording implements VideoTaker {
+export class SessionRecording implements RecordControl, VideoTaker {
+  readonly robotId: string;
   readonly capture: CaptureRecording;
   readonly #recorder: SessionRecorder;
   readonly #options: SessionOutputs;
   readonly #log: Logger;
   readonly #keyFramesMs = new Map<number, number>();
-  /** Called once nothing is written to a file any more, although the robot goes on. */
-  onEnded: (() => void) | null = null;
-  #ended = false;
+  /** Called when a file begins, or ends before the robot does. */
+  onChanged: (() => void) | null = null;
+  #beganMs = monotonicMs();
 
-  private constructor(recorder: SessionRecorder, options: SessionOutputs, log: Logger) {
+  private constructor(recorder: SessionRecorder, options: SessionOutputs, robotId: string, log: Logger) {
+    this.robotId = robotId;
     this.#recorder = recorder;
     this.#options = options;
     this.#log = log;
@@ -91,17 +94,17 @@ export class SessionRecording implements VideoTaker {
             ownNames: foxglove.ownNames,
           };
     const recorder = await SessionRecorder.open({ path, compression, robotId, epochNs, mostBytes, live });
-    const recording = new SessionRecording(recorder, options, log);
+    const recording = new SessionRecording(recorder, options, robotId, log);
     recorder.onFailure = (error) => {
       log.error({ err: error }, 'the recording ends; the robot goes on');
-      recording.#end();
+      recording.onChanged?.();
     };
     recorder.onFull = () => {
       log.warn(
-        { path, bytes: recorder.bytes, remedy: MORE_ROOM },
+        { path: recorder.file.path, bytes: recorder.file.size, remedy: MORE_ROOM },
         `the recording has reached ${sizeWords(mostBytes)} and is closed, whole; the robot goes on`,
       );
-      recording.#end();
+      recording.onChanged?.();
     };
     recording.#logLive();
     return recording;
@@ -109,12 +112,42 @@ export class SessionRecording implements VideoTaker {
 
   /** Whether the session is being written to a file now. */
   get writes(): boolean {
-    return this.#options.record !== null && !this.#ended;
+    return this.#recorder.writing;
   }
 
-  #end(): void {
-    this.#ended = true;
-    this.onEnded?.();
+  get folder(): RecordControl['folder'] {
+    return this.#options.record?.folder ?? null;
+  }
+
+  /** The file that the robot itself writes from its start is not the operators'. */
+  get isOwn(): boolean {
+    return this.writes && this.#recorder.file.path === this.#options.record?.path;
+  }
+
+  get progress(): RecordControl['progress'] {
+    return { bytes: this.#recorder.file.size, forS: (monotonicMs() - this.#beganMs) / 1000 };
+  }
+
+  async start(path: string): Promise<void> {
+    await this.#recorder.file.open(path);
+    this.#beganMs = monotonicMs();
+    this.#log.info({ path }, 'a recording begins');
+    this.onChanged?.();
+  }
+
+  async stop(): Promise<string | null> {
+    const { path } = this.#recorder.file;
+    try {
+      await this.#recorder.file.close();
+    } finally {
+      this.onChanged?.();
+    }
+    this.#log.info({ path }, 'the recording is complete');
+    return path;
+  }
+
+  bookmark(by: string, text: string): void {
+    this.#recorder.bookmark(monotonicMs(), by, text);
   }
 
   /** Logs how fast the recording will grow, and where it ends. */
@@ -127,6 +160,7 @@ export class SessionRecording implements VideoTaker {
     if (record === null) return;
     const { capacity, framesPerSecond = mostFramesPerSecond } = description;
     const { path, clouds, mostBytes } = record;
+    if (path === null) return;
     const bytesPerSecond = recordingBytesPerSecond({
       perSecond: clouds,
       points: capacity,
@@ -147,11 +181,11 @@ export class SessionRecording implements VideoTaker {
 
   /** For `/metrics`: what was written, and what was not because the disk or the processor did not keep up. */
   get counts(): { messages: number; bytes: number; dropped: Readonly<Record<DropKind, number>> } {
-    const { messages, bytes, dropped } = this.#recorder;
-    return { messages, bytes, dropped };
+    const { file, dropped } = this.#recorder;
+    return { messages: file.messages, bytes: file.bytes, dropped };
   }
 
-  /** Whether there is a file. */
+  /** Whether files are written, or may be. */
   get hasFile(): boolean {
     return this.#options.record !== null;
   }

@@ -1,5 +1,6 @@
 /** Passes the link's events to a client's parts and listeners. */
 import type { CloudReceiver } from '../cloud/cloud-receiver.ts';
+import type { RobotCommands } from '../commands/robot-commands.ts';
 import type { Driver } from '../drive/driver.ts';
 import type { SeenView } from '../drive/seen-view.ts';
 import type { LatencyProbe } from '../latency/latency-probe.ts';
@@ -21,6 +22,7 @@ export interface LinkedClient {
   readonly statistics: StreamStatistics;
   readonly seen: SeenView;
   readonly stops: StopDelivery;
+  readonly commands: RobotCommands;
   pointsAtMs: number;
 }
 
@@ -53,6 +55,7 @@ function sessionEvents(client: LinkedClient, parts: ClientParts, tracks: VideoTr
       if (phase !== 'live') {
         client.driver.reset();
         client.latency.fail('no-session');
+        client.commands.reset();
         if (phase === 'none') sound.reset();
         else sound.release();
       }
@@ -72,6 +75,7 @@ function sessionEvents(client: LinkedClient, parts: ClientParts, tracks: VideoTr
       client.statistics.reset();
       client.seen.reset();
       client.stops.onSession();
+      client.commands.reset();
       emitter.emit('session', generation);
     },
   } satisfies Partial<RobotLinkEvents>;
@@ -98,6 +102,10 @@ function driveEvents(client: LinkedClient, { emitter, tellFormats }: ClientParts
       client.stops.onState(estop);
       emitter.emit('estop', estop);
     },
+    onRobotCommand: (command) => client.commands.onCommand(command),
+    onCommandRun: (run) => client.commands.onRun(run),
+    onCommandRefused: (refused) => client.commands.onRefused(refused),
+    onRecording: (recording) => client.commands.onRecording(recording),
     onEstopAck: (press) => client.stops.onAck(press),
     onLatencyFrame: (frame) => client.latency.onRobotFrame(frame),
     onStages: (times, nowMs) => client.statistics.onStages(times, nowMs),

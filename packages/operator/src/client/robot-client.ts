@@ -8,6 +8,7 @@ import {
 } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
 import { ReadableFormats } from '../cloud/readable-formats.ts';
+import { RobotCommands } from '../commands/robot-commands.ts';
 import { Driver } from '../drive/driver.ts';
 import { presentRobot, RobotSwitch } from '../drive/robot-switch.ts';
 import { SeenView } from '../drive/seen-view.ts';
@@ -43,6 +44,8 @@ export class RobotClient {
   readonly driver: Driver;
   /** Asks for the drive, and offers it. */
   readonly people: PeopleRequests;
+  /** What the robot can be made to do besides driving: lights, docking, a recording. */
+  readonly commands: RobotCommands;
   /** What is on the operator's screen, which each command tells the robot. */
   readonly seen = new SeenView();
   /** Gets STOP to the robot. */
@@ -88,6 +91,11 @@ export class RobotClient {
       onGripMissing: (device) => this.#emitter.emit('gripMissing', device),
     });
     this.people = new PeopleRequests(this.link);
+    this.commands = new RobotCommands({
+      send: (request) => this.#request(request),
+      onChange: (commands) => this.#emitter.emit('commands', commands),
+      onEnd: (end) => this.#emitter.emit('commandEnd', end),
+    });
     this.stops = new StopDelivery(this.link, (status) => this.#emitter.emit('stop', status));
     this.latency = new LatencyProbe(this.link, this.driver, (result) => {
       this.statistics.onResult(result);
@@ -295,6 +303,7 @@ export class RobotClient {
   update(nowMs: number): void {
     this.#wish.lapse(nowMs);
     this.stops.sendDue(nowMs);
+    this.commands.tick(nowMs);
     this.driver.sendDue(nowMs);
     this.#switch.decide(presentRobot(this.link, this.driver.holder), nowMs);
     this.latency.sendDue(nowMs);

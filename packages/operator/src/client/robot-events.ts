@@ -22,6 +22,7 @@ import type {
   Welcome,
 } from '@farpoint/protocol';
 import type { Batch } from '../cloud/batch.ts';
+import type { CommandEnd, RobotCommands } from '../commands/robot-commands.ts';
 import type { DriveInput } from '../drive/drive-input.ts';
 import type { GripLoss } from '../drive/grips.ts';
 import type { LatencyResult } from '../latency/latency-test.ts';
@@ -65,6 +66,10 @@ export interface RobotEvents {
    * what has become of it.
    */
   handover: Handover;
+  /** The robot's commands besides driving, what runs of them, or its recording has changed. */
+  commands: RobotCommands;
+  /** What has become of one of these commands: of each that ended, and of those of this operator that were refused. */
+  commandEnd: CommandEnd;
   /** The robot refused a command. */
   commandRejected: CommandRejected;
   /** The emergency stop, latched or released. */

@@ -5,7 +5,9 @@ import {
   type Cameras,
   ClockOffset,
   type CloudStream,
+  type CommandRefused,
   type CommandRejected,
+  type CommandRun,
   type Diagnostics,
   decodeJson,
   type EstopCause,
@@ -23,7 +25,9 @@ import {
   ProtocolError,
   type Quantity,
   type Reading,
+  type RecordingState,
   type RobotAbout,
+  type RobotCommand,
   type RobotSessionMessage,
   robotControlCodec,
   robotSessionCodec,
@@ -61,6 +65,14 @@ export interface RobotSessionEvents {
   onOperators(operators: Operators): void;
   /** A request for the drive or an offer of it, made or ended, that concerns this operator. */
   onHandover(handover: Handover): void;
+  /** A command that the robot takes besides driving, or whether it may be given has changed. */
+  onRobotCommand(command: RobotCommand): void;
+  /** Such a command was begun, progresses or has ended. */
+  onCommandRun(run: CommandRun): void;
+  /** The robot has refused such a command of this operator. */
+  onCommandRefused(refused: CommandRefused): void;
+  /** How much the robot has recorded. */
+  onRecording(recording: RecordingState): void;
   /** The robot has refused a command. */
   onRejected(rejected: CommandRejected): void;
   /** The state of the emergency stop. */
@@ -182,6 +194,10 @@ export class RobotSession {
       this.people.onHandover(handover, nowMs);
       this.#events.onHandover(handover);
     },
+    robotCommand: (command) => this.#events.onRobotCommand(command),
+    commandRun: (run) => this.#events.onCommandRun(run),
+    commandRefused: (refused) => this.#events.onCommandRefused(refused),
+    recording: (recording) => this.#events.onRecording(recording),
     rejected: (rejected) => this.#events.onRejected(rejected),
     estop: (estop) => {
       this.estop = estop;

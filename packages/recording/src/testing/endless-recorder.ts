@@ -16,5 +16,5 @@ setInterval(() => {
     { width: 100, height: 100, camera: null },
   );
   recorder.json('telemetry', k * 10, { k });
-  process.stdout.write(`${recorder.messages}\n`);
+  process.stdout.write(`${recorder.file.messages}\n`);
 }, 10);

@@ -188,8 +188,8 @@ class Ros1Graph implements RosGraph {
     return own;
   }
 
-  advertise({ topic, type, qos }: AdvertiseAs): Publisher {
-    const definitions = definitionsOf(1, type);
+  advertise({ topic, type, qos, definitions: given }: AdvertiseAs): Publisher {
+    const definitions = given === undefined ? definitionsOf(1, type) : [...given];
     if (definitions === null) throw new RosFault('unsupported', `publishing ${type}`, { topic });
     if (this.#publications.has(topic)) throw new RosFault('refused', 'it is already published', { topic });
     const latched = qos?.durability === 'transient-local';

@@ -12,6 +12,7 @@ const nodesOfTopics = z.array(z.tuple([z.string(), z.array(z.string())]));
 const systemState = z.tuple([nodesOfTopics, nodesOfTopics, z.unknown()]);
 const topicTypes = z.array(z.tuple([z.string(), z.string()]));
 const urls = z.array(z.string());
+const url = z.string();
 
 /** Who publishes and subscribes to what, nodes by name. */
 export interface MasterState {
@@ -59,6 +60,11 @@ export class Master {
   /** @throws {Error} */
   async registerPublisher(topic: string, type: string): Promise<void> {
     await answer(this.#client.registerPublisher(this.#name, topic, type, this.#ownUrl));
+  }
+
+  /** @returns where the service is, `rosrpc://host:port` @throws {Error} if there is none, or the master does not answer */
+  async serviceUrl(service: string): Promise<string> {
+    return url.parse(await answer(this.#client.lookupService(this.#name, service)));
   }
 
   /** @throws {Error} */

@@ -1,5 +1,5 @@
 import { type Audit, type AuditEvent, type AuditSubject, noAudit, shortHash } from '@farpoint/audit';
-import type { EstopState, ReturnEnd, RobotStop } from '@farpoint/protocol';
+import type { CommandState, EstopState, ReturnEnd, RobotStop } from '@farpoint/protocol';
 import type { RobotStopState } from '@farpoint/safety';
 import type { Access } from '../access/access.ts';
 
@@ -11,7 +11,7 @@ export interface AuditedOperator {
 }
 
 /** What was refused. */
-export type RefusedThing = 'admission' | 'session' | 'lease' | 'estop-release' | 'command';
+export type RefusedThing = 'admission' | 'session' | 'lease' | 'estop-release' | 'command' | 'robot-command';
 
 /** Why the driver may have changed, if not by a request. */
 export type LeaseCause = 'expired' | 'session-ended' | 'handed-over';
@@ -111,6 +111,20 @@ export class RobotAudit {
   /** The emergency stop outlives the last run. */
   startsLatched(reason: string): void {
     this.#record({ kind: 'estop-latched', details: { by: 'robot', atStart: reason } });
+  }
+
+  /**
+   * A command that an operator gave was begun, or has ended.
+   *
+   * @param run names it
+   * @param state `running` at its beginning
+   * @param text of a bookmark, or what the robot's own program says of its end
+   */
+  command(operator: AuditedOperator, run: number, id: string, state: CommandState, text: string): void {
+    const kind = state === 'running' ? 'command-began' : 'command-ended';
+    const said = text === '' ? {} : { text };
+    const ended = state === 'running' ? {} : { state };
+    this.#record({ kind, ...whoIs(operator), details: { command: id, run, ...ended, ...said } });
   }
 
   /** @param operator if it is not admitted, its name is only a claim */

@@ -26,7 +26,7 @@ export interface Ros2Options extends DdsOptions {
  */
 export async function openGraph(
   options: GraphOptions,
-  part: 'capture' | 'drive' | 'guard' | 'stop' | 'video' | 'return',
+  part: 'capture' | 'drive' | 'guard' | 'stop' | 'video' | 'return' | 'commands',
 ): Promise<RosGraph> {
   switch (options.kind) {
     case 'ros1': {
@@ -55,4 +55,12 @@ export function ros2GraphOf({ graph = 'dds', interface: network }: Ros2Options):
     installed: sourced && findRclnodejs() !== null,
     needsDds: network !== undefined,
   });
+}
+/** Tells each fault of a graph once: a fault that repeats itself, unless another came between, says nothing new. */
+export function tellNewFaults(graph: Pick<RosGraph, 'onFault'>, tell: (detail: string) => void): void {
+  let last = '';
+  graph.onFault = ({ message }) => {
+    if (message !== last) tell(message);
+    last = message;
+  };
 }

@@ -10,6 +10,7 @@ import {
 } from '@farpoint/shared-memory';
 import type { SinkOptions } from '../../motion/drive/open-sink.ts';
 import type { SourceOptions } from '../../sense/sources/open-source.ts';
+import type { RecordingOptions } from '../../tell/recording-options.ts';
 import type { RobotOptions } from '../robot-configuration.ts';
 import { fleetingState, placeText, STATE_REMEDY } from '../state-place.ts';
 import { fail, ok, type Result, warn } from './finding.ts';
@@ -101,14 +102,21 @@ function checkFile(path: string, write: boolean, trusted: TrustedOwner | undefin
   return [ok(`${path}, ${owner}`)];
 }
 
-/** @param path the file to be written; `undefined` if nothing is recorded */
-export function checkRecording(path: string | undefined): Result[] {
-  if (path === undefined) return [];
-  if (stats(path) !== null)
+/** The file that is written, and the folder of operators' recordings. @param record `undefined` if nothing is recorded */
+export function checkRecording(record: Pick<RecordingOptions, 'path' | 'folder'> | undefined): Result[] {
+  if (record === undefined) return [];
+  const { path, folder } = record;
+  if (path !== null && stats(path) !== null)
     return [fail(`${path} already exists`, 'name another file: recordings are never overwritten')];
-  const folder = dirname(path);
+  return [
+    ...(path === null ? [] : checkRecordingFolder(dirname(path), 'recording.file')),
+    ...(folder === null ? [] : checkRecordingFolder(folder.path, 'recording.folder')),
+  ];
+}
+
+function checkRecordingFolder(folder: string, key: string): Result[] {
   if (!(stats(folder)?.isDirectory() ?? false))
-    return [fail(`${folder} is not a folder`, 'create it, or set recording.file')];
+    return [fail(`${folder} is not a folder`, `create it, or set ${key}`)];
   if (!may(folder, constants.W_OK))
     return [fail(`${folder} is not writable`, 'make the robot’s user its owner')];
   return [

@@ -220,7 +220,7 @@ function fileChecks(robot: RobotOptions, found: Found): Check[] {
     {
       name: 'recording',
       withinMs: SLACK_MS,
-      run: () => (found.running.state === 'runs' ? [] : checkRecording(robot.record?.path)),
+      run: () => (found.running.state === 'runs' ? [] : checkRecording(robot.record)),
     },
     { name: 'state', withinMs: SLACK_MS, run: () => checkState(robot) },
     { name: 'audit log', withinMs: 20_000, run: () => checkAudit(robot.audit?.path) },

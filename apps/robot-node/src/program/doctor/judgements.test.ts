@@ -245,10 +245,14 @@ describe('files', () => {
   it('of recordings', () => {
     expect(checkRecording(undefined)).toEqual([]);
     const path = join(folder, 'a.mcap');
-    expect(verdicts(checkRecording(path))).not.toContain('fail');
+    const own = (file: string) => checkRecording({ path: file, folder: null });
+    expect(verdicts(own(path))).not.toContain('fail');
     writeFileSync(path, '');
-    expect(checkRecording(path)[0]?.detail).toContain('already exists');
-    expect(checkRecording('/nowhere/b.mcap')[0]?.detail).toContain('is not a folder');
+    expect(own(path)[0]?.detail).toContain('already exists');
+    expect(own('/nowhere/b.mcap')[0]?.detail).toContain('is not a folder');
+    const operators = (at: string) => checkRecording({ path: null, folder: { path: at, mostBytes: 1 } });
+    expect(verdicts(operators(folder))).not.toContain('fail');
+    expect(operators('/nowhere')[0]?.remedy).toContain('recording.folder');
   });
 });
 

@@ -22,7 +22,7 @@ export function startFailure({ sensors, sink, record }: RobotOptions, error: unk
     return source === undefined ? error : failure(error, judgeClosedSource(source, error));
   }
   if (error instanceof RecordingError)
-    return failure(error, checkRecording(record?.path), 'set recording.file (--record) to another file');
+    return failure(error, checkRecording(record), 'set recording.file (--record) to another file');
   // The files themselves are well.
   if (error instanceof FileInUseError) return new StartFailure(error.fault, error.remedy, { cause: error });
   if (error instanceof SharedMemoryError)

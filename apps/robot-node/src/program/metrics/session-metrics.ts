@@ -36,6 +36,15 @@ export function addSessionMetrics(metrics: PulledMetrics, { counters, operators 
   metrics.sums('handovers', 'Ends of requests for the drive and offers of it, by outcome', 'outcome', () =>
     counters.handovers.entries(),
   );
+  metrics.sums('command_calls', 'Robot commands that operators gave and that were begun', 'command', () =>
+    counters.commandCalls.entries(),
+  );
+  metrics.sums(
+    'command_outcomes',
+    'What became of robot commands: how they ended, or why they were refused',
+    'outcome',
+    () => counters.commandOutcomes.entries(),
+  );
   metrics.gauge('operators', 'Operators with a session', () => operators.size);
 }
 

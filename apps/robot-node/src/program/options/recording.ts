@@ -50,6 +50,27 @@ export const recordingOptions = optionGroup('recording', {
     file: 'file',
     help: 'record clouds, pictures, commands, telemetry, rate estimates and latencies to this MCAP file, which must not exist yet',
   }),
+  recordFolder: defineOption({
+    schema: schema.optional(schema.text()),
+    default: null,
+    argument: 'FOLDER',
+    file: 'folder',
+    help: 'operators may begin and end recordings, each an MCAP file in this folder, which must exist; and mark instants in them (docs/commands.md)',
+  }),
+  recordFolderMax: defineOption({
+    schema: schema.size({ min: LEAST_BYTES, none: true }),
+    default: 20e9,
+    argument: 'SIZE',
+    file: 'folderMax',
+    help: 'record: no further recording begins once the recordings in the folder have this size; none: no limit',
+  }),
+  recordBy: defineOption({
+    schema: schema.choice(['auto', 'drive', 'supervise']),
+    default: 'auto',
+    argument: 'WHO',
+    file: 'by',
+    help: 'who may begin and end recordings in the folder: drive (every operator who may drive), supervise (supervisors), or auto: supervise where the robot asks for grants, else drive',
+  }),
   recordClouds: defineOption({
     schema: schema.choice(RECORDED_CLOUDS),
     default: 'sent',
@@ -76,7 +97,7 @@ export const recordingOptions = optionGroup('recording', {
     default: 4e9,
     argument: 'SIZE',
     file: 'max',
-    help: 'record: maximum size of the file, e.g. 500MB, 4GB, none; recording ends before the file exceeds it, and the robot goes on',
+    help: 'record: maximum size of a file, e.g. 500MB, 4GB, none; recording ends before the file exceeds it, and the robot goes on',
   }),
   recordCompression: defineOption({
     schema: schema.choice(['none', 'zstd']),

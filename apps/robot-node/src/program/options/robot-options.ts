@@ -36,6 +36,7 @@ import { type RobotOptionKey, type RobotOptionValues, robotProgram } from './rob
 import { rosKindOf } from './sink.ts';
 import { tracesUrl } from './spans.ts';
 import { toStateFolder } from './state.ts';
+import { toCommands } from './to-commands.ts';
 import { toFence } from './to-fence.ts';
 import { toGraph } from './to-graph.ts';
 import { toReturn } from './to-return.ts';
@@ -104,6 +105,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
   const fence = toFence(values, refuse);
   const model = toModel(values, refuse);
   const returns = toReturn(values, refuse, (kind) => toGraph(values, kind));
+  const commands = toCommands(values, refuse, (kind) => toGraph(values, kind));
   const folder = toStateFolder(values, process.env, refuse);
   if (mistakes.length > 0) throw new OptionsError(mistakes);
   return {
@@ -122,6 +124,7 @@ export function toRobotOptions(values: RobotOptionValues, where: Where): RobotOp
     alarms,
     fence,
     returns,
+    commands,
     model,
     stops: toStops(values, (kind) => toGraph(values, kind)),
     broadcast,
@@ -236,10 +239,12 @@ function toFoxglove(values: RobotOptionValues): RobotOptions['foxglove'] {
 }
 
 function toRecording(values: RobotOptionValues): RobotOptions['record'] {
-  if (values.record === null) return undefined;
+  const { record, recordFolder } = values;
+  if (record === null && recordFolder === null) return undefined;
   const recorded = (kind: 'captured' | 'sent') => [kind, 'both'].includes(values.recordClouds);
   return {
-    path: values.record,
+    path: record,
+    folder: recordFolder === null ? null : { path: recordFolder, mostBytes: values.recordFolderMax },
     compression: values.recordCompression,
     clouds: {
       captured: recorded('captured') ? values.recordFps : 0,

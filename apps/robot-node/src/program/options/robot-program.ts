@@ -10,6 +10,7 @@ import manifest from '../../../package.json' with { type: 'json' };
 import { accessOptions } from './access.ts';
 import { alarmsOptions } from './alarms.ts';
 import { broadcastOptions } from './broadcast.ts';
+import { commandsOptions } from './commands.ts';
 import { fenceOptions } from './fence.ts';
 import { guardOptions } from './guard.ts';
 import { guardTopicsOptions } from './guard-topics.ts';
@@ -45,6 +46,7 @@ const groups = {
   'Emergency stops and the fence': { ...stopsOptions, ...fenceOptions },
   'Obstacle guard': { ...guardOptions, ...guardTopicsOptions },
   'Driving back by itself': returnOptions,
+  'Robot commands': commandsOptions,
   State: stateOptions,
   'Clouds and pictures on the link': { ...streamOptions, ...picturesOptions },
   'Videos and sound': { ...videosOptions, ...soundOptions },

@@ -91,6 +91,11 @@ export const simOptions = optionGroup('source', {
     argument: 'X,Y',
     help: 'the simulated robot has a map of its building and a plan to this place in it, as a navigator would publish them; metres',
   }),
+  simCommands: defineOption({
+    schema: schema.boolean(),
+    default: false,
+    help: 'the simulated robot has commands to try out: lights, a horn, and a self-test that takes a while (docs/commands.md)',
+  }),
   simFloor: defineOption({
     schema: schema.choice(['seen', 'unseen']),
     default: 'seen',

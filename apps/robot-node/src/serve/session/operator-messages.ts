@@ -1,6 +1,8 @@
 /** Interprets one operator's messages and sends the answers. */
 import {
   type Command,
+  type CommandCall,
+  type CommandCancel,
   clockAnswerCodec,
   type DriveRequest,
   decodeBandwidth,
@@ -87,6 +89,8 @@ export class OperatorMessages {
   onEndSession: ((request: EndSession) => void) | null = null;
   /** What it asks of the other operators. */
   onDriveRequest: ((request: DriveRequest) => void) | null = null;
+  /** Which of the robot's commands it gives or cancels. */
+  onCommandRequest: ((request: CommandCall | CommandCancel) => void) | null = null;
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #commands: CommandPipeline;
@@ -231,6 +235,10 @@ export class OperatorMessages {
       case 'driveAnswer':
       case 'driveWithdraw':
         this.onDriveRequest?.(message);
+        break;
+      case 'callCommand':
+      case 'cancelCommand':
+        this.onCommandRequest?.(message);
         break;
       case 'estop':
         if (message.latch) this.#estop.press(message.press);

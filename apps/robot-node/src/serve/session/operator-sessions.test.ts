@@ -17,7 +17,9 @@ beforeEach(() => vi.clearAllMocks());
 
 /** @param connected whether the operator's connection is there; `null`: its end came first, so that nobody is known */
 function closed(reason: Reason, connected: boolean | null): void {
-  const options = { id: 'robot-1', grants: null, counters: new RobotCounters() };
+  const host = { drive: { guard: { estopState: () => ({ latched: false }) } } };
+  const commands = { commands: [], recording: null };
+  const options = { id: 'robot-1', grants: null, counters: new RobotCounters(), host, commands };
   const sessions = new OperatorSessions(
     options as unknown as OperatorSessionsOptions,
     { left } as unknown as OperatorSessionsEvents,

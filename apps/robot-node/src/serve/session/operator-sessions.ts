@@ -17,6 +17,8 @@ import type { CloudClaim } from '../../send/budgets/cloud-shares.ts';
 import type { PacketLog } from '../../send/transport/packet-log.ts';
 import type { OperatorPeerOptions, PeerEnd } from '../../send/transport/peer-events.ts';
 import type { SendLoop } from '../../send/transport/send-loop.ts';
+import { CommandDesk } from '../commands/command-desk.ts';
+import type { RobotCommands } from '../commands/open-commands.ts';
 import { People } from '../people/people.ts';
 import type { SessionHost } from './operator-messages.ts';
 import { OperatorPlaces, type OperatorPlacesOptions } from './operator-places.ts';
@@ -49,6 +51,10 @@ export interface OperatorSessionsOptions {
   signaling: { send(message: RobotToService): boolean };
   counters: RobotCounters;
   audit: RobotAudit;
+  /** What operators may make the robot do besides driving. */
+  commands: RobotCommands;
+  /** Whether the robot stands still. */
+  stands: () => boolean;
   log: Logger;
 }
 
@@ -73,6 +79,7 @@ export class OperatorSessions {
   readonly #access: RobotAccess | null;
   readonly #roster = new OperatorRoster();
   readonly #people: People;
+  readonly #commands: CommandDesk;
   readonly #waiting = new WaitingPlaces();
   /** `null` if everybody is admitted: then nobody is known by anything but a name of its own choice. */
   readonly #places: OperatorPlaces | null;
@@ -85,6 +92,17 @@ export class OperatorSessions {
     const { operators } = this;
     const roster = this.#roster;
     this.#people = new People({ operators, roster, host, counters, log });
+    this.#commands = new CommandDesk({
+      operators,
+      roster,
+      drive: host.drive,
+      now: () => host.now(),
+      counters,
+      audit,
+      log,
+      commands: options.commands,
+      stands: options.stands,
+    });
     const { grantsRefused: refusals, revocationLists } = counters;
     const onRefused = (operator: AuditedOperator, reason: string) =>
       audit.refused('admission', reason, operator);
@@ -103,6 +121,7 @@ export class OperatorSessions {
     if (this.#access !== null) this.#access.enforce(this.operators, leaseHolder);
     else this.#roster.sendDue(this.operators.values(), leaseHolder, monotonicMs());
     this.#people.update();
+    this.#commands.update();
   }
 
   /** Reads keys and revocations again; the old keys stay in force if that fails. @throws {GrantKeysError} */
@@ -144,6 +163,11 @@ export class OperatorSessions {
         this.#onError(message);
         break;
     }
+  }
+
+  /** Cancels the robot's commands that run. */
+  closeCommands(): Promise<void> {
+    return this.#commands.close();
   }
 
   /** Ends all sessions and tells the signaling service. */
@@ -259,6 +283,7 @@ export class OperatorSessions {
           this.#waiting.settled(session);
           log.info({ operators: this.operators.size }, 'operator connected');
           this.#events.connected(operator);
+          this.#commands.welcome(operator);
         },
         onCloudFormats: () => this.#events.cloudFormats(operator),
         onNeedsKeyFrame: (video) => this.#events.needsKeyFrame(video),
@@ -268,6 +293,7 @@ export class OperatorSessions {
     );
     operator.messages.onEndSession = (request) =>
       this.#access?.endSession(operator, request, this.operators.values());
+    operator.messages.onCommandRequest = (request) => this.#commands.request(operator, request);
     operator.messages.onDriveRequest = (request) => this.#people.request(operator, request);
     return operator;
   }
