@@ -44,6 +44,7 @@ const STATES: Readonly<Record<StageStateName, readonly string[]>> = {
   alarm: ['estop', 'alarm'],
   playback: ['estop', 'alarm', 'about'],
   recorded: ['estop', 'about'],
+  commands: ['estop', 'commands'],
   'two-sensors': ['estop'],
   videos: ['estop', 'pictures'],
   cameras: ['estop', 'pictures'],
@@ -72,6 +73,7 @@ const OPENED: readonly {
     },
     seen: ['estop'],
   },
+  { state: 'commands', what: 'the commands', open: ['#commands summary'], seen: ['estop'] },
   { state: 'videos', what: 'what became of the frames', open: ['.video-report button'], seen: ['estop'] },
 ];
 /** When a state has come about, ms: at once, or after a path has been silent. */
@@ -100,7 +102,7 @@ const SCREENS = [
 /** On a phone the figures are one line that opens with what is below it. */
 function onPhone(id: string): readonly string[] {
   if (id === 'facts') return ['facts-fold'];
-  return id === 'people' ? [] : [id];
+  return id === 'people' || id === 'commands' ? [] : [id];
 }
 /** On less, something of a state may open only when it is asked for, pixels. */
 const LOW = 481;

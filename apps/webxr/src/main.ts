@@ -12,6 +12,7 @@ import './panels/ui/small-screens.css';
 import './panels/ui/settings.css';
 import './panels/ui/people.css';
 import './panels/ui/inputs.css';
+import './panels/ui/commands.css';
 import { isSoftwareRenderer } from '@farpoint/cloud-view';
 import { transformSupport } from '@farpoint/operator';
 import { readBenchSettings } from './ground/bench-settings.ts';

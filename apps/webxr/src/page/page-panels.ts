@@ -12,6 +12,7 @@ import { showSpeedChoice } from '../panels/inputs/speed-controls.ts';
 import { AccessUi } from '../panels/ui/access-ui.ts';
 import { listenToCanvas } from '../panels/ui/canvas-events.ts';
 import { CloudPanel } from '../panels/ui/cloud-panel.ts';
+import { showCommands } from '../panels/ui/commands-panel.ts';
 import { ControlsUi } from '../panels/ui/controls-ui.ts';
 import { elements } from '../panels/ui/elements.ts';
 import { EstopUi } from '../panels/ui/estop-ui.ts';
@@ -125,6 +126,7 @@ export class PagePanels {
     showRobotList(state.link, choose);
     showRobotSwitcher(state.link, choose);
     showPeople(state, client);
+    showCommands(state.commands);
     showSensorSwitches(state.sensors);
     showPicturePanels(state, { inVr: vr.active, isGripped: () => client.driver.stream.held });
   }

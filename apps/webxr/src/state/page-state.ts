@@ -15,6 +15,7 @@ import { takenOverWords } from '../words/driving-words.ts';
 import { driverWords } from '../words/handover-words.ts';
 import type { PageStats } from '../words/page-stats.ts';
 import { holderWords } from '../words/words.ts';
+import { CommandsState } from './commands-state.ts';
 import { Enlarged } from './enlarged.ts';
 import { LinkPriority } from './link-priority.ts';
 import { isRobotHeard, type LinkState, linkState, robotSilence } from './link-state.ts';
@@ -99,6 +100,7 @@ const SAMPLED = [
   'estop',
   'stop',
   'alarm',
+  'commands',
 ] as const;
 
 export interface PageStateParts {
@@ -121,6 +123,8 @@ export class PageState {
   readonly robot: RobotState;
   readonly driving: DrivingState;
   readonly people: PeopleState;
+  /** What the robot can be made to do besides driving, and its recording. */
+  readonly commands: CommandsState;
   /** Tells of STOPs and releases by others. */
   readonly stopNews: StopNews;
   readonly figures: ReadonlySignal<PageStats>;
@@ -167,6 +171,12 @@ export class PageState {
     this.robot = robotState(client, this.#samples);
     this.driving = drivingState(client, this.#samples);
     this.people = new PeopleState(client, this.#samples);
+    this.commands = new CommandsState({
+      client,
+      samples: this.#samples,
+      tell: ({ text, tone }) => notices.tell(text, tone),
+      now,
+    });
     this.stopNews = new StopNews(client, notices);
     this.figures = this.#samples.of(figures);
     this.sampledAtMs = this.#samples.atMs;

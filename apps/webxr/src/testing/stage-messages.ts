@@ -95,6 +95,26 @@ export const people: ToldMessage = {
   ],
 };
 /** At a robot without grants: nothing proves their names. */
+/** Commands of each kind: one that can be given, one that cannot, one that runs; and a recording. */
+export const commands: readonly ToldMessage[] = [
+  { type: 'robotCommand', id: 'lights', label: 'Lights', group: 'Signals' },
+  { type: 'robotCommand', id: 'horn', label: 'Horn', group: 'Signals', barred: 'estop' },
+  { type: 'robotCommand', id: 'dock', label: 'Dock', group: 'Power', confirm: true },
+  { type: 'robotCommand', id: 'self-test', label: 'Self-test', group: 'Service', cancel: true },
+  { type: 'robotCommand', id: 'record', label: 'Record', recording: 'start' },
+  { type: 'robotCommand', id: 'record-stop', label: 'Stop recording', recording: 'stop' },
+  { type: 'robotCommand', id: 'bookmark', label: 'Bookmark', recording: 'bookmark' },
+  {
+    type: 'commandRun',
+    run: 1,
+    id: 'self-test',
+    by: { number: 2, name: 'Bo' },
+    state: 'running',
+    progress: 0.5,
+    detail: 'tests the camera',
+  },
+  { type: 'recording', on: true, bytes: 48_000_000, forS: 62 },
+];
 export const threePeople: readonly Omit<PresentOperator, 'drives'>[] = [
   { number: 1, name: 'Anna', claimed: true, role: 'drive', you: true },
   { number: 2, name: 'Bo', claimed: true, role: 'drive', you: false },

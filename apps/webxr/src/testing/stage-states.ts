@@ -4,6 +4,7 @@
  */
 import type { StageControl } from './stage-control.ts';
 import {
+  commands,
   freeMotion,
   lidarRings,
   lowBattery,
@@ -229,6 +230,9 @@ const states = {
   recorded: robotThat('The robot records the session', ({ robot }) => {
     robot.greeting = [{ type: 'about', drives: true, shows: 'sensors', recorded: true }];
   }),
+  commands: robotThat('The robot has commands, one of which runs, and records', ({ robot }) => {
+    robot.greeting = [...commands];
+  }),
   'two-sensors': {
     what: 'A camera and a LiDAR',
     clouds: ['light', 'lidar-yard'],
@@ -255,7 +259,7 @@ const states = {
     begin(stage) {
       const { robot } = stage;
       robot.access = { role: 'supervise', name: 'Anna', expiresInS: 3600 };
-      const seen = [twoSensors, lidarRings, twoVideos, twoCameras, sound, people];
+      const seen = [twoSensors, lidarRings, twoVideos, twoCameras, sound, people, ...commands];
       robot.greeting = [...seen, ...telemetryOf(robot.nowMs), lowBattery(robot.nowMs)];
       const motion = { ...freeMotion, factor: 0, reasons: ['obstacle'] as const };
       robot.telemetry = { drive: 'blocked', motion };

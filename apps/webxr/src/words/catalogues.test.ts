@@ -64,6 +64,8 @@ const ALIKE = new Set([
   'STOP',
   'N %',
   'N % · N m/s',
+  'N: N.',
+  'N: N (N).',
   'N (offline)',
   'N, N',
   'N, N: N',

@@ -13,6 +13,7 @@ import { hazardNotice } from '../../words/hazard-words.ts';
 import { speedShareWords } from '../../words/input-words.ts';
 import { texts } from '../../words/language.ts';
 import { predictionWords } from '../../words/view-words.ts';
+import { addBookmark } from './commands-panel.ts';
 import { elements } from './elements.ts';
 import type { EstopUi } from './estop-ui.ts';
 import { startLook } from './look-controls.ts';
@@ -97,6 +98,9 @@ export class ControlsUi {
         return;
       case 'swap':
         this.#parts.state.swap();
+        return;
+      case 'bookmark':
+        addBookmark(this.#parts.state.commands);
         return;
       case 'next-robot':
         this.#nextRobot();

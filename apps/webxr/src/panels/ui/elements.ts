@@ -25,6 +25,7 @@ export const elements = {
   settings: byId('settings', HTMLDialogElement),
   settingsSave: byId('settings-save', HTMLButtonElement),
   fullScreen: byId('full-screen', HTMLButtonElement),
+  commands: byId('commands', HTMLElement),
   people: byId('people', HTMLDetailsElement),
   peopleLine: byId('people-line', HTMLElement),
   peopleList: byId('people-list', HTMLUListElement),

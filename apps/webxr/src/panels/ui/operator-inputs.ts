@@ -42,6 +42,7 @@ export type Action =
   | 'dashboard'
   | 'predict'
   | 'swap'
+  | 'bookmark'
   | 'next-robot'
   | 'faster'
   | 'slower';
@@ -57,6 +58,7 @@ const ACTIONS: ReadonlySet<string> = new Set<Action>([
   'dashboard',
   'predict',
   'swap',
+  'bookmark',
   'next-robot',
   'faster',
   'slower',

@@ -21,6 +21,7 @@ export const KEY_ROLES = [
   'dashboard',
   'swap',
   'predict',
+  'bookmark',
   'next-robot',
 ] as const;
 export type KeyRole = (typeof KEY_ROLES)[number];
@@ -54,6 +55,7 @@ export const DEFAULT_KEYS: KeyMap = {
   dashboard: ['KeyB'],
   swap: ['KeyF'],
   predict: ['KeyP'],
+  bookmark: ['KeyK'],
   'next-robot': ['KeyN'],
 };
 
@@ -83,6 +85,7 @@ export const KEY_PRESETS = {
     dashboard: ['KeyB'],
     swap: ['KeyF'],
     predict: ['Digit4'],
+    bookmark: ['KeyZ'],
     'next-robot': ['Digit3'],
   },
   right: {
@@ -105,6 +108,7 @@ export const KEY_PRESETS = {
     dashboard: ['Digit0'],
     swap: ['Digit7'],
     predict: ['Minus'],
+    bookmark: ['BracketLeft'],
     'next-robot': ['Digit6'],
   },
 } as const satisfies Record<string, KeyMap>;

@@ -2,6 +2,7 @@
 import type { Texts } from '../en/catalogue.ts';
 import { access } from './access.ts';
 import { clouds } from './clouds.ts';
+import { commands } from './commands.ts';
 import { dashboard } from './dashboard.ts';
 import { dialogs } from './dialogs.ts';
 import { driving } from './driving.ts';
@@ -25,6 +26,7 @@ export const german: Texts = {
   clouds,
   dashboard,
   dialogs,
+  commands,
   driving,
   failures,
   figures,

@@ -20,6 +20,7 @@ const keyRoles: Texts['inputs']['keyRoles'] = {
   dashboard: 'Dashboard',
   swap: 'Kamera statt Punktwolke',
   predict: 'Vorausberechneter Blick',
+  bookmark: 'Lesezeichen in der Aufzeichnung',
   'next-robot': 'Nächster Roboter',
 };
 

@@ -4,6 +4,7 @@
  */
 import { access } from './access.ts';
 import { clouds } from './clouds.ts';
+import { commands } from './commands.ts';
 import { dashboard } from './dashboard.ts';
 import { dialogs } from './dialogs.ts';
 import { driving } from './driving.ts';
@@ -27,6 +28,7 @@ export const english = {
   clouds,
   dashboard,
   dialogs,
+  commands,
   driving,
   failures,
   figures,

@@ -22,6 +22,7 @@ const keyRoles = {
   dashboard: 'Dashboard',
   swap: 'Camera instead of cloud',
   predict: 'Predicted view',
+  bookmark: 'Bookmark in the recording',
   'next-robot': 'Next robot',
 } satisfies Record<KeyRole, string>;
 
