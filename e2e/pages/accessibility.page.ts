@@ -47,6 +47,12 @@ const AUDITED: readonly Audited[] = [
       await page.getByRole('button', { name: 'Set up Stick' }).click();
     },
   },
+  {
+    what: 'the event log',
+    state: 'stop-latched',
+    forMs: 1000,
+    open: (page) => page.locator('#events-open').click(),
+  },
   { what: 'driving', state: 'driving', forMs: 1000 },
   { what: 'an emergency stop that is latched', state: 'stop-latched', forMs: 1000 },
   { what: 'the dashboard', state: 'alarm', open: (page) => page.locator('#dashboard-open').click() },

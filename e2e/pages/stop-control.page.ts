@@ -45,6 +45,7 @@ for (const state of STATES) {
 
 for (const [name, open] of Object.entries({
   Settings: async (page: Page) => page.locator('#settings-open').click(),
+  Events: async (page: Page) => page.locator('#events-open').click(),
   Grants: async (page: Page) => {
     await page.locator('#settings-open').click();
     await page.getByRole('button', { name: /Grants and robots/ }).click();

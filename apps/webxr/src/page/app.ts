@@ -1,5 +1,7 @@
 /** The page: shows on the screen what the robot sends, and sends the robot what the operator's hands do. */
 import type { RobotClient, RobotClientOptions, TransformSupport } from '@farpoint/operator';
+import { EventLog } from '../ground/events/event-log.ts';
+import { keepEvents } from '../ground/events/stored-events.ts';
 import type { LiveSettings } from '../ground/live-settings.ts';
 import { PanelPlacements } from '../ground/panels/panel-placements.ts';
 import { loadPlacements, storePlacements } from '../ground/panels/stored-panels.ts';
@@ -14,6 +16,7 @@ import { Stage } from '../scene/view/stage.ts';
 import { VrSession } from '../scene/view/vr-session.ts';
 import type { WristPanel } from '../scene/view/wrist-panel.ts';
 import { type CloudAppearance, openAppearance } from '../state/cloud-appearance.ts';
+import { feedEvents } from '../state/events/feed-events.ts';
 import type { Notices } from '../state/notices.ts';
 import { PageState } from '../state/page-state.ts';
 import { readKeyboardLayout } from '../take/drive/keyboard-layout.ts';
@@ -38,6 +41,8 @@ export class App implements ShownParts {
   /** Clouds, videos, and what was seen before. */
   readonly views: PageViews;
   readonly appearance: CloudAppearance;
+  /** What has happened. */
+  readonly events = new EventLog(() => Date.now());
   readonly stats = new PageStatistics();
   readonly vr: VrSession;
   readonly frames: FrameLoop;
@@ -97,6 +102,7 @@ export class App implements ShownParts {
       client,
       settings,
       state,
+      events: this.events,
       stage,
       appearance,
       views,
@@ -130,6 +136,7 @@ export class App implements ShownParts {
     const { client, settings, panels } = this;
     void readKeyboardLayout(navigator);
     followRobot(this);
+    this.#logEvents();
     panels.start();
     client.start();
     if (settings.robot !== null) client.choose(settings.robot);
@@ -141,6 +148,27 @@ export class App implements ShownParts {
     const drawRobot = (nowMs: number) => showRobot(this, nowMs);
     new SteadyWork({ ...this, estop, cloudPanel, showRobot: drawRobot }, document).start();
     this.frames.start();
+  }
+
+  #logEvents(): void {
+    const { events: log, client, state, settings, appearance } = this;
+    const { on } = this.views.predicted;
+    keepEvents(log, window, () => sessionStorage);
+    feedEvents({
+      log,
+      client,
+      state,
+      settings: {
+        predict: () => on.value,
+        synchronised: () => settings.synchronised,
+        cues: () => settings.cues,
+        surface: () => appearance.drawsSurface.value,
+        hazards: () => appearance.hazards.value,
+        remembers: () => appearance.remembers.value,
+      },
+      operator: settings.name,
+      now: () => performance.now(),
+    });
   }
 
   /** Connects to this robot. A robot that was chosen before is stopped first. */

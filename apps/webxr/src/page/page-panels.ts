@@ -3,9 +3,11 @@ import type { RobotClient } from '@farpoint/operator';
 import type { OperatorAccess } from '../ground/access/operator-access.ts';
 import { SignIn, tabStorage } from '../ground/access/sign-in.ts';
 import type { StoredRobots } from '../ground/access/stored-robots.ts';
+import type { EventLog } from '../ground/events/event-log.ts';
 import type { LiveSettings } from '../ground/live-settings.ts';
 import type { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
 import { DashboardOpener } from '../panels/dashboard/dashboard-opener.ts';
+import { EventsOpener } from '../panels/events/events-opener.ts';
 import { startInputsDialog } from '../panels/inputs/inputs-dialog.ts';
 import { showKeyHints } from '../panels/inputs/key-hints.ts';
 import { showSpeedChoice } from '../panels/inputs/speed-controls.ts';
@@ -44,6 +46,7 @@ export interface PagePanelsParts {
   readonly origin: string;
   readonly settings: LiveSettings;
   readonly state: PageState;
+  readonly events: EventLog;
   readonly stage: Stage;
   readonly appearance: CloudAppearance;
   readonly views: PageViews;
@@ -64,6 +67,7 @@ export class PagePanels {
   readonly sound: SoundUi;
   readonly cloudPanel: CloudPanel;
   readonly #access: AccessUi;
+  readonly #events: EventsOpener;
   readonly #parts: PagePanelsParts;
 
   constructor(parts: PagePanelsParts) {
@@ -84,6 +88,7 @@ export class PagePanels {
     const { presented, predicted, clouds, remembered } = views;
     const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });
     showStagesLine(client, state, () => dashboard.openStages());
+    this.#events = new EventsOpener({ log: parts.events, notices: state.notices });
     this.controls = new ControlsUi({
       client,
       state,
@@ -93,6 +98,7 @@ export class PagePanels {
       estop: this.estop,
       choose: parts.choose,
       toggleDashboard: () => dashboard.toggle(),
+      openEvents: () => void this.#events.toggle(),
       nextHeadsetView: parts.nextHeadsetView,
       predicted,
       settings,
@@ -113,6 +119,7 @@ export class PagePanels {
     this.controls.start();
     this.sound.start();
     this.#access.start();
+    this.#events.start();
   }
 
   /** Draws the state in the document from now on. */

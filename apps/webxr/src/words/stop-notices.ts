@@ -21,6 +21,11 @@ export function presserWords(cause: EstopCause | null, operators: Operators | nu
   return cause?.pressedBy === undefined ? null : listedNameWords(cause.pressedBy, operators);
 }
 
+interface WhoIsHere {
+  readonly operators: Operators | null;
+  readonly holder: LeaseState['holder'];
+}
+
 /**
  * The robot does not say who has released it. Where only one operator may, that one has. `null` if nobody else is here.
  *
@@ -29,19 +34,27 @@ export function presserWords(cause: EstopCause | null, operators: Operators | nu
 export function releasedNotice(
   last: Pick<EstopState, 'releasedAt'>,
   cause: EstopCause | null,
-  { operators, holder }: { operators: Operators | null; holder: LeaseState['holder'] },
+  here: WhoIsHere,
 ): string | null {
   const said = texts().stop;
   if (last.releasedAt === 'robot') return said.releasedAtRobot;
-  const others = operators?.operators.filter(({ you }) => !you) ?? [];
-  if (others.length === 0) return null;
-  const able = others.filter(
+  if (othersIn(here).length === 0) return null;
+  return said.hasReleased(releaserWords(cause, here) ?? said.anotherOperator);
+}
+
+/** The only other operator who could release it, as the page names people; `null` if there are several, or none. */
+export function releaserWords(cause: EstopCause | null, here: WhoIsHere): string | null {
+  const able = othersIn(here).filter(
     ({ role, drives, away }) =>
       away !== true &&
       (role === 'supervise' ||
-        (role === 'drive' && cause?.release !== 'supervisor' && (drives || holder === 'nobody'))),
+        (role === 'drive' && cause?.release !== 'supervisor' && (drives || here.holder === 'nobody'))),
   );
   const [one] = able;
-  const isSure = one !== undefined && able.length === 1 && operators?.more === undefined;
-  return said.hasReleased(isSure ? nameWords(one) : said.anotherOperator);
+  const isSure = one !== undefined && able.length === 1 && here.operators?.more === undefined;
+  return isSure ? nameWords(one) : null;
+}
+
+function othersIn({ operators }: WhoIsHere): Operators['operators'] {
+  return operators?.operators.filter(({ you }) => !you) ?? [];
 }

@@ -3,8 +3,8 @@ import { effect } from '@preact/signals-core';
 import { texts } from '../../words/language.ts';
 import { lastTestWords, latencyCsv, testsWords } from '../../words/latency-words.ts';
 import { quietButton } from '../ui/panel-parts.ts';
+import { saveTable } from '../ui/save-file.ts';
 import { LatencyRuns, type LatencyRunsPort } from './latency-runs.ts';
-import { saveText } from './save-text.ts';
 import { part, setText } from './tile.ts';
 
 export interface LatencyView {
@@ -32,7 +32,7 @@ export function latencyView(test: LatencyRunsPort['test']): LatencyView {
   const continuous = quietButton(said.continuous, said.continuousTitle, () => runs.start());
   const abort = quietButton(said.abort, said.abortTitle, () => runs.abort());
   const save = quietButton(said.testsAsCsv, said.testsAsCsvTitle, () =>
-    saveText('latency', latencyCsv(runs.ends.peek(), runs.distribution())),
+    saveTable('latency', latencyCsv(runs.ends.peek(), runs.distribution())),
   );
   element.append(last, tests, single, continuous, abort, save);
   const forget = effect(() => {

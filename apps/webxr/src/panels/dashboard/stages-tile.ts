@@ -13,9 +13,9 @@ import { palette } from '../../ground/display/palette.ts';
 import { texts } from '../../words/language.ts';
 import { stageLines, stagesCsv, totalWords, unknownWords } from '../../words/stage-words.ts';
 import { quietButton } from '../ui/panel-parts.ts';
+import { saveTable } from '../ui/save-file.ts';
 import type { LatencyRunsPort } from './latency-runs.ts';
 import { latencyView } from './latency-view.ts';
-import { saveText } from './save-text.ts';
 import { part, setText, type Tile } from './tile.ts';
 
 /** What the tile shows, and what it measures. */
@@ -42,11 +42,11 @@ export function stagesTile({ stages: source, testLatency }: StageSources): Tile 
   const commands = new StageList(said.commandStages);
   const rowsOf = (nowMs: number) => source().frameStages()?.window.rows(nowMs) ?? [];
   const saveClouds = quietButton(said.cloudsAsCsv, said.cloudsAsCsvTitle, () =>
-    saveText('clouds', stagesCsv(frameStages, rowsOf(performance.now()), performance.timeOrigin)),
+    saveTable('clouds', stagesCsv(frameStages, rowsOf(performance.now()), performance.timeOrigin)),
   );
   const saveCommands = quietButton(said.commandsAsCsv, said.commandsAsCsvTitle, () => {
     const rows = source().commands.window.rows(performance.now());
-    saveText('commands', stagesCsv(commandStages, rows, performance.timeOrigin));
+    saveTable('commands', stagesCsv(commandStages, rows, performance.timeOrigin));
   });
   element.append(canvas, clouds.element, saveClouds, commands.element, saveCommands, latency.element);
   return {

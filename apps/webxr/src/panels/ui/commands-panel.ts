@@ -106,8 +106,9 @@ class CommandButton {
     });
   }
 
-  set title(title: string) {
-    this.#button.title = title;
+  /** Gives the command. */
+  get button(): HTMLButtonElement {
+    return this.#button;
   }
 
   show(command: ShownCommand | null): void {
@@ -147,8 +148,8 @@ function recorderOf(commands: CommandsState) {
     const { recordingGroup, bookmarkTitle, bookmarkNote } = texts().commands;
     element.hidden = recording === null;
     element.ariaLabel = recordingGroup;
-    bookmark.title = bookmarkTitle;
-    followKey(bookmark, 'bookmark');
+    bookmark.button.title = bookmarkTitle;
+    followKey(bookmark.button, 'bookmark');
     note.placeholder = bookmarkNote;
     note.ariaLabel = bookmarkNote;
     line.textContent = recording?.line ?? '';

@@ -35,6 +35,8 @@ export interface Controlled {
   choose(robotId: string): void;
   /** Opens or closes the dashboard. */
   toggleDashboard(): void;
+  /** Opens the event log. */
+  openEvents(): void;
 }
 
 export class ControlsUi {
@@ -92,6 +94,9 @@ export class ControlsUi {
         return;
       case 'dashboard':
         this.#parts.toggleDashboard();
+        return;
+      case 'events':
+        this.#parts.openEvents();
         return;
       case 'predict':
         this.#togglePrediction();

@@ -43,6 +43,7 @@ export type Action =
   | 'predict'
   | 'swap'
   | 'bookmark'
+  | 'events'
   | 'next-robot'
   | 'faster'
   | 'slower';
@@ -59,6 +60,7 @@ const ACTIONS: ReadonlySet<string> = new Set<Action>([
   'predict',
   'swap',
   'bookmark',
+  'events',
   'next-robot',
   'faster',
   'slower',

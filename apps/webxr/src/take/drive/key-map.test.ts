@@ -7,6 +7,7 @@ import {
   KEY_PRESETS,
   KEY_ROLES,
   type KeyMap,
+  type KeyRole,
   MOST_KEYS,
   mainKey,
   removeKey,
@@ -28,11 +29,15 @@ function expectSafe(keys: KeyMap): void {
   for (const role of KEY_ROLES) expect(keys[role].length).toBeLessThanOrEqual(MOST_KEYS);
 }
 
-test('all presets are usable, and have a key for everything', () => {
+/** Needed too rarely for one hand to have a key for it: each of them has a button. */
+const RARE: readonly KeyRole[] = ['events'];
+
+test('all presets are usable, and have a key for everything that is needed often', () => {
   for (const preset of Object.values(KEY_PRESETS)) {
     expectSafe(preset);
     expect(usableKeys(preset)).toEqual(preset);
-    for (const role of KEY_ROLES) expect(preset[role].length, role).toBeGreaterThan(0);
+    for (const role of KEY_ROLES)
+      if (!RARE.includes(role)) expect(preset[role].length, role).toBeGreaterThan(0);
   }
   expect(usableKeys({})).toEqual(DEFAULT_KEYS);
 });

@@ -22,6 +22,7 @@ export const KEY_ROLES = [
   'swap',
   'predict',
   'bookmark',
+  'events',
   'next-robot',
 ] as const;
 export type KeyRole = (typeof KEY_ROLES)[number];
@@ -56,6 +57,7 @@ export const DEFAULT_KEYS: KeyMap = {
   swap: ['KeyF'],
   predict: ['KeyP'],
   bookmark: ['KeyK'],
+  events: ['KeyJ'],
   'next-robot': ['KeyN'],
 };
 
@@ -86,6 +88,7 @@ export const KEY_PRESETS = {
     swap: ['KeyF'],
     predict: ['Digit4'],
     bookmark: ['KeyZ'],
+    events: [],
     'next-robot': ['Digit3'],
   },
   right: {
@@ -109,6 +112,7 @@ export const KEY_PRESETS = {
     swap: ['Digit7'],
     predict: ['Minus'],
     bookmark: ['BracketLeft'],
+    events: ['Semicolon'],
     'next-robot': ['Digit6'],
   },
 } as const satisfies Record<string, KeyMap>;

@@ -6,6 +6,7 @@ import { commands } from './commands.ts';
 import { dashboard } from './dashboard.ts';
 import { dialogs } from './dialogs.ts';
 import { driving } from './driving.ts';
+import { events } from './events.ts';
 import { failures } from './failures.ts';
 import { figures } from './figures.ts';
 import { headset } from './headset.ts';
@@ -42,4 +43,5 @@ export const german: Texts = {
   timing,
   watch,
   inputs,
+  events,
 };

@@ -21,6 +21,7 @@ const keyRoles: Texts['inputs']['keyRoles'] = {
   swap: 'Kamera statt Punktwolke',
   predict: 'Vorausberechneter Blick',
   bookmark: 'Lesezeichen in der Aufzeichnung',
+  events: 'Ereignisprotokoll',
   'next-robot': 'Nächster Roboter',
 };
 

@@ -8,6 +8,7 @@ import { commands } from './commands.ts';
 import { dashboard } from './dashboard.ts';
 import { dialogs } from './dialogs.ts';
 import { driving } from './driving.ts';
+import { events } from './events.ts';
 import { failures } from './failures.ts';
 import { figures } from './figures.ts';
 import { headset } from './headset.ts';
@@ -44,6 +45,7 @@ export const english = {
   timing,
   watch,
   inputs,
+  events,
 };
 
 /** What a catalogue of any language has. */

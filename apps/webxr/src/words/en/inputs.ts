@@ -23,6 +23,7 @@ const keyRoles = {
   swap: 'Camera instead of cloud',
   predict: 'Predicted view',
   bookmark: 'Bookmark in the recording',
+  events: 'Event log',
   'next-robot': 'Next robot',
 } satisfies Record<KeyRole, string>;
 
