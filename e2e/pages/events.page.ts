@@ -1,6 +1,6 @@
 /** The event log: what has happened, as a list that is filtered and saved. */
 import { readFileSync } from 'node:fs';
-import type { Page } from '@playwright/test';
+import type { Locator, Page } from '@playwright/test';
 import { expect, test } from '../src/stage/page-test.ts';
 
 const LAPTOP = { width: 1280, height: 720 };
@@ -47,7 +47,7 @@ test('the log lists what has happened, is filtered and saved, and leaves STOP in
   const download = await saving;
   expect(download.suggestedFilename()).toMatch(/^farpoint-events-.*\.csv$/);
   const csv = readFileSync(await download.path(), 'utf8');
-  expect(csv).toMatch(/^time,last_time,times,session_s,robot,severity,kind,details,text\r\n/);
+  expect(csv).toMatch(/^time,lastTime,times,sessionS,robot,severity,kind,details,text\r\n/);
   expect(csv).toContain(',error,stop,');
   await page.locator('#estop').click({ trial: true });
   await page.keyboard.press('Escape');
@@ -72,4 +72,45 @@ test('the log stays in place while it is read, and says that there is more', asy
   await expect(rows(page).first()).toHaveText('Robot chosen: rover-59.');
   await page.getByRole('button', { name: '1 newer: show' }).click();
   await expect(rows(page).first()).toHaveText('Bo drives.');
+});
+
+test('a session has a report: at its end in the list of robots, and in the log while it lasts', async ({
+  stage,
+}) => {
+  const page = await stage.open({ state: 'driving', forMs: 12_000 });
+  await page.keyboard.press('KeyJ');
+  await log(page).waitFor();
+  await stage.run(200);
+  const saved = async (button: Locator) => {
+    const saving = page.waitForEvent('download');
+    await button.click();
+    const download = await saving;
+    return { name: download.suggestedFilename(), text: readFileSync(await download.path(), 'utf8') };
+  };
+  const json = await saved(log(page).getByRole('button', { name: 'Report as JSON' }));
+  expect(json.name).toMatch(/^farpoint-session-.*\.json$/);
+  const report = JSON.parse(json.text) as Record<string, Record<string, unknown>>;
+  expect(report).toMatchObject({
+    format: 'farpoint-session-report',
+    end: null,
+    robot: { name: 'Robot on a stage' },
+    driving: { distanceM: 0 },
+  });
+  expect(report.driving?.leaseS).toBeGreaterThan(1);
+  expect(report.view?.framesPerSecond).not.toBeNull();
+  expect(report.latency?.frameMs).not.toBeNull();
+  await page.keyboard.press('Escape');
+
+  await stage.script(({ app }) => app.client.leave());
+  await stage.run(500);
+  await expect(page.locator('#last-session')).toContainText(/^Last session: Robot on a stage, 0:1\d\./);
+  const html = await saved(page.locator('#last-session button'));
+  expect(html.name).toMatch(/^farpoint-session-.*\.html$/);
+  const reader = await page.context().newPage();
+  await reader.setContent(html.text);
+  await expect(reader.getByRole('heading', { level: 1 })).toHaveText('Session report: Robot on a stage');
+  await expect(reader.getByRole('row', { name: 'Reason of the end' })).toContainText(
+    'the operator disconnected',
+  );
+  await reader.close();
 });

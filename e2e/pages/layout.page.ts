@@ -8,6 +8,7 @@ const STATES: Readonly<Record<StageStateName, readonly string[]>> = {
   blank: ['robots', 'settings-open'],
   'no-robots': ['robots', 'settings-open'],
   disconnected: ['robots', 'settings-open'],
+  'session-over': ['robots', 'settings-open'],
   'service-away': ['robots', 'settings-open'],
   'token-refused': ['robots', 'settings-open'],
   connecting: ['disconnect', 'settings-open'],

@@ -1,10 +1,10 @@
 /** The page: shows on the screen what the robot sends, and sends the robot what the operator's hands do. */
 import type { RobotClient, RobotClientOptions, TransformSupport } from '@farpoint/operator';
 import { EventLog } from '../ground/events/event-log.ts';
-import { keepEvents } from '../ground/events/stored-events.ts';
 import type { LiveSettings } from '../ground/live-settings.ts';
 import { PanelPlacements } from '../ground/panels/panel-placements.ts';
 import { loadPlacements, storePlacements } from '../ground/panels/stored-panels.ts';
+import { SessionReports } from '../ground/report/session-reports.ts';
 import { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
 import { elements } from '../panels/ui/elements.ts';
 import { OperatorInputs } from '../panels/ui/operator-inputs.ts';
@@ -16,7 +16,6 @@ import { Stage } from '../scene/view/stage.ts';
 import { VrSession } from '../scene/view/vr-session.ts';
 import type { WristPanel } from '../scene/view/wrist-panel.ts';
 import { type CloudAppearance, openAppearance } from '../state/cloud-appearance.ts';
-import { feedEvents } from '../state/events/feed-events.ts';
 import type { Notices } from '../state/notices.ts';
 import { PageState } from '../state/page-state.ts';
 import { readKeyboardLayout } from '../take/drive/keyboard-layout.ts';
@@ -27,6 +26,7 @@ import { viewAgeMs } from '../words/motion-words.ts';
 import { PageStatistics, type PageStats } from '../words/page-stats.ts';
 import { FrameLoop } from './frame-loop.ts';
 import type { HeadsetControls } from './headset-controls.ts';
+import { logPage } from './log-page.ts';
 import { openClient } from './open-client.ts';
 import { PagePanels } from './page-panels.ts';
 import { PageViews } from './page-views.ts';
@@ -43,6 +43,7 @@ export class App implements ShownParts {
   readonly appearance: CloudAppearance;
   /** What has happened. */
   readonly events = new EventLog(() => Date.now());
+  readonly reports = new SessionReports();
   readonly stats = new PageStatistics();
   readonly vr: VrSession;
   readonly frames: FrameLoop;
@@ -103,6 +104,7 @@ export class App implements ShownParts {
       settings,
       state,
       events: this.events,
+      reports: this.reports,
       stage,
       appearance,
       views,
@@ -136,7 +138,7 @@ export class App implements ShownParts {
     const { client, settings, panels } = this;
     void readKeyboardLayout(navigator);
     followRobot(this);
-    this.#logEvents();
+    logPage(this);
     panels.start();
     client.start();
     if (settings.robot !== null) client.choose(settings.robot);
@@ -148,27 +150,6 @@ export class App implements ShownParts {
     const drawRobot = (nowMs: number) => showRobot(this, nowMs);
     new SteadyWork({ ...this, estop, cloudPanel, showRobot: drawRobot }, document).start();
     this.frames.start();
-  }
-
-  #logEvents(): void {
-    const { events: log, client, state, settings, appearance } = this;
-    const { on } = this.views.predicted;
-    keepEvents(log, window, () => sessionStorage);
-    feedEvents({
-      log,
-      client,
-      state,
-      settings: {
-        predict: () => on.value,
-        synchronised: () => settings.synchronised,
-        cues: () => settings.cues,
-        surface: () => appearance.drawsSurface.value,
-        hazards: () => appearance.hazards.value,
-        remembers: () => appearance.remembers.value,
-      },
-      operator: settings.name,
-      now: () => performance.now(),
-    });
   }
 
   /** Connects to this robot. A robot that was chosen before is stopped first. */

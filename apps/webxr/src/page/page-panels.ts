@@ -5,6 +5,7 @@ import { SignIn, tabStorage } from '../ground/access/sign-in.ts';
 import type { StoredRobots } from '../ground/access/stored-robots.ts';
 import type { EventLog } from '../ground/events/event-log.ts';
 import type { LiveSettings } from '../ground/live-settings.ts';
+import type { SessionReports } from '../ground/report/session-reports.ts';
 import type { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
 import { DashboardOpener } from '../panels/dashboard/dashboard-opener.ts';
 import { EventsOpener } from '../panels/events/events-opener.ts';
@@ -47,6 +48,7 @@ export interface PagePanelsParts {
   readonly settings: LiveSettings;
   readonly state: PageState;
   readonly events: EventLog;
+  readonly reports: SessionReports;
   readonly stage: Stage;
   readonly appearance: CloudAppearance;
   readonly views: PageViews;
@@ -88,7 +90,7 @@ export class PagePanels {
     const { presented, predicted, clouds, remembered } = views;
     const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });
     showStagesLine(client, state, () => dashboard.openStages());
-    this.#events = new EventsOpener({ log: parts.events, notices: state.notices });
+    this.#events = new EventsOpener({ log: parts.events, reports: parts.reports, notices: state.notices });
     this.controls = new ControlsUi({
       client,
       state,

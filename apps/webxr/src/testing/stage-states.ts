@@ -163,6 +163,10 @@ const states = {
     link.list([]);
     link.end('shutting-down');
   }),
+  'session-over': afterwards(
+    'You have disconnected: the list of robots has the session’s report',
+    ({ app }) => setTimeout(() => app.client.leave(), SETTLED_MS),
+  ),
   'view-too-old': afterwards('Held: what you see is too old', ({ robot }) => {
     robot.giveLease('you');
     const motion = { ...freeMotion, factor: 0, reasons: ['view-lost'] as const, viewAgeMs: 900 };

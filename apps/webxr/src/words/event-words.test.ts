@@ -123,23 +123,23 @@ describe('files of the log', () => {
     ).toEqual([
       {
         time: '2026-11-30T11:12:05.123Z',
-        last_time: '2026-11-30T11:12:09.000Z',
+        lastTime: '2026-11-30T11:12:09.000Z',
         times: 12,
-        session_s: 61.235,
+        sessionS: 61.235,
         robot: 'Rover',
         severity: 'warning',
         kind: 'command-refused',
         details: { reason: 'stale' },
         text: 'Command refused: too old on arrival.',
       },
-      expect.objectContaining({ session_s: null, robot: null, kind: 'free', details: {} }),
+      expect.objectContaining({ sessionS: null, robot: null, kind: 'free', details: {} }),
     ]);
   });
 
   test('CSV has a row for each, quoted where needed', () => {
     const event = eventOf({ kind: 'request-refused', detail: 'say "no", twice' }, { times: 2 });
     expect(eventsCsv(keptOf(event))).toBe(
-      'time,last_time,times,session_s,robot,severity,kind,details,text\r\n' +
+      'time,lastTime,times,sessionS,robot,severity,kind,details,text\r\n' +
         '2026-11-30T11:12:05.123Z,2026-11-30T11:12:09.000Z,2,61.235,Rover,warning,request-refused,' +
         '"{""detail"":""say \\""no\\"", twice""}",' +
         '"The signaling service refused a request: say ""no"", twice"\r\n',

@@ -32,10 +32,10 @@ export function passes({ detail, robot }: PageEvent, { group, text }: EventFilte
 interface WrittenEvent {
   /** ISO 8601, UTC. */
   readonly time: string;
-  readonly last_time: string;
+  readonly lastTime: string;
   readonly times: number;
   /** Seconds since the session began; `null` without a session. */
-  readonly session_s: number | null;
+  readonly sessionS: number | null;
   readonly robot: string | null;
   readonly severity: string;
   readonly kind: string;
@@ -47,9 +47,9 @@ interface WrittenEvent {
 
 const HEAD = [
   'time',
-  'last_time',
+  'lastTime',
   'times',
-  'session_s',
+  'sessionS',
   'robot',
   'severity',
   'kind',
@@ -82,9 +82,9 @@ function writtenEvents({ events, dropped }: KeptEvents): WrittenEvent[] {
   if (dropped === 0 || oldest === undefined) return written;
   const gap: WrittenEvent = {
     time: oldest.time,
-    last_time: oldest.time,
+    lastTime: oldest.time,
     times: dropped,
-    session_s: null,
+    sessionS: null,
     robot: null,
     severity: 'warning',
     kind: 'dropped',
@@ -98,9 +98,9 @@ function writtenEvent({ atMs, lastMs, times, sessionMs, robot, detail }: PageEve
   const { kind, ...details } = detail;
   return {
     time: new Date(atMs).toISOString(),
-    last_time: new Date(lastMs).toISOString(),
+    lastTime: new Date(lastMs).toISOString(),
     times,
-    session_s: sessionMs === null ? null : Math.round(sessionMs) / 1000,
+    sessionS: sessionMs === null ? null : Math.round(sessionMs) / 1000,
     robot,
     severity: severityOf(detail),
     kind,

@@ -13,6 +13,11 @@ export function texts(): Texts {
   return spoken.value.texts;
 }
 
+/** The language that counts now, as a tag of RFC 5646. */
+export function spokenLanguage(): Language {
+  return spoken.value.language;
+}
+
 const catalogues: Readonly<Record<Language, () => Promise<Texts>>> = {
   en: async () => english,
   de: async () => (await import('./de/catalogue.ts')).german,

@@ -3,11 +3,13 @@ import './events.css';
 import { effect, signal } from '@preact/signals-core';
 import type { EventLog } from '../../ground/events/event-log.ts';
 import { EVENT_GROUPS } from '../../ground/events/page-event.ts';
+import type { SessionReport } from '../../ground/report/report-schema.ts';
 import { type EventFilter, eventsCsv, eventsJsonLines } from '../../words/event-words.ts';
 import { texts } from '../../words/language.ts';
 import { quietButton, selectOf } from '../ui/panel-parts.ts';
 import { saveFile, saveTable } from '../ui/save-file.ts';
 import { eventRow, eventTable, listedEvents } from './event-list.ts';
+import { reportRow } from './report-row.ts';
 
 /** What an operator has chosen, and what stays in place meanwhile. */
 export class EventsDialog {
@@ -24,8 +26,8 @@ export class EventsDialog {
   /** How many events there had been when the list was made last. */
   #listed = 0;
 
-  /** Makes it, closed. While it is closed it lists nothing. @param more is shown below its head */
-  constructor(log: EventLog, ...more: readonly HTMLElement[]) {
+  /** Makes it, closed. While it is closed it lists nothing. @param reports of this tab's sessions, as they are now */
+  constructor(log: EventLog, reports: () => readonly SessionReport[]) {
     this.#log = log;
     const { element } = this;
     element.id = 'events';
@@ -36,8 +38,10 @@ export class EventsDialog {
     this.#scrolled.className = 'scrolled';
     this.#scrolled.tabIndex = -1;
     this.#scrolled.append(eventTable(this.#rows));
-    element.append(this.#head(), ...more, this.#newer, this.#scrolled);
+    const row = reportRow(reports);
+    element.append(this.#head(), row.element, this.#newer, this.#scrolled);
     new MutationObserver(() => {
+      if (element.open) row.update();
       this.#open.value = element.open;
     }).observe(element, { attributeFilter: ['open'] });
     effect(() => {

@@ -1,14 +1,17 @@
 /** Opens and closes the event log. Its code is loaded when it is first opened, so that the page starts without it. */
 import type { EventLog } from '../../ground/events/event-log.ts';
+import type { SessionReports } from '../../ground/report/session-reports.ts';
 import type { Notices } from '../../state/notices.ts';
 import { texts } from '../../words/language.ts';
 import { elements } from '../ui/elements.ts';
 import { followKey } from '../ui/key-title.ts';
 import { openDialog } from '../ui/open-dialog.ts';
 import { quietButton } from '../ui/panel-parts.ts';
+import { showLastSession } from './last-session.ts';
 
 export interface EventsOpenerParts {
   readonly log: EventLog;
+  readonly reports: SessionReports;
   readonly notices: Pick<Notices, 'tell'>;
 }
 
@@ -21,13 +24,14 @@ export class EventsOpener {
     this.#parts = parts;
   }
 
-  /** Puts a button into the bar. */
+  /** Puts a button into the bar, and the last session's report below the list of robots. */
   start(): void {
     const { open, openTitle } = texts().events;
     const button = quietButton(open, openTitle, () => void this.toggle());
     followKey(button, 'events');
     button.id = 'events-open';
     elements.settingsOpen.before(button);
+    showLastSession(this.#parts.reports);
   }
 
   async toggle(): Promise<void> {
@@ -50,7 +54,8 @@ export class EventsOpener {
 
   async #load(): Promise<HTMLDialogElement> {
     const { EventsDialog } = await import('./events-dialog.ts');
-    const { element } = new EventsDialog(this.#parts.log);
+    const { log, reports } = this.#parts;
+    const { element } = new EventsDialog(log, () => reports.all(performance.now()));
     document.body.append(element);
     return element;
   }

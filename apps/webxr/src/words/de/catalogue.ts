@@ -17,6 +17,7 @@ import { media } from './media.ts';
 import { motion } from './motion.ts';
 import { page } from './page.ts';
 import { people } from './people.ts';
+import { report } from './report.ts';
 import { settings } from './settings.ts';
 import { stop } from './stop.ts';
 import { timing } from './timing.ts';
@@ -44,4 +45,5 @@ export const german: Texts = {
   watch,
   inputs,
   events,
+  report,
 };

@@ -193,6 +193,8 @@ export const events: Texts['events'] = {
     'clip-saved': ({ seconds }) => `Ein Clip von ${seconds.toFixed(0)} s wurde gespeichert.`,
     suppressed: ({ count }) => `${count} weitere Ereignisse kamen zu schnell, um sie aufzuführen.`,
   },
+  losses,
+  rejections,
   severities: { info: 'Hinweis', warning: 'Warnung', error: 'Fehler' },
   groups: {
     connection: 'Verbindung',

@@ -19,6 +19,7 @@ import { media } from './media.ts';
 import { motion } from './motion.ts';
 import { page } from './page.ts';
 import { people } from './people.ts';
+import { report } from './report.ts';
 import { settings } from './settings.ts';
 import { stop } from './stop.ts';
 import { timing } from './timing.ts';
@@ -46,6 +47,7 @@ export const english = {
   watch,
   inputs,
   events,
+  report,
 };
 
 /** What a catalogue of any language has. */

@@ -205,6 +205,9 @@ export const events = {
     'clip-saved': ({ seconds }) => `A clip of ${seconds.toFixed(0)} s was saved.`,
     suppressed: ({ count }) => `${count} further events came too fast to be listed.`,
   } as { readonly [Kind in EventKind]: (detail: DetailOf<Kind>) => string },
+  /** Why sessions end, and why commands are refused, by the kinds of the events. */
+  losses: losses as Readonly<Record<string, string>>,
+  rejections: rejections as Readonly<Record<string, string>>,
   severities: { info: 'note', warning: 'warning', error: 'error' } satisfies Record<Severity, string>,
   groups: {
     connection: 'connection',
