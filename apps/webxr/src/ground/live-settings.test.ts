@@ -11,20 +11,21 @@ const settings = () =>
 
 test('are those that the page began with, until others are saved', () => {
   const live = settings();
-  expect(live).toMatchObject({ name: 'Ada', synchronised: false, cues: true, mapTiles: null });
+  expect(live).toMatchObject({ name: 'Ada', synchronised: false, cues: true, clips: false, mapTiles: null });
   expect({ ...live.headset }).toEqual(DEFAULT_HEADSET);
   const { headset } = live;
   live.apply({
     synchronised: true,
     cues: false,
+    clips: true,
     mapTiles: TILES,
     headset: { ...DEFAULT_HEADSET, turn: 'smooth' },
   });
-  expect(live).toMatchObject({ name: 'Ada', synchronised: true, cues: false });
+  expect(live).toMatchObject({ name: 'Ada', synchronised: true, cues: false, clips: true });
   expect(live.mapTiles).toEqual({ template: TILES, attribution: null, host: 'tiles.example' });
   expect(headset.turn).toBe('smooth');
   live.apply({});
-  expect(live).toMatchObject({ synchronised: true, cues: true, mapTiles: null });
+  expect(live).toMatchObject({ synchronised: true, cues: true, clips: false, mapTiles: null });
   expect(headset.turn).toBe('snap');
 });
 

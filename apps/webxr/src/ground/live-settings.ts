@@ -16,6 +16,7 @@ export interface LiveSettings extends Settings {
 export function liveSettings(settings: Settings, page: PageOrigin): LiveSettings {
   const synchronised = signal(settings.synchronised);
   const cues = signal(settings.cues);
+  const clips = signal(settings.clips);
   const mapTiles = signal<MapTiles | null>(settings.mapTiles);
   const headset = signal(settings.headset);
   return {
@@ -27,12 +28,16 @@ export function liveSettings(settings: Settings, page: PageOrigin): LiveSettings
     get cues() {
       return cues.value;
     },
+    get clips() {
+      return clips.value;
+    },
     get mapTiles() {
       return mapTiles.value;
     },
     apply(stored) {
       synchronised.value = stored.synchronised ?? true;
       cues.value = stored.cues ?? true;
+      clips.value = stored.clips ?? false;
       headset.value = parseHeadset(stored.headset);
       const tiles = mapTilesOf(stored.mapTiles, stored.mapAttribution, page);
       // The same tiles are not fetched anew.

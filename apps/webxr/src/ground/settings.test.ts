@@ -73,6 +73,12 @@ describe('readSettings', () => {
     expect([read('').cues, read('', { cues: false }).cues]).toEqual([true, false]);
   });
 
+  test('keeps clips only where it is told to', () => {
+    expect([read('').clips, read('', { clips: true }).clips]).toEqual([false, true]);
+    expect(parseStored('{"clips":true}', 'wss://x.org').clips).toBe(true);
+    expect(parseStored('{"clips":"yes"}', 'wss://x.org').clips).toBeUndefined();
+  });
+
   test('an address makes the page neither small nor slow', () => {
     expect(read('canvas=320x180&measure=1&every=8&barcode=1')).toMatchObject(NO_BENCH);
   });

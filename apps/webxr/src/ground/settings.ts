@@ -30,6 +30,7 @@ export interface StoredSettings {
   pointScale?: number | undefined;
   synchronised?: boolean | undefined;
   cues?: boolean | undefined;
+  clips?: boolean | undefined;
   /** Address template of a map's tiles, and whose they are. */
   mapTiles?: string | undefined;
   mapAttribution?: string | undefined;
@@ -70,6 +71,8 @@ export interface Settings extends BenchSettings {
   synchronised: boolean;
   /** Whether sound and vibration tell that the robot does less than it is told. */
   cues: boolean;
+  /** Whether the last 30 seconds of the view are kept for a clip. */
+  clips: boolean;
   /** How the headset shows and is held. */
   headset: HeadsetSettings;
   /** Whether the view is led by the operator's commands. */
@@ -133,6 +136,7 @@ export function readSettings(
     pointScale: clampScale(stored.pointScale),
     synchronised: stored.synchronised ?? true,
     cues: stored.cues ?? true,
+    clips: stored.clips ?? false,
     headset: parseHeadset(stored.headset),
     predict: query.get('predict') !== '0',
     mapTiles: mapTilesOf(stored.mapTiles, stored.mapAttribution, page),
@@ -166,6 +170,7 @@ export function parseStored(text: string | null, ownUrl: string): StoredSettings
     pointScale: typeof record.pointScale === 'number' ? clampScale(record.pointScale) : undefined,
     synchronised: typeof record.synchronised === 'boolean' ? record.synchronised : undefined,
     cues: typeof record.cues === 'boolean' ? record.cues : undefined,
+    clips: typeof record.clips === 'boolean' ? record.clips : undefined,
     headset: record.headset === undefined ? undefined : parseHeadset(record.headset),
     mapTiles: textOf('mapTiles'),
     mapAttribution: textOf('mapAttribution'),

@@ -115,6 +115,7 @@ export class App implements ShownParts {
       inputs: this.inputs,
       choose: (robotId) => this.choose(robotId),
       nextHeadsetView: () => this.#headset?.nextView(),
+      afterNextFrame: (act) => this.frames.afterNextFrame(act),
     });
     const readHeadset = () => this.#headset?.read();
     this.frames = new FrameLoop({ settings, client, stage, views, stats, vr, readHeadset });
@@ -138,7 +139,7 @@ export class App implements ShownParts {
     const { client, settings, panels } = this;
     void readKeyboardLayout(navigator);
     followRobot(this);
-    logPage(this);
+    panels.capture.onSaved = logPage(this);
     panels.start();
     client.start();
     if (settings.robot !== null) client.choose(settings.robot);

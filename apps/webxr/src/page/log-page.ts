@@ -6,7 +6,7 @@ import type { SessionReports } from '../ground/report/session-reports.ts';
 import { keepReports } from '../ground/report/stored-reports.ts';
 import type { Settings } from '../ground/settings.ts';
 import type { CloudAppearance } from '../state/cloud-appearance.ts';
-import { feedEvents } from '../state/events/feed-events.ts';
+import { type AddEvent, feedEvents } from '../state/events/feed-events.ts';
 import type { PageState } from '../state/page-state.ts';
 import { feedReports } from '../state/report/feed-reports.ts';
 import type { PageViews } from './page-views.ts';
@@ -21,8 +21,16 @@ export interface LoggedParts {
   readonly views: Pick<PageViews, 'predicted'>;
 }
 
-/** Call it before the client starts. */
-export function logPage({ events, reports, client, state, settings, appearance, views }: LoggedParts): void {
+/** Call it before the client starts. @returns adds what the page itself has done */
+export function logPage({
+  events,
+  reports,
+  client,
+  state,
+  settings,
+  appearance,
+  views,
+}: LoggedParts): AddEvent {
   const { on } = views.predicted;
   const now = () => performance.now();
   const storage = () => sessionStorage;
@@ -38,7 +46,7 @@ export function logPage({ events, reports, client, state, settings, appearance, 
     epochMs: () => Date.now(),
     now,
   });
-  feedEvents({
+  const add = feedEvents({
     log: events,
     client,
     state,
@@ -46,6 +54,7 @@ export function logPage({ events, reports, client, state, settings, appearance, 
       predict: () => on.value,
       synchronised: () => settings.synchronised,
       cues: () => settings.cues,
+      clips: () => settings.clips,
       surface: () => appearance.drawsSurface.value,
       hazards: () => appearance.hazards.value,
       remembers: () => appearance.remembers.value,
@@ -53,4 +62,17 @@ export function logPage({ events, reports, client, state, settings, appearance, 
     operator: settings.name,
     now,
   });
+  logErrors(add);
+  return add;
+}
+
+/** What nobody has caught. */
+function logErrors(add: AddEvent): void {
+  window.addEventListener('error', ({ message }) => {
+    // That panels are measured again in the next frame is no error.
+    if (!message.startsWith('ResizeObserver loop')) add({ kind: 'page-failed', detail: message });
+  });
+  window.addEventListener('unhandledrejection', ({ reason }) =>
+    add({ kind: 'page-failed', detail: String(reason) }),
+  );
 }

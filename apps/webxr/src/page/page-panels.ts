@@ -7,6 +7,7 @@ import type { EventLog } from '../ground/events/event-log.ts';
 import type { LiveSettings } from '../ground/live-settings.ts';
 import type { SessionReports } from '../ground/report/session-reports.ts';
 import type { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
+import { CaptureUi } from '../panels/capture/capture-ui.ts';
 import { DashboardOpener } from '../panels/dashboard/dashboard-opener.ts';
 import { EventsOpener } from '../panels/events/events-opener.ts';
 import { startInputsDialog } from '../panels/inputs/inputs-dialog.ts';
@@ -61,6 +62,8 @@ export interface PagePanelsParts {
   choose(robotId: string): void;
   /** Shows the next view in the headset. */
   nextHeadsetView(): void;
+  /** Calls `act` once, in the next display frame, after drawing and before the frame is shown. */
+  afterNextFrame(act: () => void): void;
 }
 
 export class PagePanels {
@@ -68,6 +71,7 @@ export class PagePanels {
   readonly controls: ControlsUi;
   readonly sound: SoundUi;
   readonly cloudPanel: CloudPanel;
+  readonly capture: CaptureUi;
   readonly #access: AccessUi;
   readonly #events: EventsOpener;
   readonly #parts: PagePanelsParts;
@@ -90,7 +94,15 @@ export class PagePanels {
     const { presented, predicted, clouds, remembered } = views;
     const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });
     showStagesLine(client, state, () => dashboard.openStages());
-    this.#events = new EventsOpener({ log: parts.events, reports: parts.reports, notices: state.notices });
+    const { afterNextFrame } = parts;
+    this.capture = new CaptureUi({ state, settings, inVr: vr.active, afterNextFrame });
+    const { capture } = this;
+    this.#events = new EventsOpener({
+      log: parts.events,
+      reports: parts.reports,
+      notices: state.notices,
+      capture,
+    });
     this.controls = new ControlsUi({
       client,
       state,
@@ -101,6 +113,7 @@ export class PagePanels {
       choose: parts.choose,
       toggleDashboard: () => dashboard.toggle(),
       openEvents: () => void this.#events.toggle(),
+      capture,
       nextHeadsetView: parts.nextHeadsetView,
       predicted,
       settings,
@@ -122,6 +135,7 @@ export class PagePanels {
     this.sound.start();
     this.#access.start();
     this.#events.start();
+    this.capture.start();
   }
 
   /** Draws the state in the document from now on. */

@@ -56,6 +56,7 @@ const ALIKE = new Set([
   'Headset',
   'Token',
   'CSV',
+  'Clip',
   'JSON Lines',
   '95 %',
   'max.',

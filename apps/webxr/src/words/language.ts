@@ -13,17 +13,12 @@ export function texts(): Texts {
   return spoken.value.texts;
 }
 
-/** The language that counts now, as a tag of RFC 5646. */
-export function spokenLanguage(): Language {
-  return spoken.value.language;
-}
-
 const catalogues: Readonly<Record<Language, () => Promise<Texts>>> = {
   en: async () => english,
   de: async () => (await import('./de/catalogue.ts')).german,
 };
 
-/** The language that is spoken now. */
+/** The language that is spoken now, as a tag of RFC 5646. */
 export function language(): Language {
   return spoken.value.language;
 }

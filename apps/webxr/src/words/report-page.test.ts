@@ -13,6 +13,8 @@ function record(name = 'Rover', operator = 'Ann'): SessionRecord {
     maxLinearMps: 1,
   });
   made.onEvent({ kind: 'command-refused', reason: 'stale' }, 0, 12);
+  const stop = { kind: 'stop', by: 'operator', heldBy: [], start: null, already: false } as const;
+  made.onEvent({ ...stop, heldBy: [], name: operator }, 0, 1);
   made.onEvent({ kind: 'latency', mtpMs: 88.25, firstMs: 70 }, 0, 1);
   made.onSample({
     bytesReceived: 2_500_000,
@@ -50,6 +52,8 @@ describe('the page of a session’s report', () => {
         'Ended|2026-11-30 12:14:08 UTC|',
         'Duration|1:02:03|',
         'Reason of the end|the robot was shut down|',
+        'STOP by others|1|',
+        'STOP by Ann|1|',
         'Commands refused|12|',
         'Refused: too old on arrival|12|',
         'Packets lost|1.00 %|',

@@ -12,6 +12,7 @@ h1{font-size:1.4rem;margin:0 0 .5rem}h2{font-size:1rem;margin:0 0 .25rem}
 main{columns:2 22rem;column-gap:2rem}section{break-inside:avoid;margin:0 0 1rem}
 table{width:100%;border-collapse:collapse;font-variant-numeric:tabular-nums}
 th,td{padding:.1rem .3rem;border-bottom:1px solid #ccc;text-align:right;overflow-wrap:anywhere}
+thead th,thead~tbody td{white-space:nowrap;overflow-wrap:normal}
 th:first-child{text-align:left;font-weight:400}thead th{font-weight:600}
 @media print{body{margin:0;max-width:none;font-size:10px}@page{margin:12mm}}`;
 
@@ -101,6 +102,7 @@ function interventionRows({ interventions: all }: SessionReport): Row[] {
   return [
     [said.stopsByYou, String(all.stopsByYou)],
     [said.stopsByOthers, String(all.stopsByOthers)],
+    ...Object.entries(all.stopsByName).map(([name, times]) => [said.stopBy(name), String(times)] as const),
     [said.stopsByRobot, String(all.stopsByRobot)],
     [said.held, lasting(all.held, all.heldS)],
     [said.slowed, lasting(all.slowed, all.slowedS)],

@@ -1,5 +1,5 @@
 /** Counts what came between the operator and a drive, and for how long the robot was silent, from the page's events. Pure. */
-import type { EventDetail } from '../events/page-event.ts';
+import type { DetailOf, EventDetail } from '../events/page-event.ts';
 import type { ReportInterventions } from './report-schema.ts';
 
 /** The kinds of which each is only counted. */
@@ -13,10 +13,13 @@ const COUNTED = {
   alarm: 'alarms',
 } as const satisfies Partial<Record<EventDetail['kind'], keyof ReportInterventions>>;
 
+/** Names that are counted one by one. Chosen: more than a robot has operators; a robot says what names it likes. */
+const MOST_NAMES = 32;
+
 const STOPS = { you: 'stopsByYou', operator: 'stopsByOthers', robot: 'stopsByRobot' } as const;
 
 export class InterventionCounts {
-  readonly counts: Omit<ReportInterventions, 'heldS' | 'slowedS'> = {
+  readonly counts: Omit<ReportInterventions, 'heldS' | 'slowedS' | 'stopsByName'> = {
     stopsByYou: 0,
     stopsByOthers: 0,
     stopsByRobot: 0,
@@ -31,6 +34,8 @@ export class InterventionCounts {
     alarms: 0,
     commandsRefused: {},
   };
+  /** STOPs of others by name. */
+  readonly stopsByName = new Map<string, number>();
   rateFalls = 0;
   outages = 0;
   outageMs = 0;
@@ -49,7 +54,7 @@ export class InterventionCounts {
     const { counts } = this;
     switch (detail.kind) {
       case 'stop':
-        if (!detail.already) counts[STOPS[detail.by]]++;
+        if (!detail.already) this.#onStop(detail);
         return;
       case 'command-refused':
         counts.commandsRefused[detail.reason] = (counts.commandsRefused[detail.reason] ?? 0) + times;
@@ -89,6 +94,14 @@ export class InterventionCounts {
 
   get takeovers(): number {
     return Math.max(0, this.#passed - this.counts.handovers);
+  }
+
+  #onStop({ by, name }: DetailOf<'stop'>): void {
+    this.counts[STOPS[by]]++;
+    const { stopsByName } = this;
+    if (by !== 'operator' || name === '') return;
+    if (stopsByName.has(name) || stopsByName.size < MOST_NAMES)
+      stopsByName.set(name, (stopsByName.get(name) ?? 0) + 1);
   }
 
   #onLease(holder: 'you' | 'other' | 'nobody', driver: string, nowMs: number): void {

@@ -34,6 +34,8 @@ const interventions = z.object({
   stopsByYou: count,
   stopsByOthers: count,
   stopsByRobot: count,
+  /** Of those by others: how many by whom, as far as the robot names them. */
+  stopsByName: z.record(text, count),
   held: count,
   heldS: number,
   slowed: count,

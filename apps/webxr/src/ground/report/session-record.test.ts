@@ -62,7 +62,25 @@ describe('the report of a session', () => {
       { ...stop, heldBy: [], by: 'robot' },
       { ...stop, heldBy: [], by: 'robot', already: true },
     );
-    expect(counts).toMatchObject({ stopsByYou: 1, stopsByOthers: 2, stopsByRobot: 1 });
+    expect(counts).toMatchObject({ stopsByYou: 1, stopsByOthers: 2, stopsByRobot: 1, stopsByName: {} });
+    // Names are what a robot says.
+    const record = new SessionRecord(START);
+    const by = 'operator' as const;
+    for (const name of [
+      'Bo',
+      'constructor',
+      'Bo',
+      '__proto__',
+      ...Array.from({ length: 50 }, (_, i) => `n${i}`),
+    ])
+      record.onEvent({ ...stop, heldBy: [], by, name }, 0, 1);
+    const { stopsByName } = record.report(0).interventions;
+    expect(Object.entries(stopsByName).slice(0, 3)).toEqual([
+      ['Bo', 2],
+      ['constructor', 1],
+      ['__proto__', 1],
+    ]);
+    expect(Object.keys(stopsByName)).toHaveLength(32);
   });
 
   test('counts what held and slowed the robot, and refusals by their reason', () => {

@@ -155,9 +155,16 @@ export class SessionRecord {
   }
 
   #interventions(): SessionReport['interventions'] {
-    const { counts, takeovers } = this.#counts;
+    const { counts, takeovers, stopsByName } = this.#counts;
     const { heldS, slowedS } = this.#travel;
-    return { ...counts, commandsRefused: { ...counts.commandsRefused }, takeovers, heldS, slowedS };
+    return {
+      ...counts,
+      stopsByName: Object.fromEntries(stopsByName),
+      commandsRefused: { ...counts.commandsRefused },
+      takeovers,
+      heldS,
+      slowedS,
+    };
   }
 
   #link(): SessionReport['link'] {

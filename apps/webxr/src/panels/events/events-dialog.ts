@@ -8,6 +8,7 @@ import { type EventFilter, eventsCsv, eventsJsonLines } from '../../words/event-
 import { texts } from '../../words/language.ts';
 import { quietButton, selectOf } from '../ui/panel-parts.ts';
 import { saveFile, saveTable } from '../ui/save-file.ts';
+import { type Capturing, captureButtons } from './capture-buttons.ts';
 import { eventRow, eventTable, listedEvents } from './event-list.ts';
 import { reportRow } from './report-row.ts';
 
@@ -27,7 +28,7 @@ export class EventsDialog {
   #listed = 0;
 
   /** Makes it, closed. While it is closed it lists nothing. @param reports of this tab's sessions, as they are now */
-  constructor(log: EventLog, reports: () => readonly SessionReport[]) {
+  constructor(log: EventLog, reports: () => readonly SessionReport[], capture: Capturing) {
     this.#log = log;
     const { element } = this;
     element.id = 'events';
@@ -39,6 +40,7 @@ export class EventsDialog {
     this.#scrolled.tabIndex = -1;
     this.#scrolled.append(eventTable(this.#rows));
     const row = reportRow(reports);
+    row.element.append(...captureButtons(capture));
     element.append(this.#head(), row.element, this.#newer, this.#scrolled);
     new MutationObserver(() => {
       if (element.open) row.update();
@@ -87,13 +89,16 @@ export class EventsDialog {
     title.textContent = said.title;
     this.#count.className = 'count';
     const log = this.#log;
+    const close = quietButton(said.close, said.close, () => this.element.close());
+    // Enter and Space must not save or clear what nobody has looked at.
+    close.autofocus = true;
     const lines = () => new Blob([eventsJsonLines(log.kept)], { type: 'application/jsonl' });
     head.append(
       title,
       quietButton(said.csv, said.csvTitle, () => saveTable('events', eventsCsv(log.kept))),
       quietButton(said.jsonLines, said.jsonLinesTitle, () => saveFile('events', 'jsonl', lines())),
       quietButton(said.clear, said.clearTitle, () => log.clear()),
-      quietButton(said.close, said.close, () => this.element.close()),
+      close,
       this.#groups(),
       this.#text(),
       this.#count,

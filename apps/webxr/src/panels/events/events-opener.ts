@@ -7,12 +7,14 @@ import { elements } from '../ui/elements.ts';
 import { followKey } from '../ui/key-title.ts';
 import { openDialog } from '../ui/open-dialog.ts';
 import { quietButton } from '../ui/panel-parts.ts';
+import type { Capturing } from './capture-buttons.ts';
 import { showLastSession } from './last-session.ts';
 
 export interface EventsOpenerParts {
   readonly log: EventLog;
   readonly reports: SessionReports;
   readonly notices: Pick<Notices, 'tell'>;
+  readonly capture: Capturing;
 }
 
 export class EventsOpener {
@@ -54,8 +56,8 @@ export class EventsOpener {
 
   async #load(): Promise<HTMLDialogElement> {
     const { EventsDialog } = await import('./events-dialog.ts');
-    const { log, reports } = this.#parts;
-    const { element } = new EventsDialog(log, () => reports.all(performance.now()));
+    const { log, reports, capture } = this.#parts;
+    const { element } = new EventsDialog(log, () => reports.all(performance.now()), capture);
     document.body.append(element);
     return element;
   }

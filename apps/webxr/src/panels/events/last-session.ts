@@ -12,8 +12,7 @@ export function showLastSession(reports: Pick<SessionReports, 'ended'>): void {
   line.id = 'last-session';
   line.className = 'hint small';
   const text = document.createElement('span');
-  const { savePage, savePageTitle } = texts().report;
-  const save = quietButton(savePage, savePageTitle, () => {
+  const save = quietButton('', '', () => {
     const [last] = reports.ended.peek();
     // The page starts without the code of reports.
     if (last !== undefined) void import('./report-files.ts').then((files) => files.saveReportPage(last));
@@ -24,6 +23,9 @@ export function showLastSession(reports: Pick<SessionReports, 'ended'>): void {
     const [last] = reports.ended.value;
     line.hidden = last === undefined;
     if (last === undefined) return;
-    text.textContent = texts().report.lastSession(last.robot.name, durationText(last.durationS));
+    const { savePage, savePageTitle, lastSession } = texts().report;
+    save.textContent = savePage;
+    save.title = savePageTitle;
+    text.textContent = lastSession(last.robot.name, durationText(last.durationS));
   });
 }

@@ -1,11 +1,11 @@
 /** Saves the report of a session: as a page for people, and as JSON for programs. */
 import type { SessionReport } from '../../ground/report/report-schema.ts';
-import { spokenLanguage } from '../../words/language.ts';
+import { language } from '../../words/language.ts';
 import { reportPage } from '../../words/report-page.ts';
 import { saveFile } from '../ui/save-file.ts';
 
 export function saveReportPage(report: SessionReport): void {
-  const page = reportPage(report, spokenLanguage());
+  const page = reportPage(report, language());
   saveFile('session', 'html', new Blob([page], { type: 'text/html' }));
 }
 

@@ -37,6 +37,8 @@ export interface Controlled {
   toggleDashboard(): void;
   /** Opens the event log. */
   openEvents(): void;
+  /** Saves a picture of the view, and a clip of the last 30 s. */
+  readonly capture: { picture(): void; clip(): void };
 }
 
 export class ControlsUi {
@@ -63,57 +65,46 @@ export class ControlsUi {
   }
 
   act(action: Action, timeMs: number): void {
-    const { stage, estop, appearance, vr } = this.#parts;
-    const inVr = vr.active.peek();
+    this.#actions[action](timeMs);
+  }
+
+  /** @param timeMs of the event that asks for it */
+  readonly #actions: Readonly<Record<Action, (timeMs: number) => void>> = {
+    estop: () => this.#parts.estop.stop(),
+    'latency-test': (timeMs) => this.#testLatency(timeMs),
+    recentre: () => this.#recentre(),
+    view: () => this.#nextView(),
+    'from-above': () => {
+      const { fromAbove } = this.#parts.appearance;
+      fromAbove.value = !fromAbove.peek();
+    },
+    hazards: () => this.#toggleHazards(),
+    enlarge: () => this.#parts.state.enlarged.next(),
+    dashboard: () => this.#parts.toggleDashboard(),
+    events: () => this.#parts.openEvents(),
+    picture: () => this.#parts.capture.picture(),
+    clip: () => this.#parts.capture.clip(),
+    predict: () => this.#togglePrediction(),
+    swap: () => this.#parts.state.swap(),
+    bookmark: () => addBookmark(this.#parts.state.commands),
+    'next-robot': () => this.#nextRobot(),
+    faster: () => this.#shift('faster'),
+    slower: () => this.#shift('slower'),
+  };
+
+  #recentre(): void {
+    const { vr, stage } = this.#parts;
+    if (vr.active.peek()) vr.recentre();
+    else stage.look.recentre();
+  }
+
+  #nextView(): void {
+    const { vr, stage, appearance } = this.#parts;
     const { fromAbove } = appearance;
-    switch (action) {
-      case 'estop':
-        estop.stop();
-        return;
-      case 'latency-test':
-        this.#testLatency(timeMs);
-        return;
-      case 'recentre':
-        if (inVr) vr.recentre();
-        else stage.look.recentre();
-        return;
-      case 'view':
-        if (inVr) this.#parts.nextHeadsetView();
-        // From above, it returns to the view from before.
-        else if (fromAbove.peek()) fromAbove.value = false;
-        else stage.look.switchMode();
-        return;
-      case 'from-above':
-        fromAbove.value = !fromAbove.peek();
-        return;
-      case 'hazards':
-        this.#toggleHazards();
-        return;
-      case 'enlarge':
-        this.#parts.state.enlarged.next();
-        return;
-      case 'dashboard':
-        this.#parts.toggleDashboard();
-        return;
-      case 'events':
-        this.#parts.openEvents();
-        return;
-      case 'predict':
-        this.#togglePrediction();
-        return;
-      case 'swap':
-        this.#parts.state.swap();
-        return;
-      case 'bookmark':
-        addBookmark(this.#parts.state.commands);
-        return;
-      case 'next-robot':
-        this.#nextRobot();
-        return;
-      case 'faster':
-      case 'slower':
-        this.#shift(action);
-    }
+    if (vr.active.peek()) this.#parts.nextHeadsetView();
+    // From above, it returns to the view from before.
+    else if (fromAbove.peek()) fromAbove.value = false;
+    else stage.look.switchMode();
   }
 
   #testLatency(startedAtMs: number): void {

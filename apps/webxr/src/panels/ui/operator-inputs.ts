@@ -44,6 +44,8 @@ export type Action =
   | 'swap'
   | 'bookmark'
   | 'events'
+  | 'picture'
+  | 'clip'
   | 'next-robot'
   | 'faster'
   | 'slower';
@@ -61,6 +63,8 @@ const ACTIONS: ReadonlySet<string> = new Set<Action>([
   'swap',
   'bookmark',
   'events',
+  'picture',
+  'clip',
   'next-robot',
   'faster',
   'slower',

@@ -10,6 +10,7 @@ import { forgetVisitTokens, loadStored, pageOrigin, store } from '../../ground/s
 import { parseTileTemplate } from '../../ground/telemetry/map-tiles.ts';
 import { language, texts } from '../../words/language.ts';
 import { type SaveEffect, saveWords, sliderWords, tileFaultWords } from '../../words/settings-words.ts';
+import { addClipField } from './clip-field.ts';
 import { initDisplayFields } from './display-fields.ts';
 import { elements } from './elements.ts';
 import { wantedLanguage } from './fill-texts.ts';
@@ -24,6 +25,7 @@ import { openDialog } from './open-dialog.ts';
 export function initSettingsDialog(pointScale: Signal<number>, live: Pick<LiveSettings, 'apply'>): void {
   const { settings: dialog, settingsOpen } = elements;
   const element = dialog.querySelector('form')!;
+  addClipField(element, 'cues');
   const form = new SettingsForm(element);
   initDisplayFields(element, displaySettings);
   let display = displaySettings.peek();
@@ -63,6 +65,7 @@ class SettingsForm {
     this.#field('pointScale').value = String(stored.pointScale ?? 1);
     this.#field('synchronised').checked = stored.synchronised ?? true;
     this.#field('cues').checked = stored.cues ?? true;
+    this.#field('clips').checked = stored.clips ?? false;
     fillHeadsetFields(this.#form, parseHeadset(stored.headset));
     this.#field('mapTiles').value = stored.mapTiles ?? '';
     this.#field('mapAttribution').value = stored.mapAttribution ?? '';
@@ -123,6 +126,7 @@ class SettingsForm {
       pointScale: clampScale(Number(this.#field('pointScale').value)),
       synchronised: this.#field('synchronised').checked,
       cues: this.#field('cues').checked,
+      clips: this.#field('clips').checked,
       headset: readHeadsetFields(this.#form),
       mapTiles: this.#field('mapTiles').value.trim(),
       mapAttribution: this.#field('mapAttribution').value.trim(),

@@ -13,7 +13,12 @@ import { type EventSources, feedEvents } from './feed-events.ts';
 function setUp() {
   const clock = { ms: 10_000 };
   const listeners = new Map<string, ((event: unknown) => void)[]>();
-  const session = { estopCause: null as unknown, operators: null as unknown, lease: { holder: 'other' } };
+  const session = {
+    welcome: null as unknown,
+    estopCause: null as unknown,
+    operators: null as unknown,
+    lease: { holder: 'other' },
+  };
   const client = {
     on: (type: string, listener: (event: unknown) => void) =>
       listeners.set(type, [...(listeners.get(type) ?? []), listener]),
@@ -25,7 +30,7 @@ function setUp() {
     live: signal(false),
     silence: signal('heard'),
   };
-  const robot = { name: signal<string | null>(null), about: signal<{ recorded: boolean } | null>(null) };
+  const robot = { about: signal<{ recorded: boolean } | null>(null) };
   const notices = { failure: signal<{ title: string; text: string } | null>(null), tell: () => undefined };
   const [cameras, videos, sensors] = [new Switches(), new Switches(), new Switches()];
   const figures = signal({ lossRate: 0 });
@@ -52,6 +57,7 @@ function setUp() {
     return said;
   };
   const emit = (type: string, event?: unknown) => {
+    if (type === 'welcome') session.welcome = event;
     for (const listener of listeners.get(type) ?? []) listener(event);
   };
   return {
@@ -75,7 +81,6 @@ let page: ReturnType<typeof setUp>;
 beforeEach(() => {
   page = setUp();
   page.link.chosenRobotId.value = 'rover-1';
-  page.robot.name.value = 'Rover';
   page.emit('session', 1);
   page.link.live.value = true;
   page.emit('welcome', { robotId: 'rover-1', name: 'Rover' });
@@ -83,10 +88,9 @@ beforeEach(() => {
 });
 
 test('sessions begin and end, with the time within them', () => {
-  const { clock, link, robot, client, log, news, emit } = setUp();
+  const { clock, link, client, log, news, emit } = setUp();
   link.signaling.value = 'ready';
   link.chosenRobotId.value = 'rover-1';
-  robot.name.value = 'Rover';
   link.live.value = true;
   emit('welcome', { robotId: 'rover-1', name: 'Rover', access: { name: 'Ann Smith' } });
   clock.ms += 1500;
@@ -94,8 +98,10 @@ test('sessions begin and end, with the time within them', () => {
   client.link.lossDetail = 'gone';
   emit('loss', 'robot-stopped');
   emit('phase', 'waiting');
+  link.chosenRobotId.value = 'rover-2';
   link.chosenRobotId.value = null;
-  expect(log.kept.events.map(({ sessionMs }) => sessionMs)).toEqual([null, null, null, 0, 1500, 1500, null]);
+  const timesMs = log.kept.events.map(({ sessionMs }) => sessionMs);
+  expect(timesMs).toEqual([null, null, null, 0, 1500, 1500, null, null, null]);
   expect(news()).toEqual([
     'null: The page was opened.',
     'null: Connected to the signaling service.',
@@ -104,6 +110,8 @@ test('sessions begin and end, with the time within them', () => {
     'Rover: The network path to the robot was lost.',
     'Rover: Session ended: the robot was shut down (gone).',
     'Rover: Disconnected from rover-1.',
+    'rover-2: Robot chosen: rover-2.',
+    'rover-2: Disconnected from rover-2.',
   ]);
 });
 

@@ -26,18 +26,22 @@ export interface EventSources {
   now(): number;
 }
 
-type Add = (detail: EventDetail, times?: number) => void;
+/** Adds what has happened, to the robot and session of now. */
+export type AddEvent = (detail: EventDetail, times?: number) => void;
 
-export function feedEvents(sources: EventSources): void {
+/** @returns adds what the page itself has done */
+export function feedEvents(sources: EventSources): AddEvent {
   const { log, client, state, now } = sources;
   let beganMs: number | null = null;
   client.on('welcome', () => {
     beganMs = now();
   });
-  const add: Add = (detail, times) => {
-    const { robot, link } = state;
-    const sessionMs = beganMs === null ? null : now() - beganMs;
-    log.add(detail, { robot: robot.name.peek() ?? link.chosenRobotId.peek(), sessionMs }, times);
+  const add: AddEvent = (detail, times) => {
+    // The robot that is left is chosen no longer.
+    const chosen = detail.kind === 'robot-left' ? detail.robotId : state.link.chosenRobotId.peek();
+    const { welcome } = client.link.session;
+    const robot = welcome !== null && welcome.robotId === chosen ? welcome.name : chosen;
+    log.add(detail, { robot, sessionMs: beganMs === null ? null : now() - beganMs }, times);
   };
   feedConnection(sources, add);
   client.on('phase', (phase) => {
@@ -48,9 +52,10 @@ export function feedEvents(sources: EventSources): void {
   feedStop(sources, add);
   feedReports(sources, add);
   feedChoices(sources, add);
+  return add;
 }
 
-function feedConnection({ client, state, operator }: EventSources, add: Add): void {
+function feedConnection({ client, state, operator }: EventSources, add: AddEvent): void {
   add({ kind: 'page-opened' });
   onChange(state.link.chosenRobotId, (id, before) => {
     if (before !== null) add({ kind: 'robot-left', robotId: before });
@@ -69,7 +74,7 @@ function feedConnection({ client, state, operator }: EventSources, add: Add): vo
 }
 
 /** Whether the robot is heard, and how much comes. */
-function feedLink({ client, state, now }: EventSources, add: Add): void {
+function feedLink({ client, state, now }: EventSources, add: AddEvent): void {
   let silentSinceMs: number | null = null;
   const silence = computed(() => (state.link.live.value ? state.link.silence.value : null));
   onChange(silence, (is) => {
@@ -100,7 +105,7 @@ function feedLink({ client, state, now }: EventSources, add: Add): void {
   });
 }
 
-function feedDriving(client: EventSources['client'], add: Add): void {
+function feedDriving(client: EventSources['client'], add: AddEvent): void {
   let last = 'nobody';
   client.on('session', () => {
     last = 'nobody';
@@ -125,7 +130,7 @@ function handoverDetail({ kind, from, to, ended }: Handover): EventDetail | null
   return { kind: 'handover', step: kind, from: from.name, to: to.name, ended };
 }
 
-function feedStop({ client, state }: EventSources, add: Add): void {
+function feedStop({ client, state }: EventSources, add: AddEvent): void {
   client.on('stop', (status) => {
     if (status !== 'none') add({ kind: 'stop-delivery', status });
   });
@@ -150,7 +155,7 @@ function presser(cause: EstopCause | null): 'you' | 'operator' | null {
 }
 
 /** Alarms, latency tests, recordings and errors. */
-function feedReports({ client, state }: EventSources, add: Add): void {
+function feedReports({ client, state }: EventSources, add: AddEvent): void {
   client.on('alarm', (alarm) => add(alarmDetail(alarm)));
   client.on('latency', ({ mtpMs, firstMs }) => add({ kind: 'latency', mtpMs, firstMs }));
   client.on('robotFault', (detail) => add({ kind: 'robot-fault', detail }));
@@ -172,7 +177,7 @@ function alarmDetail({ level, text, value, limit, unit, recorded }: Alarm): Even
 }
 
 /** What the operator switches. */
-function feedChoices({ state, settings }: EventSources, add: Add): void {
+function feedChoices({ state, settings }: EventSources, add: AddEvent): void {
   for (const [name, read] of Object.entries(settings) as [DetailOf<'setting'>['name'], () => boolean][])
     onChange(computed(read), (on) => add({ kind: 'setting', name, on }));
   onSwitch(state.cameras.all, (name, on) => add({ kind: 'camera', name, on }));

@@ -30,7 +30,7 @@ function expectSafe(keys: KeyMap): void {
 }
 
 /** Needed too rarely for one hand to have a key for it: each of them has a button. */
-const RARE: readonly KeyRole[] = ['events'];
+const RARE: readonly KeyRole[] = ['events', 'picture', 'clip'];
 
 test('all presets are usable, and have a key for everything that is needed often', () => {
   for (const preset of Object.values(KEY_PRESETS)) {

@@ -23,6 +23,8 @@ export const KEY_ROLES = [
   'predict',
   'bookmark',
   'events',
+  'picture',
+  'clip',
   'next-robot',
 ] as const;
 export type KeyRole = (typeof KEY_ROLES)[number];
@@ -58,6 +60,8 @@ export const DEFAULT_KEYS: KeyMap = {
   predict: ['KeyP'],
   bookmark: ['KeyK'],
   events: ['KeyJ'],
+  picture: ['KeyO'],
+  clip: ['KeyG'],
   'next-robot': ['KeyN'],
 };
 
@@ -89,6 +93,8 @@ export const KEY_PRESETS = {
     predict: ['Digit4'],
     bookmark: ['KeyZ'],
     events: [],
+    picture: [],
+    clip: [],
     'next-robot': ['Digit3'],
   },
   right: {
@@ -113,6 +119,8 @@ export const KEY_PRESETS = {
     predict: ['Minus'],
     bookmark: ['BracketLeft'],
     events: ['Semicolon'],
+    picture: ['Quote'],
+    clip: ['BracketRight'],
     'next-robot': ['Digit6'],
   },
 } as const satisfies Record<string, KeyMap>;

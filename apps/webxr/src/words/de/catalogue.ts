@@ -1,6 +1,9 @@
-/** All that the page says, in German: addresses the operator with “Sie”, and names parts as the English catalogue does. */
+/**
+ * All that the page says, in German. It addresses the operator with “Sie”, and names parts as the English catalogue does.
+ */
 import type { Texts } from '../en/catalogue.ts';
 import { access } from './access.ts';
+import { capture } from './capture.ts';
 import { clouds } from './clouds.ts';
 import { commands } from './commands.ts';
 import { dashboard } from './dashboard.ts';
@@ -29,6 +32,7 @@ export const german: Texts = {
   dashboard,
   dialogs,
   commands,
+  capture,
   driving,
   failures,
   figures,

@@ -22,6 +22,8 @@ const keyRoles: Texts['inputs']['keyRoles'] = {
   predict: 'Vorausberechneter Blick',
   bookmark: 'Lesezeichen in der Aufzeichnung',
   events: 'Ereignisprotokoll',
+  picture: 'Bild speichern',
+  clip: 'Clip speichern',
   'next-robot': 'Nächster Roboter',
 };
 

@@ -23,6 +23,7 @@ export const report: Texts['report'] = {
   interventions: 'Eingriffe',
   stopsByYou: 'STOP durch die Bedienperson',
   stopsByOthers: 'STOP durch andere',
+  stopBy: (name) => `STOP durch ${name}`,
   stopsByRobot: 'Stopps durch den Roboter selbst',
   held: 'Vom Roboter angehalten',
   slowed: 'Vom Roboter verlangsamt',

@@ -3,6 +3,7 @@
  * protocol must be complete (`satisfies Record<…>`). Modules in `words/` decide which text is said, and know no language.
  */
 import { access } from './access.ts';
+import { capture } from './capture.ts';
 import { clouds } from './clouds.ts';
 import { commands } from './commands.ts';
 import { dashboard } from './dashboard.ts';
@@ -31,6 +32,7 @@ export const english = {
   dashboard,
   dialogs,
   commands,
+  capture,
   driving,
   failures,
   figures,

@@ -24,6 +24,8 @@ const keyRoles = {
   predict: 'Predicted view',
   bookmark: 'Bookmark in the recording',
   events: 'Event log',
+  picture: 'Save a picture',
+  clip: 'Save a clip',
   'next-robot': 'Next robot',
 } satisfies Record<KeyRole, string>;
 

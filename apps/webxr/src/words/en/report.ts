@@ -24,6 +24,7 @@ export const report = {
   interventions: 'Interventions',
   stopsByYou: 'STOP by the operator',
   stopsByOthers: 'STOP by others',
+  stopBy: (name: string) => `STOP by ${name}`,
   stopsByRobot: 'Stops by the robot itself',
   held: 'Held by the robot',
   slowed: 'Slowed by the robot',
