@@ -148,3 +148,23 @@ for (const { state, what, open, seen } of rows) {
     }
   });
 }
+
+/** German words are longer: three states that have much to say, on the smallest and the usual screen. */
+test.describe('in German', () => {
+  test.use({ locale: 'de-DE' });
+  for (const state of ['driving', 'stop-latched', 'everything'] as const) {
+    test(`nothing covers anything in German: ${state}`, async ({ stage }) => {
+      const page = await stage.open({ state, canvas: '64x36', forMs: SETTLED_MS });
+      for (const { width, height, isTouched } of [SCREENS[0], SCREENS[2]]) {
+        await stage.touched(isTouched);
+        await stage.resize(width, height);
+        await stage.run(300);
+        const on = `${state} in German on ${width} × ${height}`;
+        const shown = isTouched ? STATES[state].flatMap(onPhone) : STATES[state];
+        const found = await expectNothingCovered(page, on);
+        await page.locator('#estop').click({ trial: true });
+        expect(found, on).toEqual(expect.arrayContaining([...shown]));
+      }
+    });
+  }
+});

@@ -60,3 +60,13 @@ test('each file of the deployed page is there compressed, and its scripts before
   const bytes = [...atOnce, ...workers].map((file) => statSync(join(folder, `${file}.gz`)).size);
   expect(bytes.reduce((sum, each) => sum + each, 0)).toBeLessThan(MOST_BEFORE_VR);
 });
+
+test('languages other than English are loaded only when they are spoken', () => {
+  const folder = join(repositoryRoot, 'apps/webxr/dist');
+  const german = globSync('assets/*.js', { cwd: folder }).filter((file) =>
+    readFileSync(join(folder, file), 'utf8').includes('Der Roboter'),
+  );
+  expect(german.length).toBe(1);
+  const pages = ['index.html', 'watch.html'].map((page) => readFileSync(join(folder, page), 'utf8'));
+  for (const page of pages) expect(page).not.toContain(german[0]);
+});

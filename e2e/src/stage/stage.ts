@@ -85,7 +85,9 @@ export class Stage {
       url.searchParams.set(name, value);
     await this.page.goto(url.href);
     // Until the page's scripts have run.
-    await expect(this.page.locator('#link:not([hidden])').filter({ hasText: 'Starting…' })).toHaveCount(0);
+    await expect(this.page.locator('#link:not([hidden])').filter({ hasText: /^(Starting…)?$/ })).toHaveCount(
+      0,
+    );
     return this.page;
   }
 

@@ -52,6 +52,9 @@ const pages = ['index.html', 'watch.html'].map((file) => ({
 /** Names, units, formats and marks that are the same in German, and texts that only order what they name. */
 const ALIKE = new Set([
   'Position',
+  'Position x',
+  'Position y',
+  'Median',
   'Dashboard',
   'Headset',
   'Token',

@@ -77,7 +77,7 @@ class TileFrameView {
     this.element.ariaLabel = title;
     this.element.dataset.size = size;
     this.#buttons.hidden = !arranging;
-    for (const [button, words] of this.#named) button.ariaLabel = words + title;
+    for (const [button, words] of this.#named) button.ariaLabel = words(title);
     this.#dueMs = 0;
   }
 
@@ -191,9 +191,10 @@ export class Dashboard {
     const said = texts().dashboard;
     const title = document.createElement('h2');
     title.textContent = said.title;
-    const spans = Object.fromEntries(WINDOWS_S.map((windowS) => [String(windowS), spanText(windowS)]));
-    const span = selectOf({ label: said.span, values: WINDOWS_S.map(String), texts: spans }, (chosen) => {
-      const windowS = WINDOWS_S.find((each) => String(each) === chosen);
+    const spans = WINDOWS_S.map(spanText);
+    const shown = Object.fromEntries(spans.map((text) => [text, text]));
+    const span = selectOf({ label: said.span, values: spans, texts: shown }, (text) => {
+      const windowS = WINDOWS_S[spans.indexOf(text)];
       if (windowS !== undefined) this.#layout.value = { ...this.#layout.peek(), windowS };
     });
     effect(() => {

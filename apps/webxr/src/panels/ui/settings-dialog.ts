@@ -97,7 +97,8 @@ class SettingsForm {
     this.#field('pointScale').addEventListener('input', () => {
       pointScale.value = Number(this.#field('pointScale').value);
     });
-    this.#form.addEventListener('input', () => this.#describe());
+    // The display's settings take a choice with `change` only.
+    for (const change of ['input', 'change']) this.#form.addEventListener(change, () => this.#describe());
   }
 
   /** Stores what is in the fields. Only for a new connection or another language, the page is loaded again. */

@@ -47,6 +47,6 @@ export const figures: Texts['figures'] = {
   alarmAgo: (alarm, seconds) => `${alarm}, vor ${seconds} s`,
   recorded: (alarm) => `Aufzeichnung: ${alarm}`,
   andMore: (alarm, others) => `${alarm} (und ${others} weitere)`,
-  isPlayback: 'Wiedergabe: Nichts von dem, was Sie sehen, ist jetzt dort',
+  isPlayback: 'Wiedergabe: Was Sie sehen, ist jetzt nicht dort',
   isRecorded: 'Diese Sitzung wird aufgezeichnet',
 };

@@ -13,7 +13,7 @@ export const media: Texts['media'] = {
     noCodec: 'Dieser Browser kann dieses Video nicht decodieren.',
   },
   report: {
-    states: { 'in-step': 'synchron', apart: 'für sich', silent: 'stumm' },
+    states: { 'in-step': 'synchron', apart: 'für sich', silent: 'liefert nichts' },
     asItComes: 'wie es kommt',
     inVain: (times) => `vergeblich erwartet ${times}`,
     drops: {

@@ -3,7 +3,7 @@ import type { Texts } from '../en/catalogue.ts';
 export const stop: Texts['stop'] = {
   title: 'Nothalt',
   button: { latched: 'aktiv', clear: 'Nothalt' },
-  hold: 'Halten Sie „Lösen“ eine Sekunde lang; lassen Sie dann den Griff los und fahren Sie.',
+  hold: 'Zum Lösen eine Sekunde lang halten, dann den Griff loslassen und fahren.',
   unheard: 'So meldete es der Roboter, bevor er verstummte. Lösen geht, sobald er wieder zu hören ist.',
   holders: {
     topic: 'ein Programm auf ihm',

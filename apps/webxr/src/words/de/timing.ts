@@ -2,10 +2,10 @@ import type { Texts } from '../en/catalogue.ts';
 
 export const timing: Texts['timing'] = {
   failures: {
-    timeout: 'keine grüne Punktwolke kam an',
-    'no-session': 'verbinden Sie sich zuerst mit einem Roboter',
-    'no-lease': 'nur wer fährt, kann messen',
-    busy: 'eine andere Messung läuft',
+    timeout: 'Keine grüne Punktwolke kam an',
+    'no-session': 'Verbinden Sie sich zuerst mit einem Roboter',
+    'no-lease': 'Nur wer fährt, kann messen',
+    busy: 'Eine andere Messung läuft',
   },
   failureNotices: {
     timeout: 'Keine grüne Punktwolke kam an: Die Anforderung oder die ganze Punktwolke ging verloren.',
@@ -48,7 +48,7 @@ export const timing: Texts['timing'] = {
   cloudsAsCsvTitle: 'Die letzten 30 s der Punktwolken als Tabelle speichern',
   commandsAsCsv: 'Befehle als CSV',
   commandsAsCsvTitle: 'Die letzten 30 s der Befehle als Tabelle speichern',
-  median: 'Medianwert',
+  median: 'Median',
   p95: '95 von 100 dauern nicht länger',
   openStages: 'Wo die Zeit bleibt, bei jeder Punktwolke und jedem Befehl',
   single: 'Einmal',

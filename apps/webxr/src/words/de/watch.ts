@@ -13,7 +13,7 @@ export const watch: Texts['watch'] = {
     'no-broadcast': 'Der Roboter sendet nicht. Die Seite wartet auf ihn…',
     'not-a-broadcast': 'Dieser Mountpoint ist keine Sendung eines Roboters. Neuer Versuch…',
     refused: 'Janus lehnt ab: Prüfen Sie die PIN. Neuer Versuch…',
-    lost: 'Die Verbindung ist weg. Neuer Versuch…',
+    lost: 'Die Verbindung ist abgebrochen. Neuer Versuch…',
   },
   connecting: 'Verbindet…',
   firstPictures: 'Wartet auf die ersten Bilder…',
