@@ -56,6 +56,7 @@ const AUDITED: readonly Audited[] = [
   { what: 'driving', state: 'driving', forMs: 1000 },
   { what: 'an emergency stop that is latched', state: 'stop-latched', forMs: 1000 },
   { what: 'the dashboard', state: 'alarm', open: (page) => page.locator('#dashboard-open').click() },
+  { what: 'the commands', state: 'commands', open: (page) => page.locator('#commands summary').click() },
   { what: 'everything at once', state: 'everything', forMs: 1500, onLaptopsOnly: true },
 ];
 

@@ -6,7 +6,7 @@ import * as z from 'zod/mini';
 import { displayNameSchema, uint32Schema } from './identifiers.ts';
 import { type NamedOperator, namedOperatorSchema } from './present-operators.ts';
 
-/** The most that a robot may have. Chosen: more buttons are not found in time; robot-command.test.ts holds it. */
+/** The most that a robot may have. Chosen: more buttons are not found in time; commands.test.ts and robot-commands.test.ts hold it. */
 export const MAX_ROBOT_COMMANDS = 32;
 /** What a command is named by. */
 export const COMMAND_ID = /^[a-z0-9][a-z0-9-]{0,31}$/;

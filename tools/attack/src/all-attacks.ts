@@ -9,6 +9,7 @@ import { peerPathAttacks } from './attacks/peer-path.ts';
 import { peerSctpAttacks } from './attacks/peer-sctp.ts';
 import { peopleAttacks } from './attacks/people.ts';
 import { referenceAttacks } from './attacks/reference.ts';
+import { robotCommandAttacks } from './attacks/robot-commands.ts';
 import { sctpAttacks } from './attacks/sctp.ts';
 import { sessionAttacks } from './attacks/session.ts';
 import { signalingAttacks } from './attacks/signaling.ts';
@@ -24,6 +25,7 @@ export const allAttacks = [
   ...peerPathAttacks,
   ...sessionAttacks,
   ...peopleAttacks,
+  ...robotCommandAttacks,
   ...grantAttacks,
   ...signalingAttacks,
   ...referenceAttacks,

@@ -73,7 +73,7 @@ export class Scene {
     writeFileSync(keys, JSON.stringify({ keys: [issuer.publicJwk] }));
     const stack = await LocalStack.start({
       robots: [
-        { id: ROBOT, name: 'Driven robot', args: [...SMALL, '--max-operators', '4'] },
+        { id: ROBOT, name: 'Driven robot', args: [...SMALL, '--sim-commands', '--max-operators', '4'] },
         { id: GRANTED_ROBOT, name: 'Robot with grants', args: [...SMALL, '--grant-keys', keys] },
       ],
       signalingArgs: ['--revocations', join(folder, 'revoked.jws')],

@@ -2,15 +2,18 @@ import { encodeJson, PROTOCOL_VERSION, stampUsOf, type Twist, telemetryCodec } f
 import {
   type Access,
   accessWithoutKeys,
+  CommandDesk,
   DriveCore,
   monotonicMs,
   OperatorRoster,
+  openCommands,
   openObstacleGuard,
   type PeerEnd,
   People,
   RealTimeBase,
   RobotCounters,
   type RobotOptions,
+  stands,
   unreadAudit,
   Wheels,
 } from '@farpoint/robot-node/testing/drive-core';
@@ -53,6 +56,7 @@ export class ScenarioRobot {
   readonly #roster = new OperatorRoster();
   readonly #access = accessWithoutKeys(ID, monotonicMs, this.#roster);
   readonly #people: People;
+  readonly #commands: CommandDesk;
   readonly #timers: ReturnType<typeof setInterval>[];
   #frameNumber = 0;
   #telemetrySequence = 0;
@@ -70,6 +74,17 @@ export class ScenarioRobot {
     const { host } = this.core;
     const { sessions: operators, counters } = this;
     this.#people = new People({ operators, roster: this.#roster, host, counters, log: silentLogger() });
+    this.#commands = new CommandDesk({
+      operators,
+      roster: this.#roster,
+      drive: host.drive,
+      stands: () => stands(this.core.driving),
+      now: monotonicMs,
+      commands: openCommands(options.commands, null, silentLogger()),
+      counters,
+      audit: unreadAudit(),
+      log: silentLogger(),
+    });
     const { motion } = host.drive;
     const report = motion.onIntervention;
     motion.onIntervention = (reason, nowMs) => {
@@ -100,6 +115,7 @@ export class ScenarioRobot {
     if (access?.subject != null) this.core.host.drive.guard.identify(session.id, access.subject);
     session.messages.onEndSession = (request) =>
       this.#access.endSession(session, request, this.sessions.values());
+    session.messages.onCommandRequest = (request) => this.#commands.request(session, request);
     session.messages.onDriveRequest = (request) => this.#people.request(session, request);
     this.sessions.set(session.id, session);
     this.counters.sessionsOpened++;
@@ -124,6 +140,7 @@ export class ScenarioRobot {
   }
 
   close(): void {
+    void this.#commands.close();
     for (const timer of this.#timers) clearInterval(timer);
     this.#access.close();
     for (const session of [...this.sessions.values()]) session.end('closed', 'the robot is shutting down');
@@ -188,9 +205,11 @@ export class ScenarioRobot {
     this.core.update();
     this.#access.enforce(this.sessions, this.core.host.drive.guard.leaseHolder);
     this.#people.update();
+    this.#commands.update();
   }
 
-  #welcome({ messages, resumeKey }: RobotSession): void {
+  #welcome(session: RobotSession): void {
+    const { messages, resumeKey } = session;
     const { id, name, limits, afterGap, resumeWithinMs } = this.#parts.options;
     const { role, name: operatorName, expiresAtS } = messages.access;
     const expiresInS = Math.max(0, Math.floor(expiresAtS - Date.now() / 1000));
@@ -204,6 +223,7 @@ export class ScenarioRobot {
     });
     messages.sendLease();
     messages.sendEstop();
+    this.#commands.welcome(session);
   }
 
   #ended(session: RobotSession, end: PeerEnd, detail: string): void {

@@ -94,6 +94,17 @@ test('says so when nobody knows what became of it', () => {
   expect(commands.give('lights', 80_000)).toBe(false);
 });
 
+test('a robot that tells more than it may have fills no memory', () => {
+  const { commands, ends } = bench();
+  for (let k = 0; k < 100; k++) commands.onCommand({ ...lights, id: `c${k}` });
+  expect(commands.list).toHaveLength(32);
+  commands.onRun(run({ id: 'c99' }));
+  commands.onRun(run({ id: 'c99', state: 'done' }));
+  expect([commands.running('c99'), ends]).toEqual([null, []]);
+  commands.onCommand({ ...lights, label: 'Lamps' });
+  expect(commands.list[0]?.label).toBe('Lamps');
+});
+
 test('a recording that has ended is none', () => {
   const { commands } = bench();
   commands.onRecording({ type: 'recording', on: true, bytes: 5, forS: 1 });

@@ -6,6 +6,7 @@ import {
   type CommandRefused,
   type CommandRun,
   type CommandState,
+  MAX_ROBOT_COMMANDS,
   nextSequence32,
   type RecordingState,
   type RobotCommand,
@@ -127,14 +128,16 @@ export class RobotCommands {
     if (had) this.#changed();
   }
 
-  /** The robot told a command. */
+  /** The robot told a command. More than a robot may have are ignored. */
   onCommand(command: RobotCommand): void {
+    if (!this.#commands.has(command.id) && this.#commands.size >= MAX_ROBOT_COMMANDS) return;
     this.#commands.set(command.id, command);
     this.#changed();
   }
 
-  /** The robot said what becomes of one. */
+  /** The robot said what becomes of one that it has told. */
   onRun({ run, id, by, request, state, progress, detail }: CommandRun): void {
+    if (!this.#commands.has(id)) return;
     if (request !== undefined && this.#waiting.get(id)?.request === request) this.#waiting.delete(id);
     const who = request === undefined ? by.name : null;
     const said = detail ?? null;

@@ -165,6 +165,11 @@ describe('robot commands', () => {
     ],
     ['nothing to do', graph('ros1', { id: 'a', label: 'A' }), /one of publish, call, goal, record and sim/],
     ['two things to do', graph('ros1', { ...lights, call: trigger.call }), /one of publish, call, goal/],
+    [
+      'too many',
+      graph('ros1', ...Array.from({ length: 33 }, (_, k) => ({ ...lights, id: `c${k}` }))),
+      /at most 32 commands/,
+    ],
     ['the same id twice', graph('ros1', lights, lights), /each id once/],
     ['an id that is none', graph('ros1', { ...lights, id: 'Lights On' }), /1–32 of a–z/],
     ['an unknown key', graph('ros1', { ...lights, lease: false }), /lease/],

@@ -143,7 +143,9 @@ function recorderOf(commands: CommandsState) {
     note.blur();
     addBookmark(commands);
   });
-  element.append(line, button.element, note, bookmark.element);
+  const mark = make('div', 'mark');
+  mark.append(note, bookmark.element);
+  element.append(line, button.element, mark);
   const show = (recording: ShownRecording | null) => {
     const { recordingGroup, bookmarkTitle, bookmarkNote } = texts().commands;
     element.hidden = recording === null;
