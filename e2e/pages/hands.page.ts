@@ -28,7 +28,7 @@ test('who may not drive is told that instead', async ({ stage }) => {
   await stage.run(6000);
   await page.keyboard.down('KeyW');
   await stage.run(600);
-  await expect(page.locator('#notice')).toContainText('Press Take over');
+  await expect(page.locator('#notice')).toContainText('choose Take over');
 });
 
 test('a takeover is told by name to the one who drove, for as long as the hand holds on', async ({

@@ -179,7 +179,7 @@ test('without a robot the sign and the wrist say which press connects, and the p
   const headset = await enterVr(stage, { state: 'disconnected' });
   await stage.run(400);
   expect(await signOf(stage)).toBe(
-    'No robot is chosen Press the right stick to connect to Robot on a stage.',
+    'No robot is chosen Press the right stick to connect to Robot on a stage. The menu lists all robots.',
   );
   const wrist = async () => (await wristOf(stage)).map(({ text }) => text);
   expect(await wrist()).toContain('press right stick: Robot on a stage');

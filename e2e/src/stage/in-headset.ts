@@ -1,4 +1,5 @@
 import type { HeadsetProbe } from '@farpoint/webxr/test-api';
+import { expect } from '@playwright/test';
 import { Headset } from '../headset.ts';
 import type { Stage, StageOptions } from './stage.ts';
 
@@ -11,14 +12,28 @@ export async function enterVr(
   options: StageOptions = {},
   settings: Record<string, string | number> | null = null,
 ): Promise<Headset> {
-  const { page } = stage;
-  const headset = await Headset.wear(page, (frames) => stage.frames(frames));
+  const headset = await Headset.wear(stage.page, (frames) => stage.frames(frames));
   if (settings !== null) await headset.settings(settings);
+  await openInVr(stage, options);
+  return headset;
+}
+
+/** Opens the page anew and enters VR with the headset that is worn already. @param frames after which it is there */
+export async function openInVr(stage: Stage, options: StageOptions, frames = ENTERED): Promise<void> {
+  const { page } = stage;
   await stage.open({ canvas: '64x36', ...options });
   await page.getByRole('button', { name: /VR/ }).click();
-  await stage.frames(ENTERED);
+  await stage.frames(frames);
   if (!(await stage.state()).vr) throw new Error('the page has not entered VR');
-  return headset;
+}
+
+/** What the headset's console shows, once its code has been loaded. */
+export async function consoleIn(stage: Stage): Promise<NonNullable<HeadsetProbe['console']>> {
+  let { console } = await shownIn(stage);
+  // The network has a clock of its own.
+  await expect.poll(async () => (console ??= (await shownIn(stage)).console)).not.toBeNull();
+  if (console === null) throw new Error('the console is not loaded');
+  return console;
 }
 
 /** What the headset shows. */

@@ -56,7 +56,7 @@ export class App implements ShownParts {
   wrist: WristPanel | null = null;
   /** The sign before the eyes in VR. */
   sign: NoticeSign | null = null;
-  #headset: HeadsetControls | null = null;
+  headset: HeadsetControls | null = null;
   readonly #release = new ReleaseHold();
   readonly releaseProgress = this.#release.progress;
 
@@ -114,10 +114,10 @@ export class App implements ShownParts {
       release: this.#release,
       inputs: this.inputs,
       choose: (robotId) => this.choose(robotId),
-      nextHeadsetView: () => this.#headset?.nextView(),
+      nextHeadsetView: () => this.headset?.nextView(),
       afterNextFrame: (act) => this.frames.afterNextFrame(act),
     });
-    const readHeadset = () => this.#headset?.read();
+    const readHeadset = () => this.headset?.read();
     this.frames = new FrameLoop({ settings, client, stage, views, stats, vr, readHeadset });
   }
 
@@ -146,7 +146,7 @@ export class App implements ShownParts {
     const { panel, sign, controls } = showPage(this);
     this.wrist = panel;
     this.sign = sign;
-    this.#headset = controls;
+    this.headset = controls;
     const { estop, cloudPanel } = panels;
     const drawRobot = (nowMs: number) => showRobot(this, nowMs);
     new SteadyWork({ ...this, estop, cloudPanel, showRobot: drawRobot }, document).start();

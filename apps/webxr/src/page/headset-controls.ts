@@ -2,44 +2,48 @@
 import { effect, untracked } from '@preact/signals-core';
 import { HEADSET_VIEWS, type HeadsetView } from '../ground/headset-settings.ts';
 import type { OperatorInputs } from '../panels/ui/operator-inputs.ts';
+import type { ConsoleActions } from '../scene/console/console-actions.ts';
+import type { ConsoleParts, VrConsole } from '../scene/console/vr-console.ts';
 import { GrabbingHands } from '../scene/headset/grabbing-hands.ts';
+import { HandsHeld } from '../scene/headset/hands-held.ts';
 import type { NoticeSign } from '../scene/headset/notice-sign.ts';
-import type { PicturePointer } from '../scene/view/picture-pointer.ts';
+import { type RayHit, RayPointer } from '../scene/view/ray-pointer.ts';
 import type { Stage } from '../scene/view/stage.ts';
+import type { PicturesInVr } from '../scene/view/vr-pictures.ts';
 import type { VrSession } from '../scene/view/vr-session.ts';
+import type { WristPanel } from '../scene/view/wrist-panel.ts';
 import type { PageState } from '../state/page-state.ts';
 import { viewNotice } from '../words/headset-words.ts';
+import { texts } from '../words/language.ts';
 
-export interface HeadsetParts {
+export interface HeadsetParts extends Pick<ConsoleParts, 'sources' | 'settings' | 'gripLost' | 'menuOpen'> {
   readonly stage: Pick<Stage, 'renderer' | 'rig' | 'camera' | 'headset'>;
   readonly vr: VrSession;
   readonly inputs: OperatorInputs;
   readonly state: Pick<PageState, 'robot' | 'notices'>;
-  readonly pointer: PicturePointer;
+  readonly panel: WristPanel;
+  readonly pictures: PicturesInVr;
   /** Before the operator's eyes. */
   readonly sign: NoticeSign;
+  readonly actions: Omit<ConsoleActions, 'show'>;
 }
 
 export class HeadsetControls {
+  /** Menu and labels; `null` until VR is entered and their code is loaded. */
+  console: VrConsole | null = null;
   readonly #parts: HeadsetParts;
   readonly #hands: GrabbingHands;
+  readonly #held: HandsHeld;
+  readonly #pointer: RayPointer;
   #readMs = 0;
 
   constructor(parts: HeadsetParts) {
     this.#parts = parts;
-    const { stage, vr, inputs, state, pointer, sign } = parts;
+    const { stage, vr, inputs, sign } = parts;
     const { renderer, rig, camera, headset } = stage;
-    // A hand that drives, a trigger that releases the emergency stop, or one that chooses a picture holds nothing.
-    this.#hands = new GrabbingHands(
-      renderer,
-      rig,
-      (index) =>
-        headset.view.peek() === 'tabletop' &&
-        !vr.hidden &&
-        !inputs.isHeadsetGripped &&
-        !state.robot.estopLatched.peek() &&
-        !pointer.pointsAtPicture(index),
-    );
+    this.#held = new HandsHeld(renderer, rig);
+    this.#pointer = this.#openPointer();
+    this.#hands = new GrabbingHands(renderer, rig, (index) => this.#mayGrab(index));
     camera.add(sign.object);
     vr.onHidden = () => {
       inputs.releaseAll();
@@ -62,22 +66,30 @@ export class HeadsetControls {
         }
       });
     });
+    effect(() => {
+      if (vr.active.value && this.console === null) void this.#loadConsole();
+    });
   }
 
   /** Call this before each display frame in VR. */
   read(): void {
-    const { stage, vr, inputs, pointer, sign } = this.#parts;
+    const { stage, vr, inputs, sign, panel } = this.#parts;
     const { headset } = stage;
+    const { console } = this;
     vr.update();
     headset.floorY = vr.floorY;
     const hands = this.#hands;
     const isTabletop = headset.view.peek() === 'tabletop';
     hands.update(headset.origin, isTabletop && !vr.hidden);
     if (isTabletop) headset.model.follow(hands.a, hands.b);
-    inputs.readHeadset(vr.inputSources, this.#tracks, hands.hold);
+    const inMenu = console?.menu.isOpen.peek() ?? false;
+    const isMenuPressed = inputs.readHeadset(vr.inputSources, this.#tracks, { grabbing: hands.hold, inMenu });
+    if (isMenuPressed) console?.toggle();
     headset.turnStick = vr.hidden ? 0 : inputs.turnStick;
-    pointer.update();
+    panel.update(stage.camera);
+    this.#pointer.update();
     const nowMs = performance.now();
+    console?.update(vr.hidden ? 0 : inputs.menuStick, nowMs);
     sign.update(nowMs - this.#readMs);
     this.#readMs = nowMs;
   }
@@ -94,6 +106,64 @@ export class HeadsetControls {
     this.#hands.letGo();
     stage.headset.show(view);
     state.notices.tell(viewNotice(view));
+  }
+
+  /** A hand that drives, a trigger that releases the emergency stop, or one that chooses something holds nothing. */
+  #mayGrab(index: number): boolean {
+    const { stage, vr, inputs, state } = this.#parts;
+    return (
+      stage.headset.view.peek() === 'tabletop' &&
+      !vr.hidden &&
+      !inputs.isHeadsetGripped &&
+      !state.robot.estopLatched.peek() &&
+      this.console?.menu.isOpen.peek() !== true &&
+      !this.#pointer.points(index)
+    );
+  }
+
+  #openPointer(): RayPointer {
+    const { stage, pictures, inputs, vr } = this.#parts;
+    return new RayPointer(stage.renderer, stage.rig, {
+      targets: () => [...(this.console?.targets() ?? []), ...pictures.targets()],
+      onPointed: (hit, ray) => this.console?.point(hit, ray),
+      onPressed: (hit) => {
+        if (!vr.hidden && this.console?.press(hit) === true) inputs.claimTrigger(true);
+      },
+      onChosen: (hit, bare) => {
+        if (!vr.hidden) this.#choose(hit, bare);
+      },
+      onOpened: () => inputs.claimTrigger(false),
+    });
+  }
+
+  #choose(hit: RayHit | null, bare: boolean): void {
+    if (this.console?.choose(hit, bare, performance.now()) === true) return;
+    if (hit !== null) this.#parts.pictures.choose(hit.object);
+  }
+
+  async #loadConsole(): Promise<void> {
+    const { stage, vr, inputs, state, sources, settings, gripLost, menuOpen, panel, sign, actions } =
+      this.#parts;
+    try {
+      const { VrConsole } = await import('../scene/console/vr-console.ts');
+      this.console ??= new VrConsole({
+        sources,
+        settings,
+        gripLost,
+        menuOpen,
+        panel,
+        sign,
+        rig: stage.rig,
+        head: stage.camera,
+        origin: stage.headset.origin,
+        hands: this.#held,
+        active: vr.active,
+        actions: { ...actions, show: (view) => this.show(view) },
+        isGripped: () => inputs.isHeadsetGripped,
+      });
+    } catch {
+      state.notices.tell(texts().headsetMenu.notLoaded, 'bad');
+    }
   }
 
   readonly #tracks = (source: XRInputSource): boolean => this.#parts.vr.tracks(source);

@@ -1,12 +1,13 @@
 /** Shows the state on the page and in the headset from now on, and lets the view follow the robot. */
 import type { RobotClient } from '@farpoint/operator';
-import { computed, effect, type ReadonlySignal, untracked } from '@preact/signals-core';
+import { computed, effect, type ReadonlySignal, signal, untracked } from '@preact/signals-core';
 import { type HeadsetSettings, otherHand } from '../ground/headset-settings.ts';
 import type { Settings } from '../ground/settings.ts';
 import type { Switches } from '../ground/switches.ts';
 import { giveCues } from '../panels/cues/cues.ts';
-import type { OperatorInputs } from '../panels/ui/operator-inputs.ts';
+import type { Action, OperatorInputs } from '../panels/ui/operator-inputs.ts';
 import type { RememberedWorld } from '../panels/ui/remembered-world.ts';
+import { cameraActions } from '../scene/console/console-actions.ts';
 import { NoticeSign } from '../scene/headset/notice-sign.ts';
 import { showNoticesInVr } from '../scene/headset/show-notices.ts';
 import type { SensorClouds } from '../scene/view/sensor-clouds.ts';
@@ -74,9 +75,20 @@ function applyAppearance(parts: AppearanceParts): void {
   });
 }
 
-export interface HeadsetOptions extends Omit<HeadsetParts, 'pointer' | 'sign' | 'state' | 'stage'> {
+/** Where the time goes, in the headset's menu: of the last so many ms, as in the line on the page (stages-line.ts). */
+const STAGES_OVER_MS = 2000;
+
+export interface HeadsetOptions
+  extends Omit<
+    HeadsetParts,
+    'sources' | 'menuOpen' | 'panel' | 'pictures' | 'sign' | 'state' | 'stage' | 'actions'
+  > {
   settings: HeadsetSettings;
   state: PageState;
+  client: RobotClient;
+  choose(robotId: string): void;
+  /** Does what a key of the page does. */
+  act(action: Action): void;
   appearance: Pick<CloudAppearance, 'hazards'>;
   stage: Stage;
   /** How far the hold is that releases the emergency stop, 0…1. */
@@ -103,9 +115,46 @@ function openHeadset(options: HeadsetOptions): OpenedHeadset {
   const { active } = vr;
   showOnWrist({ state, appearance, panel, headset, settings, active, releaseProgress });
   const sign = new NoticeSign();
-  showNoticesInVr({ state, sign, headset, settings, active, isGripped });
-  const pointer = showPicturesInVr({ state, panel, stage, active });
-  return { panel, sign, controls: new HeadsetControls({ ...options, pointer, sign }) };
+  const menuOpen = signal(false);
+  showNoticesInVr({ state, sign, headset, settings, menuOpen, active, isGripped });
+  const pictures = showPicturesInVr({ state, panel, stage, active });
+  const { statistics } = options.client;
+  const sources: HeadsetParts['sources'] = {
+    state,
+    headset,
+    settings,
+    passthrough: vr.passthrough,
+    stages: (nowMs) => ({
+      clouds: statistics.frameStages()?.window.summary(nowMs, STAGES_OVER_MS) ?? null,
+      commands: statistics.commands.window.summary(nowMs, STAGES_OVER_MS),
+    }),
+  };
+  const actions = headsetActions(options);
+  return {
+    panel,
+    sign,
+    controls: new HeadsetControls({ ...options, pictures, panel, sign, sources, actions, menuOpen }),
+  };
+}
+
+/** What the headset's menu does, as the page's buttons do it. */
+function headsetActions({ client, state, vr, choose, act }: HeadsetOptions): HeadsetParts['actions'] {
+  const { people, driver } = client;
+  return {
+    stop: () => act('estop'),
+    testLatency: () => act('latency-test'),
+    recentre: () => act('recentre'),
+    leave: () => void vr.leave(),
+    choose,
+    disconnect: () => client.leave(),
+    takeOver: () => client.takeOver(),
+    giveUp: () => driver.releaseLease(),
+    askToDrive: () => people.askToDrive(),
+    offerDrive: (operator) => people.offerDrive(operator),
+    withdraw: (id) => people.withdraw(id),
+    answer: (id, accept) => people.answer(id, accept),
+    ...cameraActions(state),
+  };
 }
 
 export interface ShownParts {
@@ -121,6 +170,7 @@ export interface ShownParts {
   readonly panels: PagePanels;
   /** How far the hold is that releases the emergency stop, 0…1. */
   readonly releaseProgress: ReadonlySignal<number>;
+  choose(robotId: string): void;
 }
 
 /** Call it before the client starts. */
@@ -164,7 +214,11 @@ export function showPage(parts: ShownParts): OpenedHeadset {
     state,
     appearance,
     releaseProgress,
+    client,
+    choose: (robotId) => parts.choose(robotId),
+    act: (action) => panels.controls.act(action, performance.now()),
     isGripped: () => client.driver.isGripped,
+    gripLost: () => client.driver.lost,
   });
   effect(() => {
     cloud.sizeScale = state.pointScale.value;

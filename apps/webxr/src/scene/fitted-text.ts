@@ -33,7 +33,8 @@ export function fitText(
   return { rows: rows.filter((row) => row !== '').map((row) => shortened(row, fits)), size: SMALL };
 }
 
-function shortened(row: string, fits: (row: string) => boolean): string {
+/** As much of a row as there is room for, with an ellipsis where something is left out. */
+export function shortened(row: string, fits: (row: string) => boolean): string {
   if (fits(row)) return row;
   let length = row.length - 1;
   while (length > 0 && !fits(`${row.slice(0, length).trimEnd()}…`)) length--;

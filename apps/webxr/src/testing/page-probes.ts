@@ -132,7 +132,7 @@ function drawnProbe({ views: { cloud } }: App): DrawnProbe {
   };
 }
 
-function headsetProbe({ stage, vr, sign }: App): HeadsetProbe {
+function headsetProbe({ stage, vr, sign, headset }: App): HeadsetProbe {
   const { view, passthrough, yaw, frontSide, darkness, model } = stage.headset;
   const eyes = stage.camera.getWorldPosition(new Vector3());
   const { x, y, z, scale } = model;
@@ -145,6 +145,7 @@ function headsetProbe({ stage, vr, sign }: App): HeadsetProbe {
     darkness,
     model: { x, y, z, scale },
     notice: sign?.shown ?? null,
+    console: headset?.console?.shown ?? null,
     eyes: { x: -eyes.z, y: -eyes.x, z: eyes.y },
   };
 }

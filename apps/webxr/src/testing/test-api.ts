@@ -15,6 +15,7 @@ import type {
 import type { DriveState, LatencyFrame } from '@farpoint/protocol';
 import type { HeadsetView } from '../ground/headset-settings.ts';
 import type { NearHit } from '../ground/near-field/directions.ts';
+import type { ShownConsole } from '../scene/console/vr-console.ts';
 import type { ShownNotice } from '../scene/headset/notice-sign.ts';
 import type { RobotFigures } from '../scene/robot-model/robot-figures.ts';
 import type { DrivePath } from '../scene/view/drive-path.ts';
@@ -159,6 +160,8 @@ export interface HeadsetProbe {
   model: { x: number; y: number; z: number; scale: number };
   /** The sign before the eyes; `null` while it shows nothing. */
   notice: ShownNotice | null;
+  /** Menu, labels and their places; `null` until their code is loaded. */
+  console: ShownConsole | null;
 }
 
 export interface FarpointTestApi {

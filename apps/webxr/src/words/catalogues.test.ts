@@ -65,6 +65,8 @@ const ALIKE = new Set([
   'max.',
   'N ×',
   'N, N, N',
+  'N: N',
+  'N (N s)',
   'Live',
   'live',
   'OK',

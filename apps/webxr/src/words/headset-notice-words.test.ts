@@ -8,6 +8,8 @@ const quiet: HeadsetNoticeFacts = {
   obstacle: null,
   stop: null,
   held: null,
+  asked: null,
+  menuOpen: false,
   choice: null,
   notice: null,
   view: 'first-person',
@@ -73,12 +75,41 @@ test('a view that begins says what the hands do in it', () => {
 });
 
 test('without a robot: which press chooses one, or why there is none', () => {
-  const facts = { next: { name: 'Ada' }, signaling: 'ready', host: 'x.org', driveHand: 'left' } as const;
+  const facts = {
+    next: { name: 'Ada' },
+    others: false,
+    signaling: 'ready',
+    host: 'x.org',
+    driveHand: 'left',
+  } as const;
   const choice = choiceWords(facts);
   expect(choice.text).toBe('Press the left stick to connect to Ada.');
   expect(headsetNotice({ ...quiet, choice }).standing).toEqual({ title: 'No robot is chosen', ...choice });
+  expect(choiceWords({ ...facts, others: true }).text).toBe(`${choice.text} The menu lists all robots.`);
   expect(choiceWords({ ...facts, next: null }).text).toContain('No robots are online');
   expect(choiceWords({ ...facts, next: null, signaling: 'waiting' }).text).toContain(
     'x.org cannot be reached',
   );
+});
+
+test('a request says that the menu answers it, below all that keeps the robot from driving', () => {
+  const asked = 'Bo asks to drive';
+  expect(headsetNotice({ ...quiet, asked }).standing).toEqual({
+    title: null,
+    text: 'Bo asks to drive. Answer in the menu.',
+    tone: 'warning',
+  });
+  expect(headsetNotice({ ...quiet, asked, held }).standing?.text).toBe(held.text);
+});
+
+test('in the menu a trigger chooses, so the stop says to close that first; who may not release it reads who may', () => {
+  expect(headsetNotice({ ...quiet, stop, menuOpen: true }).standing?.text).toContain('close the menu');
+  const others = { ...stop, mayRelease: false };
+  expect(headsetNotice({ ...quiet, stop: others, menuOpen: true }).standing?.text).not.toContain('menu');
+});
+
+test('settings are not in the headset: where only they help, the sign says so', () => {
+  const facts = { next: null, others: false, host: 'example.org', driveHand: 'right' } as const;
+  expect(choiceWords({ ...facts, signaling: 'refused' }).text).toContain('leave VR');
+  expect(choiceWords({ ...facts, signaling: 'ready' }).text).not.toContain('leave VR');
 });

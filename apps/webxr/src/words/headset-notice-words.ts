@@ -25,6 +25,10 @@ export interface HeadsetNoticeFacts {
   stop: LatchedStop | null;
   /** The operator holds the grip, and the robot stands still all the same: why; `null` if it does not. */
   held: Words | null;
+  /** What another operator asks for or offers; `null` if nothing. */
+  asked: string | null;
+  /** Whether the menu is open, in which triggers choose. */
+  menuOpen: boolean;
   /** What the operator does to have a robot; `null` once one is chosen. */
   choice: Words | null;
   /** Disappears by itself. */
@@ -66,6 +70,8 @@ function standingOf({
   obstacle,
   stop,
   held,
+  asked,
+  menuOpen,
   choice,
 }: HeadsetNoticeFacts): HeadsetNotice['standing'] {
   const severe = failure ?? banner;
@@ -73,18 +79,22 @@ function standingOf({
   if (obstacle !== null)
     return { title: obstacle.title, text: texts().headset.answerOutside(obstacle.text), tone: 'bad' };
   if (stop !== null)
-    return { title: texts().stop.title, text: `${stop.why} ${releaseWords(stop)}`, tone: 'bad' };
+    return { title: texts().stop.title, text: `${stop.why} ${releaseWords(stop, menuOpen)}`, tone: 'bad' };
   if (held !== null) return { title: null, ...held };
+  if (asked !== null) return { title: null, text: texts().headsetMenu.answer(asked), tone: 'warning' };
   return choice === null ? null : { title: texts().headset.noRobot, ...choice };
 }
 
-function releaseWords({ mayRelease, release }: LatchedStop): string {
+function releaseWords({ mayRelease, release }: LatchedStop, menuOpen: boolean): string {
+  if (mayRelease && menuOpen) return texts().headsetMenu.releaseInMenu;
   return mayRelease ? texts().headset.release : release;
 }
 
 export interface ChoiceFacts {
   /** The robot that the stick chooses; `null` while none is listed. */
   next: Pick<RobotListing, 'name'> | null;
+  /** Whether others are listed, too. */
+  others: boolean;
   signaling: SignalingState;
   /** The signaling service's, for people. */
   host: string;
@@ -93,8 +103,13 @@ export interface ChoiceFacts {
 }
 
 /** What an operator does who wears the headset and has chosen no robot, or why there is none to choose. */
-export function choiceWords({ next, signaling, host, driveHand }: ChoiceFacts): Words {
-  if (next === null) return emptyListWords(signaling, host);
-  const { pressToConnect, hands } = texts().headset;
-  return { text: pressToConnect(hands[driveHand], next.name), tone: 'neutral' };
+export function choiceWords({ next, others, signaling, host, driveHand }: ChoiceFacts): Words {
+  const { headset, headsetMenu } = texts();
+  if (next === null) {
+    const { text, tone } = emptyListWords(signaling, host);
+    const isForSettings = signaling === 'refused' || signaling === 'waiting';
+    return { text: isForSettings ? `${text} ${headsetMenu.settingsOutside}` : text, tone };
+  }
+  const press = headset.pressToConnect(headset.hands[driveHand], next.name);
+  return { text: others ? `${press} ${headsetMenu.otherRobots}` : press, tone: 'neutral' };
 }

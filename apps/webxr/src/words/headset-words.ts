@@ -2,6 +2,11 @@
 import type { Hand, HeadsetView } from '../ground/headset-settings.ts';
 import { texts } from './language.ts';
 
+/** A view's name within a sentence. */
+export function viewName(view: HeadsetView): string {
+  return texts().headset.viewNames[view];
+}
+
 /** Told when a view begins. */
 export function viewNotice(view: HeadsetView): string {
   return texts().headset.viewBegins[view];

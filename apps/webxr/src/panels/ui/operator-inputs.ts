@@ -154,19 +154,35 @@ export class OperatorInputs {
     return this.#headset.turnStick;
   }
 
-  /** Call this before each display frame in VR. @param grabbing whether a hand holds something of the view */
+  /** Deflection backwards of the stick that moves the headset's menu, −1…1. */
+  get menuStick(): number {
+    return this.#headset.menuStick;
+  }
+
+  /** A trigger of the headset is pulled for its console, or not any more: until it is let go it releases nothing. */
+  claimTrigger(claimed: boolean): void {
+    this.#headset.triggerClaimed = claimed;
+  }
+
+  /**
+   * Call this before each display frame in VR.
+   *
+   * @param hands whether a hand holds something of the view, and whether the menu is open
+   * @returns whether the button was pressed that opens or closes the menu
+   */
   readHeadset<Source extends XrController>(
     sources: Iterable<Source>,
     tracks: Tracks<Source>,
-    grabbing: boolean,
-  ): void {
+    { grabbing, inMenu }: { grabbing: boolean; inMenu: boolean },
+  ): boolean {
     const wasHeld = this.#headset.held;
-    const pressed = this.#headset.read(sources, performance.now(), tracks, grabbing);
+    const pressed = this.#headset.read(sources, performance.now(), tracks, grabbing, inMenu);
     this.#buttons(pressed, 'headset');
     if (pressed.nextView) this.#port.onAction('view', performance.now());
     if (pressed.recentre) this.#port.onAction('recentre', performance.now());
     this.#port.onTalk('headset', this.#headset.talks);
     if (wasHeld !== this.#headset.held) this.#port.onChange();
+    return pressed.menu;
   }
 
   #buttons(pressed: PressedButtons, control: ReleaseControl): void {

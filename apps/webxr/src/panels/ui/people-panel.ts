@@ -2,9 +2,9 @@
 import type { RobotClient } from '@farpoint/operator';
 import { computed, effect } from '@preact/signals-core';
 import type { PageState } from '../../state/page-state.ts';
-import { steady } from '../../state/sampler.ts';
+import { peopleShown } from '../../state/shown-people.ts';
 import { texts } from '../../words/language.ts';
-import { type ShownPerson, shownPeople } from '../../words/people-words.ts';
+import type { ShownPerson } from '../../words/people-words.ts';
 import { elements } from './elements.ts';
 import { showHandOver } from './hand-over-dialog.ts';
 import { showHandovers } from './handover-panel.ts';
@@ -13,21 +13,10 @@ import { openDialog } from './open-dialog.ts';
 type PeopleClient = Pick<RobotClient, 'endSession' | 'people' | 'driver'>;
 
 export function showPeople(state: PageState, client: PeopleClient): void {
-  const { robot, driving, people: dealings } = state;
+  const { driving } = state;
   const { people, peopleLine, peopleList, peopleAsk } = elements;
   // A button that is made anew loses the focus.
-  const shown = steady(
-    computed(() =>
-      shownPeople({
-        operators: robot.operators.value,
-        role: driving.role.value,
-        holder: driving.holder.value,
-        waits: dealings.own.value !== null,
-        stopped: robot.estopLatched.value,
-        drivesMinutes: dealings.drivesMinutes.value,
-      }),
-    ),
-  );
+  const shown = peopleShown(state);
   effect(() => {
     const { line, persons, mayAsk } = shown.value;
     people.hidden = line === null;

@@ -1,14 +1,18 @@
 /** A sheet with text in VR, drawn over the world. Only what has changed is drawn and uploaded anew. */
 import { CanvasTexture, LinearFilter, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace } from 'three';
 
-/** After everything of the world, and after the red edge of the view (blocked-edge.ts). */
-const RENDER_ORDER = 20;
+/**
+ * After everything of the world, and after the red edge of the view (blocked-edge.ts); the later of two covers the other. Chosen:
+ * what matters more is above.
+ */
+export const PLATE_ORDER = { wrist: 20, label: 24, menu: 30, mark: 31, notice: 40, pointer: 50 } as const;
 
 export interface PlateSize {
   /** Pixels. */
   readonly width: number;
   readonly height: number;
   readonly pixelsPerMetre: number;
+  readonly order: (typeof PLATE_ORDER)[keyof typeof PLATE_ORDER];
 }
 
 export class TextPlate {
@@ -19,7 +23,7 @@ export class TextPlate {
   readonly #texture: CanvasTexture;
 
   constructor(size: PlateSize) {
-    const { width, height, pixelsPerMetre } = size;
+    const { width, height, pixelsPerMetre, order } = size;
     this.#size = size;
     const canvas = document.createElement('canvas');
     Object.assign(canvas, { width, height });
@@ -33,7 +37,7 @@ export class TextPlate {
       // Transparent things are drawn last: a sheet that is opaque would be covered, whatever its order.
       new MeshBasicMaterial({ map: this.#texture, transparent: true, depthTest: false, depthWrite: false }),
     );
-    this.mesh.renderOrder = RENDER_ORDER;
+    this.mesh.renderOrder = order;
     this.#cut(height);
   }
 
@@ -43,12 +47,17 @@ export class TextPlate {
     return this.#context.measureText(text).width;
   };
 
-  /** Draws on the emptied sheet. @param height of what is drawn, pixels from the top: the rest is cut off */
-  draw(height: number, paint: (context: CanvasRenderingContext2D) => void): void {
+  /**
+   * Draws on the emptied sheet.
+   *
+   * @param height of what is drawn, pixels from the top: the rest is cut off
+   * @param width likewise, from the left
+   */
+  draw(height: number, paint: (context: CanvasRenderingContext2D) => void, width = this.#size.width): void {
     const context = this.#context;
     context.clearRect(0, 0, this.#size.width, this.#size.height);
     paint(context);
-    this.#cut(height);
+    this.#cut(height, width);
     this.#texture.needsUpdate = true;
   }
 
@@ -58,8 +67,10 @@ export class TextPlate {
     this.mesh.material.opacity = opacity;
   }
 
-  #cut(height: number): void {
+  #cut(height: number, width = this.#size.width): void {
     const share = height / this.#size.height;
+    this.#texture.repeat.x = width / this.#size.width;
+    this.mesh.scale.x = width / this.#size.width;
     this.#texture.repeat.y = share;
     this.#texture.offset.y = 1 - share;
     this.mesh.scale.y = height / this.#size.pixelsPerMetre;

@@ -6,13 +6,13 @@ import {
   LinearFilter,
   Mesh,
   MeshBasicMaterial,
+  type Object3D,
   PlaneGeometry,
   SRGBColorSpace,
 } from 'three';
 import type { CameraView } from '../../ground/pictures/camera-view.ts';
 import type { PageState } from '../../state/page-state.ts';
 import { cameraWords } from '../../words/camera-words.ts';
-import { PicturePointer } from './picture-pointer.ts';
 import { PictureSheet } from './picture-sheet.ts';
 import type { Stage } from './stage.ts';
 import type { WristPanel } from './wrist-panel.ts';
@@ -183,13 +183,19 @@ class WristPictures {
 export interface VrPicturesParts {
   readonly state: PageState;
   readonly panel: WristPanel;
-  readonly stage: Pick<Stage, 'renderer' | 'rig' | 'headset'>;
+  readonly stage: Pick<Stage, 'headset'>;
   /** Whether VR is active. */
   readonly active: ReadonlySignal<boolean>;
 }
 
-/** @returns the pointer, which is to be updated before each display frame in VR */
-export function showPicturesInVr({ state, panel, stage, active }: VrPicturesParts): PicturePointer {
+/** The pictures that can be chosen. */
+export interface PicturesInVr {
+  readonly targets: () => readonly Object3D[];
+  /** Shows the chosen one larger. */
+  readonly choose: (target: Object3D) => void;
+}
+
+export function showPicturesInVr({ state, panel, stage, active }: VrPicturesParts): PicturesInVr {
   const { views, enlarged, staged } = state;
   const wrist = new WristPictures();
   const front = new FrontPicture();
@@ -214,15 +220,14 @@ export function showPicturesInVr({ state, panel, stage, active }: VrPicturesPart
   effect(() => {
     if (active.value) front.update();
   });
-  const sheets = () => [...front.sheets, ...wrist.sheets];
-  return new PicturePointer(
-    stage.renderer,
-    stage.rig,
-    () => sheets().map(({ mesh }) => mesh),
-    (object) => {
-      const view = sheets().find(({ mesh }) => mesh === object)?.view;
+  // Those at the wrist are nearer.
+  const sheets = () => [...wrist.sheets, ...front.sheets];
+  return {
+    targets: () => sheets().map(({ mesh }) => mesh),
+    choose: (target) => {
+      const view = sheets().find(({ mesh }) => mesh === target)?.view;
       // The trigger releases the emergency stop while that is on.
       if (view !== undefined && !state.robot.estopLatched.peek()) state.nextSize(view);
     },
-  );
+  };
 }

@@ -48,9 +48,8 @@ export class VrSession {
   /** Call this from a button's event handler. @throws whatever error the browser gives */
   async toggle(mode: HeadsetMode): Promise<void> {
     const { xr } = this.#renderer;
-    const running = xr.getSession();
-    if (running !== null) {
-      await running.end();
+    if (xr.getSession() !== null) {
+      await this.leave();
       return;
     }
     const session = await navigator.xr?.requestSession(mode, {
@@ -66,6 +65,11 @@ export class VrSession {
     // Whatever comes of it, the headset goes on at a rate of its own.
     if (rate !== null && rate !== session.frameRate)
       await session.updateTargetFrameRate(rate).catch(() => {});
+  }
+
+  /** Ends the session, if there is one. */
+  async leave(): Promise<void> {
+    await this.#renderer.xr.getSession()?.end();
   }
 
   /** Refresh rate of the display, Hz; `null` outside a session or where the headset does not say. */

@@ -24,6 +24,8 @@ const WIDTH = 512;
 const HEIGHT = 376;
 const PANEL_M = 0.18;
 const GAP_M = 0.02;
+/** Of the panel's middle above a bare hand, m. Chosen by eye: what is below the panel is above the fingers. */
+const ABOVE_HAND_M = 0.18;
 /** From one line to the next, and from the edge to the text, pixels. */
 const LINE = 44;
 const EDGE = 24;
@@ -42,10 +44,14 @@ export interface PanelLine {
 
 export class WristPanel {
   readonly #group = new Group();
+  readonly #mesh: Mesh;
   #hand: Hand;
   readonly #front: Group;
   /** Of each hand whose controller is there. */
   readonly #grips = new Map<string, Group>();
+  /** Of each hand that is bare. */
+  readonly #bare = new Map<string, Group>();
+  readonly #rig: Group;
   readonly #beside: Object3D[] = [];
   readonly #context: CanvasRenderingContext2D;
   readonly #texture: CanvasTexture;
@@ -62,28 +68,30 @@ export class WristPanel {
   constructor(renderer: WebGLRenderer, rig: Group, front: Group, hand: Hand) {
     this.#hand = hand;
     this.#front = front;
+    this.#rig = rig;
     const canvas = document.createElement('canvas');
     canvas.width = WIDTH;
     canvas.height = HEIGHT;
     this.#context = canvas.getContext('2d')!;
     this.#texture = new CanvasTexture(canvas);
     this.#texture.colorSpace = SRGBColorSpace;
-    const mesh = new Mesh(
+    this.#mesh = new Mesh(
       new PlaneGeometry(PANEL_M, (PANEL_M * HEIGHT) / WIDTH),
       new MeshBasicMaterial({ map: this.#texture, transparent: true, opacity: 0.92 }),
     );
-    this.#group.add(mesh);
+    this.#group.add(this.#mesh);
     this.#group.visible = false;
     this.#place();
     for (const index of [0, 1]) {
       const grip = renderer.xr.getControllerGrip(index);
       rig.add(grip);
       grip.addEventListener('connected', ({ data }) => {
-        this.#grips.set(data.handedness, grip);
+        (data.hand == null ? this.#grips : this.#bare).set(data.handedness, grip);
         this.#place();
       });
       grip.addEventListener('disconnected', () => {
-        for (const [side, own] of this.#grips) if (own === grip) this.#grips.delete(side);
+        for (const grips of [this.#grips, this.#bare])
+          for (const [side, own] of grips) if (own === grip) grips.delete(side);
         this.#place();
       });
     }
@@ -95,15 +103,34 @@ export class WristPanel {
     this.#place();
   }
 
-  /** On the wrist, or before the operator while there is no controller on it. */
+  /** Call this before each display frame in VR: above a bare hand the panel is turned to the eyes. @param head in the rig */
+  update(head: Object3D): void {
+    const bare = this.#bare.get(this.#hand);
+    if (bare?.visible !== true) return;
+    this.#group.position.copy(bare.position);
+    this.#group.position.y += ABOVE_HAND_M;
+    this.#group.quaternion.copy(head.quaternion);
+  }
+
+  /** On the wrist, above a bare hand, or before the operator while there is no such hand. */
   #place(): void {
     const grip = this.#grips.get(this.#hand);
+    if (grip === undefined && this.#bare.has(this.#hand)) {
+      this.#rig.add(this.#group);
+      this.#group.scale.setScalar(1);
+      this.#placeBeside();
+      return;
+    }
     (grip ?? this.#front).add(this.#group);
     // Chosen by eye: below the sign before the eyes, which hides nothing of it unless a text is long.
     if (grip === undefined) this.#group.position.set(0, -0.5, -0.62);
     else this.#group.position.set(0, 0.03, 0.06);
     this.#group.rotation.set(grip === undefined ? -0.68 : -1, 0, 0);
     this.#group.scale.setScalar(grip === undefined ? 1.6 : 1);
+    this.#placeBeside();
+  }
+
+  #placeBeside(): void {
     const inwards = this.#hand === 'left' ? 1 : -1;
     for (const { position } of this.#beside)
       position.set(inwards * (PANEL_M + GAP_M), (-PANEL_M * HEIGHT) / WIDTH / 2, 0);
@@ -114,6 +141,17 @@ export class WristPanel {
     this.#beside.push(object);
     this.#group.add(object);
     this.#place();
+  }
+
+  /** Adds an object below the panel, which moves with it. Its origin is in the middle of its upper edge. */
+  addBelow(object: Object3D): void {
+    object.position.set(0, (-PANEL_M * HEIGHT) / WIDTH / 2 - GAP_M / 2, 0);
+    this.#group.add(object);
+  }
+
+  /** The sheet itself. */
+  get sheet(): Mesh {
+    return this.#mesh;
   }
 
   /** What it shows; `null` while it is hidden. */

@@ -234,19 +234,55 @@ describe('HeadsetInput', () => {
     expect(held(fist, false)).toBe(false);
   });
 
-  test('A or X starts a latency test, the other hand’s shows the next view and its stick recentres, B or Y stops: once per press', () => {
+  test('A or X opens the menu, the other hand’s shows the next view and its stick recentres, B or Y stops: once per press', () => {
     const input = new HeadsetInput();
     const read = (...sources: ReturnType<typeof controller>[]) => input.read(sources, 0, tracked);
-    expect(read(controller('left', 0, 0, 0, 4))).toMatchObject({ nextView: true, latencyTest: false });
+    expect(read(controller('left', 0, 0, 0, 4))).toMatchObject({ nextView: true, menu: false });
     expect(read(controller('left', 0, 0, 0, 4))).toMatchObject({ nextView: false });
     expect(read(controller('left', 0, 0, 0, 3))).toMatchObject({ recentre: true, nextRobot: false });
     expect(read(controller('left', 0, 0, 0, 3))).toMatchObject({ recentre: false });
     expect(read(controller('left', 0, 0, 0, 5))).toMatchObject({ estop: true });
-    expect(read(controller('right', 0, 0, 0, 4))).toMatchObject({ nextView: false, latencyTest: true });
-    expect(read(controller('right', 0, 0, 0, 4))).toMatchObject({ latencyTest: false });
+    expect(read(controller('right', 0, 0, 0, 4))).toMatchObject({ nextView: false, menu: true });
+    expect(read(controller('right', 0, 0, 0, 4))).toMatchObject({ menu: false, latencyTest: false });
     expect(read(controller('right', 0, 0, 0, 3))).toMatchObject({ recentre: false, nextRobot: true });
-    expect(read(controller('right', 0, 0, 0, 5))).toMatchObject({ estop: true, latencyTest: false });
+    expect(read(controller('right', 0, 0, 0, 5))).toMatchObject({ estop: true, menu: false });
     expect(read(controller('right', 0, 0, 0, 5))).toMatchObject({ estop: false });
+    // Nothing opens before the eyes of a hand that drives.
+    expect(read(controller('right', 1, 0, 0, 4)).menu).toBe(false);
+  });
+
+  test('in the menu sticks and triggers are the menu’s, either hand closes it, B and Y stop, and the grip drives', () => {
+    const input = new HeadsetInput();
+    const read = (...sources: ReturnType<typeof controller>[]) =>
+      input.read(sources, 0, tracked, false, true);
+    expect(read(controller('left', 0, 1, 0.8, 3))).toMatchObject({ recentre: false, releaseHeld: false });
+    expect([input.turnStick, input.menuStick]).toEqual([0, 0.8]);
+    expect(read(controller('right', 0, 0, -1, 3))).toMatchObject({ nextRobot: false });
+    expect([input.pushed, input.menuStick]).toEqual([false, -1]);
+    expect(read(controller('left', 0, 0, 0, 4))).toMatchObject({ menu: true, nextView: false });
+    expect(read(controller('right', 0, 0, 0, 4)).menu).toBe(true);
+    expect(read(controller('left', 0, 0, 0, 5)).estop).toBe(true);
+    read(controller('right', 1, 0, -1));
+    expect([input.held, input.wish.forward]).toEqual([true, 1]);
+    input.read([controller('right', 0, 0, -1)], 0, () => false, false, true);
+    expect(input.menuStick).toBe(0);
+  });
+
+  test('a trigger that was pulled for the console releases no STOP before it has been let go', () => {
+    const input = new HeadsetInput();
+    const pulled = [controller('right', 0, 0, 0, 0)];
+    expect(input.read(pulled, 0, tracked, false, true).releaseHeld).toBe(false);
+    expect(input.read(pulled, 0, tracked).releaseHeld).toBe(false);
+    input.read([controller('right', 0, 0, 0)], 0, tracked);
+    expect(input.read(pulled, 0, tracked).releaseHeld).toBe(true);
+    // The press may be told of before the reading has it, and after its end.
+    input.triggerClaimed = true;
+    input.read([controller('right', 0, 0, 0)], 0, tracked);
+    expect(input.read(pulled, 0, tracked).releaseHeld).toBe(false);
+    input.triggerClaimed = false;
+    expect(input.read(pulled, 0, tracked).releaseHeld).toBe(false);
+    input.read([controller('right', 0, 0, 0)], 0, tracked);
+    expect(input.read(pulled, 0, tracked).releaseHeld).toBe(true);
   });
 
   test('is not read while the driving hand is not tracked', () => {

@@ -1,7 +1,8 @@
 /**
  * Headset controllers in WebXR's `xr-standard` mapping: the thumbstick is axes 2 and 3, the trigger button 0, squeeze
  * button 1, the thumbstick's press button 3, A/X button 4 and B/Y button 5. One hand drives while it squeezes. The other
- * hand has the view. A bare hand, which has no grip that opens by itself, neither drives nor releases nor speaks.
+ * hand has the view. A bare hand, which has no grip that opens by itself, neither drives nor releases nor speaks. While the
+ * menu is open, the sticks of open hands and the triggers are the menu's; B and Y stop as ever, and the grip drives.
  */
 
 import type { DriveInput, DriveWish, PressedButtons } from '@farpoint/operator';
@@ -37,12 +38,14 @@ export interface HeadsetButtons extends PressedButtons {
   readonly nextView: boolean;
   /** Pressed: recentres. */
   readonly recentre: boolean;
+  /** Pressed: opens or closes the menu. Never while a hand drives. */
+  readonly menu: boolean;
 }
 
 /** Which buttons are held, on any controller that they belong to. */
 interface HeldButtons {
   estop: boolean;
-  latencyTest: boolean;
+  menu: boolean;
   nextRobot: boolean;
   nextView: boolean;
   recentre: boolean;
@@ -57,7 +60,7 @@ const PUSHED = 0.5;
 
 const NOTHING_HELD: Readonly<HeldButtons> = {
   estop: false,
-  latencyTest: false,
+  menu: false,
   nextRobot: false,
   nextView: false,
   recentre: false,
@@ -74,12 +77,18 @@ export class HeadsetInput implements DriveInput {
   talks = false;
   /** Deflection to the right of the other hand's stick, −1…1; 0 while that hand is not tracked. */
   turnStick = 0;
+  /** Deflection backwards of the stick that is pushed most, −1…1, of hands that are tracked. */
+  menuStick = 0;
   readMs = Number.NEGATIVE_INFINITY;
   readonly #settings: Pick<HeadsetSettings, 'driveHand'>;
   #driveHand: Hand;
   #mustOpen = false;
   #hand: string | null = null;
   #heldBefore: Readonly<HeldButtons> = NOTHING_HELD;
+  /** Whether a trigger is pulled for the console. */
+  triggerClaimed = false;
+  /** A trigger that was pulled for the console releases nothing before it has been let go. */
+  #triggerMustOpen = false;
 
   /** @param settings the hand that drives, as it is at each reading. A controller that is of no hand drives, too. */
   constructor(settings: Pick<HeadsetSettings, 'driveHand'> = DEFAULT_HEADSET) {
@@ -94,6 +103,7 @@ export class HeadsetInput implements DriveInput {
    * be its last state from before it fell asleep, so this does not count as a reading of a hand that drives.
    * @param grabbing whether a hand holds something of the view. Nothing drives meanwhile, nor does a grip that was squeezed
    * meanwhile before it has been opened.
+   * @param inMenu whether the menu is open: then triggers release nothing, and sticks neither turn the view nor miss a grip
    * @returns the buttons that were pressed since the last call, or are held
    */
   read<Source extends XrController>(
@@ -101,9 +111,11 @@ export class HeadsetInput implements DriveInput {
     nowMs: number,
     tracks: Tracks<Source>,
     grabbing = false,
+    inMenu = false,
   ): HeadsetButtons {
     const held = { ...NOTHING_HELD };
     this.turnStick = 0;
+    this.menuStick = 0;
     const { driveHand } = this.#settings;
     // A grip that is held already was not meant to drive.
     if (driveHand !== this.#driveHand) this.release();
@@ -113,7 +125,9 @@ export class HeadsetInput implements DriveInput {
     this.#mustOpen = (this.#mustOpen || grabbing) && driving !== null;
     if (this.#mustOpen) driving = null;
     if (driving === null || tracks(driving)) this.readMs = nowMs;
-    this.pushed = isOpen && !grabbing && this.#isAnyPushed(sources, tracks);
+    this.pushed = isOpen && !grabbing && !inMenu && this.#isAnyPushed(sources, tracks);
+    if (inMenu) this.turnStick = 0;
+    this.#triggerMustOpen = this.triggerClaimed || ((this.#triggerMustOpen || inMenu) && held.trigger);
     this.talks = driving !== null && pullsOther(sources, driving);
     this.held = driving !== null;
     this.#hand = driving?.handedness ?? null;
@@ -121,7 +135,7 @@ export class HeadsetInput implements DriveInput {
     // Some runtimes report unused axes as null; shapeAxis treats these as centred. Forward is −1, right is +1.
     this.wish.forward = -shapeAxis(axes?.[3], DEFAULT_STICK_RESPONSE) + 0;
     this.wish.left = -shapeAxis(axes?.[2], DEFAULT_STICK_RESPONSE) + 0;
-    return this.#pressedSince(held);
+    return this.#pressedSince(held, inMenu);
   }
 
   /** The hand that does not drive. */
@@ -143,6 +157,7 @@ export class HeadsetInput implements DriveInput {
       held.trigger ||= (buttons[TRIGGER]?.value ?? 0) > 0.5;
       const isAx = buttons[AX_BUTTON]?.pressed === true;
       const isStickPressed = buttons[STICK_PRESS]?.pressed === true;
+      this.#readMenuStick(source, tracks);
       if (source.handedness === this.#otherHand) {
         held.nextView ||= isAx;
         held.recentre ||= isStickPressed;
@@ -151,12 +166,18 @@ export class HeadsetInput implements DriveInput {
         if (typeof deflection === 'number' && tracks(source)) this.turnStick = deflection;
         continue;
       }
-      held.latencyTest ||= isAx;
+      held.menu ||= isAx;
       held.nextRobot ||= isStickPressed;
       if ((buttons[SQUEEZE]?.value ?? 0) <= 0.5) continue;
       if (driving === null || source.handedness === this.#hand) driving = source;
     }
     return driving;
+  }
+
+  #readMenuStick<Source extends XrController>(source: Source, tracks: Tracks<Source>): void {
+    const backwards = source.gamepad?.axes[3];
+    if (typeof backwards !== 'number' || Math.abs(backwards) <= Math.abs(this.menuStick)) return;
+    if (tracks(source)) this.menuStick = backwards;
   }
 
   #isAnyPushed<Source extends XrController>(sources: Iterable<Source>, tracks: Tracks<Source>): boolean {
@@ -168,18 +189,21 @@ export class HeadsetInput implements DriveInput {
     return false;
   }
 
-  #pressedSince(held: HeldButtons): HeadsetButtons {
+  #pressedSince(held: HeldButtons, inMenu: boolean): HeadsetButtons {
     const before = this.#heldBefore;
     this.#heldBefore = held;
     return {
       estop: held.estop && !before.estop,
-      latencyTest: held.latencyTest && !before.latencyTest,
+      // It is an entry of the menu.
+      latencyTest: false,
+      // Either hand closes it.
+      menu: !this.held && ((held.menu && !before.menu) || (inMenu && held.nextView && !before.nextView)),
       // Pushing a stick easily presses it too.
-      nextRobot: held.nextRobot && !before.nextRobot && !this.held,
-      nextView: held.nextView && !before.nextView,
-      recentre: held.recentre && !before.recentre,
+      nextRobot: held.nextRobot && !before.nextRobot && !this.held && !inMenu,
+      nextView: held.nextView && !before.nextView && !inMenu,
+      recentre: held.recentre && !before.recentre && !inMenu,
       // A fist clenched in fright presses both the grip and the trigger.
-      releaseHeld: held.trigger && !this.held,
+      releaseHeld: held.trigger && !this.held && !this.#triggerMustOpen,
     };
   }
 

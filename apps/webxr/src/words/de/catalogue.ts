@@ -1,11 +1,10 @@
-/**
- * All that the page says, in German. It addresses the operator with “Sie”, and names parts as the English catalogue does.
- */
+/** All that the page says, in German: addresses the operator with “Sie”, and names parts as the English catalogue does. */
 import type { Texts } from '../en/catalogue.ts';
 import { access } from './access.ts';
 import { capture } from './capture.ts';
 import { clouds } from './clouds.ts';
 import { commands } from './commands.ts';
+import { controllerLabels } from './controller-labels.ts';
 import { dashboard } from './dashboard.ts';
 import { dialogs } from './dialogs.ts';
 import { driving } from './driving.ts';
@@ -13,6 +12,7 @@ import { events } from './events.ts';
 import { failures } from './failures.ts';
 import { figures } from './figures.ts';
 import { headset } from './headset.ts';
+import { headsetMenu } from './headset-menu.ts';
 import { inputs } from './inputs.ts';
 import { link } from './link.ts';
 import { measures } from './measures.ts';
@@ -28,26 +28,28 @@ import { watch } from './watch.ts';
 
 export const german: Texts = {
   access,
+  capture,
   clouds,
+  commands,
+  controllerLabels,
   dashboard,
   dialogs,
-  commands,
-  capture,
   driving,
+  events,
   failures,
   figures,
   headset,
+  headsetMenu,
+  inputs,
   link,
   measures,
   media,
   motion,
   page,
   people,
+  report,
   settings,
   stop,
   timing,
   watch,
-  inputs,
-  events,
-  report,
 };

@@ -45,7 +45,7 @@ export const driving: Texts['driving'] = {
     repeated: 'Der Roboter hat einen Befehl abgelehnt, der in falscher Reihenfolge ankam.',
     'not-permitted': 'Mit Ihrer Berechtigung dürfen Sie diesem Roboter zusehen, ihn aber nicht fahren.',
     'not-lease-holder':
-      'Jemand anderes fährt diesen Roboter. Drücken Sie „Übernehmen“, um ihn selbst zu fahren.',
+      'Jemand anderes fährt diesen Roboter. Um ihn selbst zu fahren, wählen Sie „Übernehmen“.',
     'dead-man-released': 'Der Roboter bewegt sich nur, solange Sie den Griff halten.',
     'let-go-first': 'Der Roboter wurde angehalten, während Sie den Griff hielten. Loslassen, dann fahren.',
     'no-wheels': 'Der Antrieb des Roboters nimmt keine Befehle an. Den Grund nennt der Messwert „Wheels“.',

@@ -7,6 +7,11 @@ export const headset: Texts['headset'] = {
     'over-shoulder': 'Über die Schulter',
     tabletop: 'Tischmodell',
   },
+  viewNames: {
+    'first-person': 'Eigene Sicht',
+    'over-shoulder': 'Über die Schulter',
+    tabletop: 'Tischmodell',
+  },
   viewBegins: {
     'first-person': 'Ansicht im Headset: eigene Sicht',
     'over-shoulder': 'Ansicht im Headset: über die Schulter',

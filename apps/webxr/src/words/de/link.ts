@@ -72,7 +72,7 @@ export const link: Texts['link'] = {
     noService: 'Kein Vermittlungsdienst',
     notOnline: 'Dieser Roboter ist nicht online',
     notOnlineText: (robot) =>
-      `Der Vermittlungsdienst führt „${robot}“ nicht auf. Diese Seite verbindet sich, sobald er erscheint; drücken Sie „Trennen“, um einen anderen Roboter zu wählen.`,
+      `Der Vermittlungsdienst führt „${robot}“ nicht auf. Diese Seite verbindet sich, sobald er erscheint; um einen anderen Roboter zu wählen, trennen Sie sich von diesem.`,
     full: 'Der Roboter ist voll belegt',
     offline: 'Der Roboter ist offline',
     notConnected: 'Nicht verbunden',

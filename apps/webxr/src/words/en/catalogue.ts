@@ -6,6 +6,7 @@ import { access } from './access.ts';
 import { capture } from './capture.ts';
 import { clouds } from './clouds.ts';
 import { commands } from './commands.ts';
+import { controllerLabels } from './controller-labels.ts';
 import { dashboard } from './dashboard.ts';
 import { dialogs } from './dialogs.ts';
 import { driving } from './driving.ts';
@@ -13,6 +14,7 @@ import { events } from './events.ts';
 import { failures } from './failures.ts';
 import { figures } from './figures.ts';
 import { headset } from './headset.ts';
+import { headsetMenu } from './headset-menu.ts';
 import { inputs } from './inputs.ts';
 import { link } from './link.ts';
 import { measures } from './measures.ts';
@@ -28,28 +30,30 @@ import { watch } from './watch.ts';
 
 export const english = {
   access,
+  capture,
   clouds,
+  commands,
+  controllerLabels,
   dashboard,
   dialogs,
-  commands,
-  capture,
   driving,
+  events,
   failures,
   figures,
   headset,
+  headsetMenu,
+  inputs,
   link,
   measures,
   media,
   motion,
   page,
   people,
+  report,
   settings,
   stop,
   timing,
   watch,
-  inputs,
-  events,
-  report,
 };
 
 /** What a catalogue of any language has. */

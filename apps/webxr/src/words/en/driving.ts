@@ -51,7 +51,7 @@ export const driving = {
     stale: 'Commands reach the robot too late. It stays stopped until the connection improves.',
     repeated: 'The robot refused a command that arrived out of order.',
     'not-permitted': 'Your grant lets you watch this robot, but not drive it.',
-    'not-lease-holder': 'Someone else is driving this robot. Press Take over to drive it yourself.',
+    'not-lease-holder': 'Someone else is driving this robot. To drive it yourself, choose Take over.',
     'dead-man-released': 'The robot moves only while you hold the grip.',
     'let-go-first': 'The robot was stopped while you held the grip. Let go of it, then drive.',
     'no-wheels': 'The robot’s wheels take no commands. The reading “Wheels” says why.',

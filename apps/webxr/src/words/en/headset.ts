@@ -8,6 +8,12 @@ export const headset = {
     'over-shoulder': 'Over the shoulder',
     tabletop: 'Tabletop',
   } satisfies Record<HeadsetView, string>,
+  /** Within a list. */
+  viewNames: {
+    'first-person': 'first person',
+    'over-shoulder': 'over the shoulder',
+    tabletop: 'tabletop',
+  } satisfies Record<HeadsetView, string>,
   viewBegins: {
     'first-person': 'View in the headset: first person',
     'over-shoulder': 'View in the headset: over the shoulder',

@@ -74,7 +74,7 @@ export const link = {
     noService: 'No signaling service',
     notOnline: 'This robot is not online',
     notOnlineText: (robot: string) =>
-      `The signaling service does not list “${robot}”. This page connects when it appears; press Disconnect to choose another robot.`,
+      `The signaling service does not list “${robot}”. This page connects when it appears; to choose another robot, disconnect from this one.`,
     full: 'The robot is full',
     offline: 'The robot is offline',
     notConnected: 'Not connected',

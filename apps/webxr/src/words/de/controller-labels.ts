@@ -1,0 +1,26 @@
+import type { Texts } from '../en/catalogue.ts';
+
+export const controllerLabels: Texts['controllerLabels'] = {
+  stop: (letter) => `${letter}: STOP`,
+  stopIsOn: (letter) => `${letter}: STOP ist aktiv`,
+  menu: (letter) => `${letter}: Menü`,
+  closeMenu: (letter) => `${letter}: Menü schließen`,
+  nextView: (letter) => `${letter}: nächste Ansicht`,
+  upAndDown: 'Stick: auf und ab',
+  choose: 'Abzug: wählen',
+  closeAndDrive: 'Griff: schließen, fahren',
+  drive: 'Griff: fahren',
+  letGo: 'Loslassen: hält an',
+  letGoFirst: 'Erst loslassen',
+  onlyWatch: 'Sie sehen nur zu',
+  otherDrives: 'Belegt: siehe Menü',
+  steer: 'Stick: lenken',
+  steerWithGrip: 'Stick mit Griff: lenken',
+  turn: 'Stick: Ansicht drehen',
+  connect: (robot) => `Stickdruck: ${robot}`,
+  recentre: 'Stickdruck: zentrieren',
+  speak: 'Abzug: sprechen',
+  release: '1 s halten: STOP lösen',
+  holdModel: 'Abzug: Modell halten',
+  enlarge: 'Abzug: Bild vergrößern',
+};

@@ -1,0 +1,56 @@
+/** The menu in the headset. */
+
+export const headsetMenu = {
+  title: 'Menu',
+  /** On the wrist, for a hand that points. */
+  tab: { stop: 'STOP', menu: 'Menu' },
+  stop: 'STOP the robot',
+  stopAgain: 'STOP is on: press it again',
+  robots: 'Robots',
+  /** A robot in the list. @param chosen the page is connected to it, or tries to be */
+  robot: (name: string, chosen: boolean) => (chosen ? `${name} (chosen)` : name),
+  offline: (id: string) => `${id} (offline)`,
+  view: 'View',
+  viewNow: (view: string) => `View: ${view}`,
+  cameras: 'Cameras',
+  camera: {
+    hidden: (name: string) => `${name}: hidden`,
+    shown: (name: string) => `${name}: at the wrist`,
+    enlarged: (name: string) => `${name}: enlarged`,
+    filling: (name: string) => `${name}: in place of the cloud`,
+  },
+  cameraShow: 'Show',
+  cameraHide: 'Hide',
+  cameraEnlarge: 'Enlarge',
+  cameraShrink: 'Back to the wrist',
+  cameraFill: 'In place of the cloud',
+  readings: 'Readings',
+  noReadings: 'The robot sends no readings.',
+  reading: (label: string, text: string) => `${label}: ${text}`,
+  times: 'Where the time goes',
+  clouds: 'Clouds',
+  commands: 'Commands',
+  stage: (name: string, median: string, p95: string) => `${name}: ${median}, 95 % within ${p95}`,
+  latency: 'Latency test',
+  takeOver: 'Take over',
+  ask: 'Ask to drive',
+  handOver: 'Hand over',
+  giveUp: 'Give up the drive',
+  offerTo: (person: string) => `Offer it to ${person}`,
+  takeBack: 'Take it back',
+  /** @param seconds until it ends by itself */
+  left: (text: string, seconds: number) => `${text} (${seconds} s)`,
+  recentre: 'Recentre',
+  disconnect: 'Disconnect',
+  leave: { vr: 'Leave VR', ar: 'Leave AR' },
+  close: 'Close the menu',
+  back: 'Back',
+  more: 'More',
+  /** On the sign before the eyes. @param asked what another operator wants */
+  answer: (asked: string) => `${asked}. Answer in the menu.`,
+  /** After the words on which press connects to a robot. */
+  otherRobots: 'The menu lists all robots.',
+  releaseInMenu: 'To release it, close the menu, open both hands, then hold a trigger for one second.',
+  settingsOutside: 'The settings are on the page: leave VR for them.',
+  notLoaded: 'The menu could not be loaded. Check the network, then leave VR and reload the page.',
+};
