@@ -25,6 +25,7 @@ import type { OperatorSessions } from './serve/session/operator-sessions.ts';
 import { robotAbout } from './serve/session/robot-about.ts';
 import type { RobotSessionHost } from './serve/session/robot-session-host.ts';
 import { welcome } from './serve/session/welcome.ts';
+import { tellListedStatus } from './tell/listed-status.ts';
 import { MeasurementLogs } from './tell/measurement-logs.ts';
 import { openBoard } from './tell/open-board.ts';
 import { RobotReports } from './tell/robot-reports.ts';
@@ -205,6 +206,26 @@ export function linkReports(
     log,
     state,
     statisticsFile: logs.statisticsFile,
+    now: monotonicMs,
+  });
+}
+
+/** What the list of robots shows of it. @returns ends it */
+export function linkListedStatus(
+  { options, signaling, board }: RobotContext,
+  { station }: Drive,
+  operators: ReadonlyMap<string, OperatorSession>,
+  state: () => TimedBaseState | null,
+): () => void {
+  return tellListedStatus({
+    signaling,
+    listStatus: options.listStatus,
+    version: options.version,
+    maxOperators: options.places.most,
+    operators,
+    guard: station.guard,
+    board,
+    state,
     now: monotonicMs,
   });
 }

@@ -39,6 +39,7 @@ export class Robot implements StreamsAudience {
   readonly #context: link.RobotContext;
   readonly #core: DriveCore;
   readonly #reports: RobotReports;
+  readonly #endListing: () => void;
   readonly #updating: NodeJS.Timeout;
   #state: TimedBaseState | null = null;
   /** When the first sensor's capture thread last gave a sign of life, ms on the robot's clock. */
@@ -68,7 +69,9 @@ export class Robot implements StreamsAudience {
     const addReading = link.linkReadings(context, this.driving, { onState, onFailure });
     const { heldBy } = this.driving.estop.start;
     this.stops = startStops(stops, this.#core.host, heldBy, addReading, log);
-    this.#reports = link.linkReports(context, this.driving, this.operators, () => this.#state);
+    const state = () => this.#state;
+    this.#reports = link.linkReports(context, this.driving, this.operators, state);
+    this.#endListing = link.linkListedStatus(context, this.driving, this.operators, state);
     this.#updating = setInterval(() => this.#update(), UPDATE_EVERY_MS);
   }
 
@@ -125,6 +128,7 @@ export class Robot implements StreamsAudience {
     this.drive.guard.latchEstop('robot');
     this.drive.halt();
     clearInterval(this.#updating);
+    this.#endListing();
     await this.sessions.closeCommands();
     const reported = this.#reports.close();
     this.sessions.close();

@@ -11,11 +11,12 @@ import {
 import type { AccessList } from './access.ts';
 import { HubConnection, type HubConnectionOptions, type Refuse } from './farpoint-connection.ts';
 import { FarpointSessions, type OperatorEntry } from './farpoint-sessions.ts';
-import { ListingFeed } from './listing-feed.ts';
+import { ListingFeed, type ListingSource } from './listing-feed.ts';
 import { type Connection, closeCodes, type Peer } from './peer.ts';
 import { toOperator, toRobot } from './peer-messages.ts';
 import type { RelayLimits } from './relay-budget.ts';
 import { type RobotEntry, RobotRegistry } from './robot-registry.ts';
+import { RobotStatuses } from './robot-statuses.ts';
 import type { SessionLimits } from './session-table.ts';
 
 export interface FarpointHubOptions extends HubConnectionOptions {
@@ -34,24 +35,32 @@ export interface FarpointHubOptions extends HubConnectionOptions {
   readonly signInUrl: string | null;
 }
 
+/**
+ * Minimum time between two messages about statuses to an operator, ms. Chosen: people see no more than two changes a second
+ * in a list. robot-statuses.test.ts holds it.
+ */
+const STATUS_INTERVAL_MS = 500;
+
 /** Introduces robots and operators over Farpoint's own protocol (see `@farpoint/protocol`, signaling/farpoint.ts). */
 export class FarpointHub {
   readonly #options: FarpointHubOptions;
   readonly #registry: RobotRegistry;
   readonly #sessions: FarpointSessions;
   readonly #feed: ListingFeed;
+  readonly #statuses = new RobotStatuses();
+  /** To operators that look at the list of robots. */
+  readonly #statusFeed: ListingFeed;
   #operators = 0;
 
   constructor(options: FarpointHubOptions) {
     this.#options = options;
     this.#registry = new RobotRegistry(options.limits.maxRobots);
     this.#sessions = new FarpointSessions({ ...options, registry: this.#registry });
-    this.#feed = new ListingFeed({
-      clock: options.clock,
-      listing: this.#registry.listing,
-      intervalMs: options.listIntervalMs,
-      bytesPerSecond: options.listBytesPerSecond,
-    });
+    const { clock, listIntervalMs, listBytesPerSecond } = options;
+    const feed = (listing: ListingSource, intervalMs: number) =>
+      new ListingFeed({ clock, listing, intervalMs, bytesPerSecond: listBytesPerSecond / 2 });
+    this.#feed = feed(this.#registry.listing, listIntervalMs);
+    this.#statusFeed = feed(this.#statuses.listing, Math.max(listIntervalMs, STATUS_INTERVAL_MS));
   }
 
   get counts(): { robots: number; operators: number; sessions: number } {
@@ -60,6 +69,7 @@ export class FarpointHub {
 
   stop(): void {
     this.#feed.stop();
+    this.#statusFeed.stop();
   }
 
   /** Sends all robots a list of revoked grants. */
@@ -92,6 +102,7 @@ export class FarpointHub {
           this.#operators--;
           this.#options.observer.operatorLeft(operator.name);
           this.#feed.remove(operator.peer);
+          this.#statusFeed.remove(operator.peer);
           this.#sessions.endAll(operator, 'operator-left');
         },
       },
@@ -122,6 +133,7 @@ export class FarpointHub {
     const { previous } = joined;
     if (previous !== null) {
       this.#sessions.endAll(previous, 'robot-left');
+      this.#forgetStatus(previous);
       previous.peer.close(closeCodes.policyViolation, 'a newer connection of this robot took over');
     }
     this.#options.observer.robotJoined('robot', entry.id, peer.address, previous !== null, hello.token);
@@ -137,9 +149,19 @@ export class FarpointHub {
     this.#options.observer.robotLeft('robot', robot.id);
     this.#sessions.endAll(robot, 'robot-left');
     this.#feed.changed();
+    this.#forgetStatus(robot);
+  }
+
+  #forgetStatus(robot: RobotEntry): void {
+    if (this.#statuses.forget(robot)) this.#statusFeed.changed();
   }
 
   #robotMessage(robot: RobotEntry, message: RobotToService, refuse: Refuse): string | null {
+    if (message.type === 'robot.status') {
+      if (this.#statuses.set(robot, message.status, this.#options.clock.now())) this.#statusFeed.changed();
+      else refuse('rate-limited', 'too many statuses: slow down');
+      return null;
+    }
     if (message.type !== 'robot.hello') return this.#sessions.fromRobot(robot, message, refuse);
     refuse('malformed', 'only one robot.hello per connection');
     return null;
@@ -167,6 +189,11 @@ export class FarpointHub {
   }
 
   #operatorMessage(operator: OperatorEntry, message: OperatorToService, refuse: Refuse): string | null {
+    if (message.type === 'statuses.watch') {
+      if (message.on) this.#statusFeed.addLater(operator.peer);
+      else this.#statusFeed.remove(operator.peer);
+      return null;
+    }
     if (message.type !== 'operator.hello') return this.#sessions.fromOperator(operator, message, refuse);
     refuse('malformed', 'only one operator.hello per connection');
     return null;

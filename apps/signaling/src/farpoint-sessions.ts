@@ -33,8 +33,8 @@ export interface FarpointSessionsOptions {
   readonly makeHandle: () => string;
 }
 
-type FromRobot = Exclude<RobotToService, { type: 'robot.hello' }>;
-type FromOperator = Exclude<OperatorToService, { type: 'operator.hello' }>;
+type FromRobot = Exclude<RobotToService, { type: 'robot.hello' | 'robot.status' }>;
+type FromOperator = Exclude<OperatorToService, { type: 'operator.hello' | 'statuses.watch' }>;
 type HubSession = Session<RobotEntry, OperatorEntry>;
 type Claim = ResumeClaim<RobotEntry, OperatorEntry>;
 

@@ -18,7 +18,7 @@ export const limitOptions = {
     help: 'maximum WebSockets from one IPv4 address or one IPv6 /64',
   }),
   maxRobots: defineOption({
-    // A list of this many robots, each with the longest id and name, must fit into what operators accept (1 MiB).
+    // A list of this many robots, each with the longest id, name and status, must fit into what operators accept (3 MiB).
     schema: schema.integer({ min: 1, max: 4900 }),
     default: 4000,
     argument: 'N',

@@ -24,6 +24,8 @@ export interface ListingFeedOptions {
   readonly maxBacklogBytes?: number;
 }
 
+/** Older than any list: whoever has it gets the whole one. */
+const BEFORE_ALL = -1;
 /** Cost of a message in addition to its bytes: a system call takes about as long as copying this much. */
 const MESSAGE_COST_BYTES = 4096;
 
@@ -59,6 +61,13 @@ export class ListingFeed {
   /** Sends the list now, and its changes later. */
   add(peer: Peer): void {
     this.#send(peer, this.#listing.whole());
+  }
+
+  /** Sends the list in the next round, and its changes later: however often it is asked for, it is sent once a round. */
+  addLater(peer: Peer): void {
+    if (this.#subscribers.has(peer)) return;
+    this.#subscribers.set(peer, BEFORE_ALL);
+    this.changed();
   }
 
   remove(peer: Peer): void {

@@ -1,5 +1,6 @@
+import type { RobotListing } from '@farpoint/protocol';
 import type { Peer } from './peer.ts';
-import { VersionedListing } from './versioned-listing.ts';
+import { type ListingWords, VersionedListing } from './versioned-listing.ts';
 
 /** A connected robot. */
 export interface RobotEntry {
@@ -19,11 +20,19 @@ export type JoinResult =
     }
   | { readonly ok: false; readonly reason: 'robot-id-taken' | 'full' };
 
+const told = ({ id, name }: RobotListing): RobotListing => ({ id, name });
+
+/** The list of robots: entries may contain more than it says. */
+export const robotWords: ListingWords<RobotListing> = {
+  whole: (robots) => ({ type: 'robots', robots: Array.from(robots, told) }),
+  changed: (here, gone) => ({ type: 'robots.changed', here: here.map(told), gone }),
+};
+
 /** The connected robots by id. */
 export class RobotRegistry {
   readonly #robots = new Map<string, RobotEntry>();
   readonly #maxRobots: number;
-  readonly listing = new VersionedListing(this.#robots);
+  readonly listing = new VersionedListing<RobotListing>(this.#robots, robotWords);
 
   constructor(maxRobots: number) {
     this.#maxRobots = maxRobots;

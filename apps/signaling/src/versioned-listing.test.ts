@@ -7,13 +7,14 @@ import {
 } from '@farpoint/protocol';
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
+import { robotWords } from './robot-registry.ts';
 import { VersionedListing } from './versioned-listing.ts';
 
 const read = (bytes: Uint8Array): ServiceToOperator => decodeJson(serviceToOperatorCodec, bytes);
 
 test('reports what was added, removed and changed since a version, each robot once', () => {
   const robots = new Map([['a', { id: 'a', name: 'A', key: 'secret' }]]);
-  const listing = new VersionedListing(robots);
+  const listing = new VersionedListing(robots, robotWords);
   expect(read(listing.whole())).toEqual({ type: 'robots', robots: [{ id: 'a', name: 'A' }] });
   const { version } = listing;
   robots.set('b', { id: 'b', name: 'B', key: 'secret' });
@@ -28,14 +29,14 @@ test('reports what was added, removed and changed since a version, each robot on
 });
 
 test('is encoded once for everyone with the same version', () => {
-  const listing = new VersionedListing(new Map());
+  const listing = new VersionedListing(new Map(), robotWords);
   listing.changed('a');
   expect(listing.since(0)).toBe(listing.since(0));
   expect(listing.whole()).toBe(listing.whole());
 });
 
 test('sends the whole list to whoever is too far behind', () => {
-  const listing = new VersionedListing(new Map([['a', { id: 'a', name: 'A' }]]), 4);
+  const listing = new VersionedListing(new Map([['a', { id: 'a', name: 'A' }]]), robotWords, 4);
   for (let i = 0; i < 9; i++) listing.changed(`r${i}`);
   expect(read(listing.since(4)).type).toBe('robots');
   expect(read(listing.since(5)).type).toBe('robots.changed');
@@ -46,7 +47,7 @@ test('applying the changes always gives the list, whatever happens and however l
   fc.assert(
     fc.property(fc.array(fc.record({ step, asks: fc.nat(3) }), { maxLength: 60 }), (steps) => {
       const robots = new Map<string, RobotListing>();
-      const listing = new VersionedListing(robots, 5);
+      const listing = new VersionedListing(robots, robotWords, 5);
       // Three operators that ask at different times.
       const operators = [0, 1, 2].map(() => ({ version: 0, list: [] as RobotListing[] }));
       const update = (operator: { version: number; list: RobotListing[] }): void => {

@@ -1,13 +1,16 @@
-import {
-  encodeJsonBytes,
-  type RobotListing,
-  type ServiceToOperator,
-  serviceToOperatorCodec,
-} from '@farpoint/protocol';
+import { encodeJsonBytes, type ServiceToOperator, serviceToOperatorCodec } from '@farpoint/protocol';
+import type { ListingSource } from './listing-feed.ts';
 
-/** The list of robots as messages, and the changes since any recent version. */
-export class VersionedListing {
-  readonly #robots: ReadonlyMap<string, RobotListing>;
+/** How a list and its changes are said. */
+export interface ListingWords<Entry> {
+  whole(entries: Iterable<Entry>): ServiceToOperator;
+  changed(here: readonly Entry[], gone: string[]): ServiceToOperator;
+}
+
+/** A list by id as messages, and the changes since any recent version. */
+export class VersionedListing<Entry> implements ListingSource {
+  readonly #entries: ReadonlyMap<string, Entry>;
+  readonly #words: ListingWords<Entry>;
   readonly #remembered: number;
   /** Ids in the order of their changes: index i led to version `#oldest + i + 1`. */
   #changes: string[] = [];
@@ -17,11 +20,12 @@ export class VersionedListing {
   readonly #since = new Map<number, Uint8Array>();
 
   /**
-   * @param robots read whenever a message is made; entries may contain more than the list sends
+   * @param entries read whenever a message is made
    * @param remembered number of changes to keep; an operator that is further behind gets the whole list
    */
-  constructor(robots: ReadonlyMap<string, RobotListing>, remembered = 1024) {
-    this.#robots = robots;
+  constructor(entries: ReadonlyMap<string, Entry>, words: ListingWords<Entry>, remembered = 1024) {
+    this.#entries = entries;
+    this.#words = words;
     this.#remembered = remembered;
   }
 
@@ -29,7 +33,7 @@ export class VersionedListing {
     return this.#oldest + this.#changes.length;
   }
 
-  /** Call this when a robot was added, removed or renamed. */
+  /** Call this when an entry was added or removed, or says something else. */
   changed(id: string): void {
     this.#changes.push(id);
     // Half of the changes are dropped at once, so that the cost of a change does not depend on how many are kept.
@@ -41,33 +45,29 @@ export class VersionedListing {
     this.#since.clear();
   }
 
-  /** The message `robots`. */
+  /** The whole list. */
   whole(): Uint8Array {
-    this.#whole ??= encode({ type: 'robots', robots: Array.from(this.#robots.values(), told) });
+    this.#whole ??= encode(this.#words.whole(this.#entries.values()));
     return this.#whole;
   }
 
-  /** The message `robots.changed` that updates a list of this version, or `robots` if the version is too old. */
+  /** The changes that update a list of this version, or the whole list if the version is too old. */
   since(version: number): Uint8Array {
     if (version < this.#oldest) return this.whole();
     let message = this.#since.get(version);
     if (message === undefined) {
-      const here: RobotListing[] = [];
+      const here: Entry[] = [];
       const gone: string[] = [];
       for (const id of new Set(this.#changes.slice(version - this.#oldest))) {
-        const robot = this.#robots.get(id);
-        if (robot === undefined) gone.push(id);
-        else here.push(told(robot));
+        const entry = this.#entries.get(id);
+        if (entry === undefined) gone.push(id);
+        else here.push(entry);
       }
-      message = encode({ type: 'robots.changed', here, gone });
+      message = encode(this.#words.changed(here, gone));
       this.#since.set(version, message);
     }
     return message;
   }
-}
-
-function told({ id, name }: RobotListing): RobotListing {
-  return { id, name };
 }
 
 function encode(message: ServiceToOperator): Uint8Array {

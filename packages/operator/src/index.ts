@@ -176,6 +176,7 @@ export {
   type SignalingAddress,
   type SignalingAddressFault,
 } from './signaling/signaling-url.ts';
+export type { StatusFeed } from './signaling/status-feed.ts';
 export type { PlayedSound, RobotSound, VoiceStatus } from './sound/robot-sound.ts';
 export type { VoiceFailure, VoiceFailureReason } from './sound/voice-failure.ts';
 export type { SensorStats } from './statistics/sensor-statistics.ts';

@@ -116,6 +116,12 @@ export * from './session-requests.ts';
 export * from './sign-in.ts';
 export * from './signaling/farpoint.ts';
 export * from './signaling/reference.ts';
+export {
+  applyStatusesChanged,
+  type RobotState,
+  type RobotStatus,
+  type StatusOfRobot,
+} from './signaling/robot-status.ts';
 export * from './signaling/signaling-endpoint.ts';
 export * from './sound-media.ts';
 export {

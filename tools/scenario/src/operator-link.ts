@@ -33,6 +33,7 @@ export interface OperatorLinkParts {
 /** The operator's link to a robot in virtual time, with the real session keeper. */
 export class OperatorLink extends KeptLink {
   readonly signInUrl = null;
+  readonly statusFeed = { statuses: new Map(), watchStatuses: () => {} };
   readonly #parts: OperatorLinkParts;
   #connection: Connection | null = null;
   #gone = false;

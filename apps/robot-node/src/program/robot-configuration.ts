@@ -22,12 +22,17 @@ import type { OperatorPlacesOptions } from '../serve/session/operator-places.ts'
 import type { AlarmRule } from '../tell/alarms/alarm-board.ts';
 import type { LiveOptions, RecordingOptions } from '../tell/recording-options.ts';
 import type { SpanOptions } from '../tell/spans/span-exporter.ts';
+import type { ListStatus } from '../tell/status-reporter.ts';
 
 /** Everything that a robot is made of. */
 export interface RobotOptions extends RateControlOptions {
   id: string;
   name: string;
   signaling: Pick<SignalingOptions, 'url' | 'key' | 'token' | 'ca'>;
+  /** What the list of robots shows of it to operators without a session. */
+  listStatus: ListStatus;
+  /** Of its software. */
+  version: string;
   /** File with the keys whose grants admit operators; if undefined, everybody is admitted. */
   grantKeys?: string | undefined;
   /** File with the key by which operators recognise the robot. */

@@ -5,6 +5,7 @@ import type { RobotLink, RobotLinkEvents, SignalingState } from '../link/robot-l
 import { RobotSession } from '../session/robot-session.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
+import { noStatusFeed } from '../signaling/status-feed.ts';
 import { BridgeSession, type BridgeSessionActions } from './bridge-session.ts';
 import type { BridgeAddress } from './bridge-settings.ts';
 import { BridgeSocket } from './bridge-socket.ts';
@@ -19,6 +20,7 @@ export class BridgeLink implements RobotLink {
   readonly lastLoss: SessionLoss | null = null;
   readonly lossDetail = null;
   readonly signInUrl = null;
+  readonly statusFeed = noStatusFeed;
   readonly changedRobotKey = null;
   readonly maxOperators = null;
   readonly #address: BridgeAddress;

@@ -32,6 +32,7 @@ export abstract class KeptLink implements RobotLink {
   maxOperators: number | null = null;
   abstract readonly signaling: SignalingState;
   abstract readonly signInUrl: string | null;
+  abstract readonly statusFeed: RobotLink['statusFeed'];
   protected readonly events: RobotLinkEvents;
   protected readonly keeper: SessionKeeper;
   /** Number of the session, for the worker's batches. */

@@ -10,6 +10,7 @@ import type { IntakeReport } from '../cloud/worker-messages.ts';
 import type { RobotSession, RobotSessionEvents } from '../session/robot-session.ts';
 import type { SessionPhase } from '../session/session-keeper.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
+import type { StatusFeed } from '../signaling/status-feed.ts';
 import type { SoundLine } from '../sound/sound-line.ts';
 import type { VideoTrack } from '../video/video-track.ts';
 
@@ -56,6 +57,8 @@ export interface RobotLink {
   readonly signInUrl: string | null;
   /** The robots that the service lists now. */
   readonly robots: readonly RobotListing[];
+  /** What the listed robots say about themselves, while it is watched. */
+  readonly statusFeed: StatusFeed;
   /** The wanted robot; `null` if none is wanted. */
   readonly robotId: string | null;
   /** Whether the service lists the wanted robot. */

@@ -11,6 +11,7 @@ import {
 import type { StrangeRobotError } from '../access/session-admission.ts';
 import type { IntakeReport } from '../cloud/worker-messages.ts';
 import { OperatorSignaling, type SessionSignal } from '../signaling/operator-signaling.ts';
+import type { StatusFeed } from '../signaling/status-feed.ts';
 import { WebSocketPort } from '../signaling/web-socket-port.ts';
 import { IntroducedPeer, type LinkPeer, type OpenPeer } from './introduced-peer.ts';
 import { KeptLink } from './kept-link.ts';
@@ -84,6 +85,9 @@ export class WebRtcLink extends KeptLink {
 
   get signaling(): SignalingState {
     return this.#signaling.state;
+  }
+  get statusFeed(): StatusFeed {
+    return this.#signaling;
   }
   get signInUrl(): string | null {
     return this.#signaling.signInUrl;

@@ -64,6 +64,45 @@ describe('OperatorSignaling', () => {
     expect(bench.states).toEqual(['connecting', 'ready']);
   });
 
+  test('is told what robots say about themselves while it looks, and knows nothing without the service', () => {
+    const status = { state: 'free', sinceMs: 0, operators: 0, watchers: 0, maxOperators: 4, alarms: 0 };
+    const bench = new Bench().ready();
+    bench.sent.length = 0;
+    bench.machine.watchStatuses(true);
+    bench.machine.watchStatuses(true);
+    expect(bench.sent).toEqual([{ type: 'statuses.watch', on: true }]);
+    bench.receive({ type: 'statuses', statuses: [{ id: 'r', status }] });
+    bench.receive({ type: 'statuses.changed', here: [{ id: 's', status }], gone: [] });
+    expect([...bench.machine.statuses.keys()]).toEqual(['r', 's']);
+    const stopped = { ...status, state: 'stopped' };
+    bench.receive({ type: 'statuses.changed', here: [{ id: 's', status: stopped }], gone: ['r'] });
+    expect([...bench.machine.statuses]).toEqual([['s', stopped]]);
+    bench.machine.onClose();
+    expect(bench.machine.statuses.size).toBe(0);
+    // It asks again by itself.
+    bench.sent.length = 0;
+    bench.machine.retryNow();
+    bench.machine.onOpen();
+    bench.receive({ type: 'operator.welcome', iceServers: [] });
+    expect(bench.sent.at(-1)).toEqual({ type: 'statuses.watch', on: true });
+    bench.receive({ type: 'statuses', statuses: [{ id: 'r', status }] });
+    bench.machine.watchStatuses(false);
+    expect(bench.machine.statuses.size).toBe(0);
+    // What was on its way is not kept.
+    bench.receive({ type: 'statuses.changed', here: [{ id: 'r', status }], gone: [] });
+    expect(bench.machine.statuses.size).toBe(0);
+  });
+
+  test('keeps from the operator that an older service does not know statuses', () => {
+    const bench = new Bench().ready();
+    bench.machine.watchStatuses(true);
+    const error = { type: 'error', code: 'malformed', message: 'not a message' };
+    bench.receive(error);
+    expect(bench.sessions).toEqual([]);
+    bench.receive(error);
+    expect(bench.sessions).toEqual([error]);
+  });
+
   test('knows where operators sign in, as long as the service says so', () => {
     const bench = new Bench().ready();
     expect(bench.machine.signInUrl).toBeNull();

@@ -5,6 +5,7 @@
 
 import {
   applyRobotsChanged,
+  applyStatusesChanged,
   decodeJson,
   encodeJson,
   type IceServer,
@@ -19,6 +20,7 @@ import {
 } from '@farpoint/protocol';
 import { Reconnect } from '@farpoint/timing';
 import type { SignalingState } from '../link/robot-link.ts';
+import { noStatusFeed, type StatusFeed } from './status-feed.ts';
 
 /** The socket and the timer. */
 export interface SignalingPort {
@@ -41,7 +43,7 @@ export interface SignalingEvents {
 
 export type SessionSignal = Exclude<
   ServiceToOperator,
-  { type: 'operator.welcome' } | { type: 'robots' } | { type: 'robots.changed' }
+  { type: 'operator.welcome' | 'robots' | 'robots.changed' | 'statuses' | 'statuses.changed' }
 >;
 
 /**
@@ -55,7 +57,7 @@ const REFUSED_RETRY_MS = 30_000;
  */
 const ANSWER_TIMEOUT_MS = 2000;
 
-export class OperatorSignaling {
+export class OperatorSignaling implements StatusFeed {
   readonly #port: SignalingPort;
   readonly #events: SignalingEvents;
   readonly #reconnect: Reconnect;
@@ -66,6 +68,11 @@ export class OperatorSignaling {
   #iceServers: readonly IceServer[] = [];
   #signInUrl: string | null = null;
   #robots: readonly RobotListing[] = [];
+  #statuses = noStatusFeed.statuses;
+  /** Whether the operator looks at the list of robots. */
+  #watches = false;
+  /** It has been said on this connection, and nothing has come yet. An older service does not know it. */
+  #watchDue = false;
 
   constructor(
     identity: { name: string; token?: string | undefined },
@@ -87,6 +94,17 @@ export class OperatorSignaling {
   /** The ICE servers of the service's latest welcome. */
   get iceServers(): readonly IceServer[] {
     return this.#iceServers;
+  }
+
+  get statuses(): StatusFeed['statuses'] {
+    return this.#statuses;
+  }
+
+  watchStatuses(on: boolean): void {
+    if (on === this.#watches) return;
+    this.#watches = on;
+    if (!on) this.#statuses = noStatusFeed.statuses;
+    this.#sendWatch();
   }
 
   /** Where operators sign in for a grant, from the service's latest welcome; `null` if it named no place. */
@@ -173,6 +191,11 @@ export class OperatorSignaling {
         this.#iceServers = message.iceServers;
         this.#signInUrl = message.signIn ?? null;
         this.#enter('ready');
+        if (this.#watches) this.#sendWatch();
+        return;
+      case 'statuses':
+      case 'statuses.changed':
+        this.#onStatuses(message);
         return;
       case 'robots':
         this.#robots = message.robots;
@@ -183,6 +206,10 @@ export class OperatorSignaling {
         this.#events.onRobots(this.#robots);
         return;
       case 'error':
+        if (message.code === 'malformed' && this.#watchDue) {
+          this.#watchDue = false;
+          return;
+        }
         if (message.code === 'unauthorized') {
           this.#port.close();
           this.#enter('refused');
@@ -195,6 +222,20 @@ export class OperatorSignaling {
     }
   }
 
+  #onStatuses(message: Extract<ServiceToOperator, { type: 'statuses' | 'statuses.changed' }>): void {
+    this.#watchDue = false;
+    // What was on its way when the operator looked away is not kept.
+    if (!this.#watches) return;
+    this.#statuses =
+      message.type === 'statuses'
+        ? new Map(message.statuses.map(({ id, status }) => [id, status]))
+        : applyStatusesChanged(this.#statuses, message);
+  }
+
+  #sendWatch(): void {
+    if (this.send({ type: 'statuses.watch', on: this.#watches })) this.#watchDue = this.#watches;
+  }
+
   #connect(): void {
     this.#answerDue = false;
     this.#enter('connecting');
@@ -205,6 +246,8 @@ export class OperatorSignaling {
   #enter(state: SignalingState): void {
     if (state === this.#state) return;
     this.#state = state;
+    // Nobody knows any more.
+    if (state !== 'ready') [this.#statuses, this.#watchDue] = [noStatusFeed.statuses, false];
     this.#events.onState(state);
   }
 }

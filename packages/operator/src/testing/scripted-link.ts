@@ -23,6 +23,7 @@ import { KeptLink } from '../link/kept-link.ts';
 import type { RobotLinkEvents, SignalingState } from '../link/robot-link.ts';
 import type { RobotChannel } from '../session/robot-session.ts';
 import type { SessionLoss } from '../session/session-loss.ts';
+import type { StatusFeed } from '../signaling/status-feed.ts';
 import type { VideoTrack } from '../video/video-track.ts';
 import type { CloudWorkerHere } from './cloud-worker-here.ts';
 
@@ -46,6 +47,8 @@ export class ScriptedLink extends KeptLink {
   /** What the client has sent in all sessions, in this order; also what was lost on a path that is cut. */
   readonly sent: SentMessage[] = [];
   signInUrl: string | null = null;
+  /** What the robots say about themselves; a test may put another one in its place. */
+  statusFeed: StatusFeed = { statuses: new Map(), watchStatuses: () => {} };
   signaling: SignalingState = 'waiting';
   /** Whether packets arrive, in both directions. */
   isCut = false;

@@ -8,6 +8,7 @@ import * as z from 'zod/mini';
 import { displayNameSchema, handleSchema, robotIdSchema, tokenSchema } from '../identifiers.ts';
 import type { JsonCodec } from '../json.ts';
 import { signInUrlSchema } from '../sign-in.ts';
+import { robotStatusMessage, statusesChanged, statusesMessage, statusesWatch } from './robot-status.ts';
 
 /** A message to the service is at most this long, bytes (docs/protocol.md). Chosen: an SDP of 60,000 characters fits. */
 export const MAX_SIGNALING_BYTES = 65_536;
@@ -173,6 +174,7 @@ const robotToService = z.discriminatedUnion('type', [
     claim: handleSchema,
     code: z.enum(resumeRefusals),
   }),
+  robotStatusMessage,
 ]);
 export type RobotToService = z.infer<typeof robotToService>;
 
@@ -232,6 +234,7 @@ const operatorToService = z.discriminatedUnion('type', [
   sessionAnswer,
   sessionCandidate,
   sessionClose,
+  statusesWatch,
 ]);
 export type OperatorToService = z.infer<typeof operatorToService>;
 
@@ -246,6 +249,8 @@ const serviceToOperator = z.discriminatedUnion('type', [
   z.strictObject({ type: z.literal('robots'), robots: z.array(robotListing) }),
   /** What has changed since the last `robots` or `robots.changed`. */
   robotsChanged,
+  statusesMessage,
+  statusesChanged,
   z.strictObject({ type: z.literal('session.opened'), session: handleSchema, robotId: robotIdSchema }),
   /** `session.resume` was passed on to the robot. */
   z.strictObject({ type: z.literal('session.resuming'), session: handleSchema }),
@@ -276,11 +281,11 @@ export const operatorToServiceCodec: JsonCodec<OperatorToService> = {
   schema: operatorToService,
   maxBytes: MAX_SIGNALING_BYTES,
 };
-/** Larger, because it lists every robot. */
+/** Larger, because it lists every robot, also with its status. */
 export const serviceToOperatorCodec: JsonCodec<ServiceToOperator> = {
   what: 'message to operator',
   schema: serviceToOperator,
-  maxBytes: 1_048_576,
+  maxBytes: 3_145_728,
 };
 
 /**

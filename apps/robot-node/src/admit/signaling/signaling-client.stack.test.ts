@@ -145,6 +145,50 @@ describe('SignalingClient', () => {
     expect(pings).toBeLessThanOrEqual(2 + (performance.now() - start) / 500);
   });
 
+  it('tells no more of its status to a service that does not know it', async () => {
+    const { port, nextRobot } = await service();
+    const robot = client(port);
+    const heard: string[] = [];
+    const called = nextRobot();
+    robot.start();
+    const { socket } = await called;
+    expect(robot.takesStatus).toBe(false);
+    const next = () =>
+      new Promise<void>((resolve) => {
+        robot.onMessage = ({ type }) => {
+          heard.push(type);
+          resolve();
+        };
+      });
+    const refusal = JSON.stringify({
+      type: 'error',
+      code: 'malformed',
+      message: '',
+    } satisfies ServiceToRobot);
+    const welcomed = next();
+    socket.send(welcome);
+    await welcomed;
+    // What it has refused was something else.
+    const other = next();
+    socket.send(refusal);
+    await other;
+    expect(robot.takesStatus).toBe(true);
+    const status = {
+      state: 'free',
+      sinceMs: 0,
+      operators: 0,
+      watchers: 0,
+      maxOperators: 4,
+      alarms: 0,
+    } as const;
+    expect(robot.send({ type: 'robot.status', status })).toBe(true);
+    const refused = next();
+    socket.send(refusal);
+    await refused;
+    expect(robot.takesStatus).toBe(false);
+    expect([robot.registrations, heard]).toEqual([1, ['robot.welcome', 'error', 'error']]);
+  });
+
   it('counts unreadable messages and goes on', async () => {
     const { port, nextRobot } = await service();
     const robot = client(port);

@@ -113,6 +113,8 @@ export class SignalingClient {
   onMessage: ((message: ServiceToRobot) => void) | null = null;
   /** Whether the service has answered robot.hello. */
   registered = false;
+  /** How often it has done so. */
+  registrations = 0;
   /** Failed or broken connections since the start. */
   disconnects = 0;
   /** Messages that could not be read. */
@@ -128,6 +130,8 @@ export class SignalingClient {
   /** Whether the loss of the service has been logged. */
   #missed = false;
   #check: (() => void) | null = null;
+  /** What has become of statuses on this connection. An older service does not know them. */
+  #statuses: 'none' | 'sent' | 'refused' = 'none';
 
   constructor(options: SignalingOptions, log: Logger) {
     this.#options = options;
@@ -136,6 +140,11 @@ export class SignalingClient {
 
   start(): void {
     this.#connect();
+  }
+
+  /** Whether the service can be told the robot's status now. */
+  get takesStatus(): boolean {
+    return this.registered && this.#statuses !== 'refused';
   }
 
   /** @returns false if the connection is down */
@@ -149,6 +158,7 @@ export class SignalingClient {
       socket.terminate();
       return false;
     }
+    if (message.type === 'robot.status') this.#statuses = 'sent';
     socket.send(encodeJson(robotToServiceCodec, message));
     return true;
   }
@@ -245,9 +255,15 @@ export class SignalingClient {
     }
     if (message.type === 'robot.welcome') {
       this.registered = true;
+      this.registrations++;
+      this.#statuses = 'none';
       this.#missed = false;
       this.#reconnect.reset();
       this.#log.info({ url: this.#options.url, id: message.id }, 'registered with signaling');
+    }
+    if (message.type === 'error' && message.code === 'malformed' && this.#statuses === 'sent') {
+      this.#statuses = 'refused';
+      this.#log.info({ url: this.#options.url }, 'the signaling service is older: its list shows no status');
     }
     this.onMessage?.(message);
   }

@@ -144,6 +144,8 @@ function toIdentity(values: RobotOptionValues, folder: string, ca: RobotOptions[
     grantKeys: values.grantKeys ?? undefined,
     robotKey: values.robotKey ?? join(folder, `${values.id}.key.json`),
     revocations: values.revocations,
+    listStatus: values.listStatus,
+    version: robotProgram.version,
     audit: toAudit(values),
     stateFolder: folder,
   } satisfies Partial<RobotOptions>;

@@ -2,6 +2,7 @@
 import { displayNameSchema, handleSchema, robotIdSchema, tokenSchema } from '@farpoint/protocol';
 import { defineOption, type OptionTable, optionGroup, schema } from '@farpoint/service';
 import * as z from 'zod';
+import { LIST_STATUSES } from '../../tell/status-reporter.ts';
 
 /** The robot's identity, and its role in the system that it runs on. */
 export const identityOptions = {
@@ -59,6 +60,12 @@ export const signalingOptions = optionGroup('signaling', {
     argument: 'TOKEN',
     secret: true,
     help: 'token that the signaling service requires',
+  }),
+  listStatus: defineOption({
+    schema: schema.choice(LIST_STATUSES),
+    default: 'state',
+    argument: 'LEVEL',
+    help: 'what the list of robots shows to operators without a session: state (what the robot does, battery, alarms, how many operators, version), names (also who drives) or off (only the robot’s name)',
   }),
   plaintextToken: defineOption({
     schema: schema.boolean(),
