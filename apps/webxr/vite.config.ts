@@ -45,8 +45,8 @@ export default defineConfig(({ mode }) => ({
   worker: { format: 'es' },
   build: {
     target: 'es2022',
-    // The operator's page, and the one for those who only watch.
-    rolldownOptions: { input: ['index.html', 'watch.html'] },
+    // The operator's page, several of it side by side, and the page for those who only watch.
+    rolldownOptions: { input: ['index.html', 'wall.html', 'watch.html'] },
     // The WASM module stays a file, so that it compiles while it streams in.
     assetsInlineLimit: 0,
     // The testing build includes `window.farpoint`, for tests and benchmarks.

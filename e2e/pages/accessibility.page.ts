@@ -25,6 +25,7 @@ const openSettings = (page: Page) => page.locator('#settings-open').click();
 
 const AUDITED: readonly Audited[] = [
   { what: 'the list of robots', state: 'disconnected' },
+  { what: 'a list of many robots that tell what they do', state: 'fleet' },
   { what: 'the settings', state: 'live', open: openSettings },
   {
     what: 'the grants',

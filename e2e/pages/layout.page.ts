@@ -9,6 +9,7 @@ const STATES: Readonly<Record<StageStateName, readonly string[]>> = {
   'no-robots': ['robots', 'settings-open'],
   disconnected: ['robots', 'settings-open'],
   'session-over': ['robots', 'settings-open'],
+  fleet: ['robots', 'settings-open'],
   'service-away': ['robots', 'settings-open'],
   'token-refused': ['robots', 'settings-open'],
   connecting: ['disconnect', 'settings-open'],

@@ -91,6 +91,18 @@ export class Stage {
     return this.page;
   }
 
+  /** Opens the page with several robots; what it has in its address goes to the page of each. */
+  async openWall(query: Readonly<Record<string, string>>): Promise<Page> {
+    await this.#prepare(RARE_FRAME_MS);
+    const url = new URL('/wall.html', this.#origin);
+    for (const [name, value] of Object.entries(query)) url.searchParams.set(name, value);
+    await this.page.goto(url.href);
+    for (const frame of this.page.frames())
+      if (frame !== this.page.mainFrame()) await frame.evaluate(() => window.stageOpened);
+    await this.run(BEGIN_MS + 500);
+    return this.page;
+  }
+
   async #prepare(frameMs: number): Promise<void> {
     const { page } = this;
     if (page.url() !== 'about:blank') return;

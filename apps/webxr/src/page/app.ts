@@ -6,6 +6,7 @@ import { PanelPlacements } from '../ground/panels/panel-placements.ts';
 import { loadPlacements, storePlacements } from '../ground/panels/stored-panels.ts';
 import { SessionReports } from '../ground/report/session-reports.ts';
 import { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
+import { answerWall } from '../panels/ui/answer-wall.ts';
 import { elements } from '../panels/ui/elements.ts';
 import { OperatorInputs } from '../panels/ui/operator-inputs.ts';
 import { NearFieldDisplay } from '../panels/ui/show-near-field.ts';
@@ -26,6 +27,7 @@ import { viewAgeMs } from '../words/motion-words.ts';
 import { PageStatistics, type PageStats } from '../words/page-stats.ts';
 import { FrameLoop } from './frame-loop.ts';
 import type { HeadsetControls } from './headset-controls.ts';
+import { keepPictures } from './keep-pictures.ts';
 import { logPage } from './log-page.ts';
 import { openClient } from './open-client.ts';
 import { PagePanels } from './page-panels.ts';
@@ -119,6 +121,7 @@ export class App implements ShownParts {
     });
     const readHeadset = () => this.headset?.read();
     this.frames = new FrameLoop({ settings, client, stage, views, stats, vr, readHeadset });
+    keepPictures({ client, stage, frames: this.frames, pictures: opened.pictures });
   }
 
   #openInputs(notices: Notices): OperatorInputs {
@@ -143,6 +146,7 @@ export class App implements ShownParts {
     panels.start();
     client.start();
     if (settings.robot !== null) client.choose(settings.robot);
+    answerWall(this.state, () => panels.estop.stop());
     const { panel, sign, controls } = showPage(this);
     this.wrist = panel;
     this.sign = sign;

@@ -3,6 +3,7 @@ import { RobotClient, type RobotClientOptions, type TransformSupport } from '@fa
 import { OperatorAccess } from '../ground/access/operator-access.ts';
 import { browserAccess } from '../ground/access/stored-access.ts';
 import { StoredRobots } from '../ground/access/stored-robots.ts';
+import { LastPictures } from '../ground/pictures/last-pictures.ts';
 import type { Settings } from '../ground/settings.ts';
 import { tokenOrigin } from '../ground/signaling-tokens.ts';
 import type { OperatorInputs } from '../panels/ui/operator-inputs.ts';
@@ -35,5 +36,6 @@ export function openClient({ settings, transform, inputs, openLink }: ClientPart
     inputs: inputs.all,
     ...(receiver?.adopt === undefined ? {} : { onVideoReceiver: receiver.adopt }),
   });
-  return { client, receiver, origin, access, knownRobots };
+  const pictures = new LastPictures(origin, () => localStorage, Date.now());
+  return { client, receiver, origin, access, knownRobots, pictures };
 }

@@ -1,10 +1,12 @@
 /** The panels, dialogs and controls of the page, and what they do. */
 import type { RobotClient } from '@farpoint/operator';
+import { effect } from '@preact/signals-core';
 import type { OperatorAccess } from '../ground/access/operator-access.ts';
 import { SignIn, tabStorage } from '../ground/access/sign-in.ts';
 import type { StoredRobots } from '../ground/access/stored-robots.ts';
 import type { EventLog } from '../ground/events/event-log.ts';
 import type { LiveSettings } from '../ground/live-settings.ts';
+import type { LastPictures } from '../ground/pictures/last-pictures.ts';
 import type { SessionReports } from '../ground/report/session-reports.ts';
 import type { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
 import { CaptureUi } from '../panels/capture/capture-ui.ts';
@@ -25,7 +27,8 @@ import type { OperatorInputs } from '../panels/ui/operator-inputs.ts';
 import { keepRobotInAddress, showTitle } from '../panels/ui/page-title.ts';
 import { showPeople } from '../panels/ui/people-panel.ts';
 import { showPicturePanels } from '../panels/ui/picture-panels.ts';
-import { showRobotList, showRobotSwitcher } from '../panels/ui/robot-list.ts';
+import { showRobotList } from '../panels/ui/robot-list.ts';
+import { showRobotSwitcher } from '../panels/ui/robot-switcher.ts';
 import { showSensorSwitches } from '../panels/ui/sensor-switches.ts';
 import { SoundUi } from '../panels/ui/sound-ui.ts';
 import { showStagesLine } from '../panels/ui/stages-line.ts';
@@ -46,6 +49,8 @@ export interface PagePanelsParts {
   readonly knownRobots: StoredRobots;
   /** Of the signaling service. */
   readonly origin: string;
+  /** How each robot was last seen here. */
+  readonly pictures: LastPictures;
   readonly settings: LiveSettings;
   readonly state: PageState;
   readonly events: EventLog;
@@ -140,13 +145,15 @@ export class PagePanels {
 
   /** Draws the state in the document from now on. */
   show(): void {
-    const { client, state, vr, choose } = this.#parts;
+    const { client, state, vr, choose, pictures } = this.#parts;
     showTitle(state.link);
     showKeyHints();
     keepRobotInAddress(state.link);
     showStatus(state);
     showNearWords(state);
-    showRobotList(state.link, choose);
+    // Only the list shows what robots tell, and it is shown without a session.
+    effect(() => client.link.statusFeed.watchStatuses(!state.link.connected.value));
+    showRobotList(state.link, pictures, choose);
     showRobotSwitcher(state.link, choose);
     showPeople(state, client);
     showCommands(state.commands);

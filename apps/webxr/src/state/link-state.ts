@@ -44,6 +44,8 @@ export function linkState({ client, samples, host, takeover, signalingFault, isO
     /** The signaling service's host, for people. */
     host,
     robots,
+    /** What robots tell about themselves without a session, while the list is looked at. */
+    statuses: samples.of(() => link.statusFeed.statuses),
     /** Where operators sign in for a grant; `null` if the signaling service names no place. */
     signInUrl,
     chosenRobotId,

@@ -64,6 +64,8 @@ function drivingState({ driver, link }: RobotClient, samples: Sampler) {
   const role = samples.of(() => link.session.welcome?.access?.role ?? null);
   return {
     holder,
+    /** Whether a grip is held with which this operator drives, or would. */
+    gripped: samples.of(() => driver.stream.held),
     /** By this operator's grant; `null` if the robot asks for none. */
     role,
     /** Whether this operator may take the lease from another. */

@@ -6,11 +6,32 @@ import {
   type NearSector,
   nearFieldText,
   type PresentOperator,
+  type RobotStatus,
   type Videos,
 } from '@farpoint/protocol';
 
 /** What the robot makes of a wish, where nothing bounds it. */
 export const freeMotion: MotionState = { factor: 1, reasons: [], mostLinear: 0.5, obstacleGuard: 'on' };
+
+/** Robots of a list, and what each tells about itself. */
+export const fleet: readonly { id: string; name: string; status: RobotStatus }[] = Array.from(
+  { length: 12 },
+  (_, i) => ({
+    id: `robot-${i + 1}`,
+    name: i === 3 ? `Mule with a name of sixty-four characters, as long as one can be` : `Robot ${i + 1}`,
+    status: {
+      state: (['free', 'driven', 'stopped', 'fault'] as const)[i % 4] ?? 'free',
+      sinceMs: Date.UTC(2026, 0, 1) - i * 3_600_000,
+      battery: i / 12,
+      ...(i === 1 ? { driver: 'Ada' } : {}),
+      operators: i % 5,
+      watchers: i % 3,
+      maxOperators: 4,
+      alarms: i % 4,
+      version: '1.2.3',
+    },
+  }),
+);
 
 /** Two topics with curves, a position on the earth, diagnostics and a reading. */
 export function telemetryOf(robotMs: number): ToldMessage[] {

@@ -5,6 +5,7 @@
 import type { StageControl } from './stage-control.ts';
 import {
   commands,
+  fleet,
   freeMotion,
   lidarRings,
   lowBattery,
@@ -88,6 +89,14 @@ const states = {
       { id: robot.id, name: robot.name },
       { id: 'stage-2', name: 'Another robot' },
     ]);
+  }),
+  fleet: without('Twelve robots that tell what they do, one with the longest of names', ({ link }) => {
+    link.enterSignaling('ready');
+    link.list(fleet.map(({ id, name }) => ({ id, name })));
+    link.statusFeed = {
+      statuses: new Map(fleet.map(({ id, status }) => [id, status])),
+      watchStatuses: () => undefined,
+    };
   }),
   'service-away': without('The signaling service cannot be reached', ({ link }) =>
     link.enterSignaling('waiting'),

@@ -66,6 +66,7 @@ const ALIKE = new Set([
   'N ×',
   'N, N, N',
   'N: N',
+  'Version N',
   'N: STOP',
   'N (N s)',
   'Live',

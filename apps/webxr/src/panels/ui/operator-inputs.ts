@@ -130,6 +130,11 @@ export class OperatorInputs {
     this.#keyboard.runs(nowMs);
     this.#touch.runs(nowMs);
     const pressed = this.#gamepads.read(navigator.getGamepads?.() ?? [], nowMs);
+    // Browsers also let a page read it that has no focus, as beside another robot's: there it only stops.
+    if (!document.hasFocus()) {
+      if (pressed.estop) this.#port.onAction('estop', nowMs);
+      return;
+    }
     this.#buttons(pressed, 'gamepad');
     if (pressed.faster) this.#port.onAction('faster', nowMs);
     if (pressed.slower) this.#port.onAction('slower', nowMs);

@@ -11,6 +11,7 @@ import { driving } from './driving.ts';
 import { events } from './events.ts';
 import { failures } from './failures.ts';
 import { figures } from './figures.ts';
+import { fleet } from './fleet.ts';
 import { headset } from './headset.ts';
 import { headsetMenu } from './headset-menu.ts';
 import { inputs } from './inputs.ts';
@@ -24,6 +25,7 @@ import { report } from './report.ts';
 import { settings } from './settings.ts';
 import { stop } from './stop.ts';
 import { timing } from './timing.ts';
+import { wall } from './wall.ts';
 import { watch } from './watch.ts';
 
 export const german: Texts = {
@@ -38,6 +40,7 @@ export const german: Texts = {
   events,
   failures,
   figures,
+  fleet,
   headset,
   headsetMenu,
   inputs,
@@ -51,5 +54,6 @@ export const german: Texts = {
   settings,
   stop,
   timing,
+  wall,
   watch,
 };

@@ -13,6 +13,7 @@ import { driving } from './driving.ts';
 import { events } from './events.ts';
 import { failures } from './failures.ts';
 import { figures } from './figures.ts';
+import { fleet } from './fleet.ts';
 import { headset } from './headset.ts';
 import { headsetMenu } from './headset-menu.ts';
 import { inputs } from './inputs.ts';
@@ -26,6 +27,7 @@ import { report } from './report.ts';
 import { settings } from './settings.ts';
 import { stop } from './stop.ts';
 import { timing } from './timing.ts';
+import { wall } from './wall.ts';
 import { watch } from './watch.ts';
 
 export const english = {
@@ -40,6 +42,7 @@ export const english = {
   events,
   failures,
   figures,
+  fleet,
   headset,
   headsetMenu,
   inputs,
@@ -53,6 +56,7 @@ export const english = {
   settings,
   stop,
   timing,
+  wall,
   watch,
 };
 

@@ -1,0 +1,27 @@
+/** What the list of robots says about each. */
+import type { RobotState } from '@farpoint/protocol';
+
+export const fleet = {
+  /** What a robot does. @param since when it began, as text */
+  state: {
+    free: (since: string) => `Free since ${since}`,
+    driven: (since: string) => `In use since ${since}`,
+    stopped: (since: string) => `STOP on since ${since}`,
+    fault: (since: string) => `Wheels not responding since ${since}`,
+  } satisfies Record<RobotState, (since: string) => string>,
+  drives: (driver: string, since: string) => `Driven by ${driver} since ${since}`,
+  alarms: (count: number) => (count === 1 ? '1 alarm' : `${count} alarms`),
+  battery: (percent: number) => `Battery ${percent} %`,
+  operators: (here: number, most: number) => `${here} of ${most} operators`,
+  full: (here: number) => `Full: ${here} operators`,
+  /** Of those operators. */
+  watching: (count: number) => `${count} watching`,
+  version: (version: string) => `Version ${version}`,
+  search: 'Find a robot by name or id',
+  found: (shown: number, all: number) => `${shown} of ${all} robots`,
+  seen: {
+    justNow: 'Seen here just now',
+    minutes: (count: number) => `Seen here ${count} min ago`,
+    hours: (count: number) => `Seen here ${count} h ago`,
+  },
+};
