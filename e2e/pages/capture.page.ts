@@ -91,7 +91,7 @@ test('a clip has what was seen; without the setting none is kept, and no code fo
   const loaded: string[] = [];
   stage.page.on('request', (request) => loaded.push(request.url()));
   const page = await stage.open({ canvas: 'full' });
-  await page.keyboard.press('KeyG');
+  await page.keyboard.press('KeyU');
   await expect(page.locator('#notice')).toHaveText(/^No clip is kept: switch on/);
   expect(loaded.filter((url) => /clip/.test(url))).toEqual([]);
 
@@ -103,7 +103,7 @@ test('a clip has what was seen; without the setting none is kept, and no code fo
   await recorder;
   await stage.run(4000);
   const saving = page.waitForEvent('download');
-  await page.keyboard.press('KeyG');
+  await page.keyboard.press('KeyU');
   const download = await saving;
   expect(download.suggestedFilename()).toMatch(/^farpoint-clip-.*\.webm$/);
   const clip = await show(page, download, 'video/webm');

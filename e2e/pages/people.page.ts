@@ -106,6 +106,39 @@ test('who asks is asked for by name, has seconds, and gets the drive; it reads a
   await expect(page.locator('#notice')).toHaveText('Bo drives now.');
 });
 
+test('points at the floor under the mouse, and sees where others point', async ({ stage }) => {
+  const page = await stage.open({ state: 'people', canvas: '640x360' });
+  const pointers = () =>
+    stage.script(({ app }) => app.stage.pointers.shown.map(({ name, at }) => ({ name, at })));
+  const canvas = (await page.locator('#stage').boundingBox())!;
+  const below = { x: canvas.x + canvas.width / 2, y: canvas.y + canvas.height * 0.6 };
+  await page.mouse.move(below.x, below.y);
+  await page.keyboard.press('KeyG');
+  await expect(page.locator('#notice')).toHaveText(
+    'This robot does not show other operators where you point.',
+  );
+  await stage.tell({ type: 'pointing', may: true });
+  await page.keyboard.press('KeyG');
+  await stage.run(100);
+  const [sent] = await stage.sent('point');
+  // Ahead of the robot, on its floor.
+  expect(sent?.at.x).toBeGreaterThan(0.5);
+  expect(Math.abs(sent?.at.y ?? 9)).toBeLessThan(0.2);
+  expect(await pointers()).toEqual([{ name: 'You', at: sent?.at }]);
+  await stage.tell({ type: 'pointed', by: 2, at: { x: 3, y: 1, z: 0 } });
+  await stage.run(100);
+  expect(await pointers()).toContainEqual({ name: 'Bo', at: { x: 3, y: 1, z: 0 } });
+  await stage.run(5000);
+  expect(await pointers()).toEqual([]);
+  // Above the horizon there is no floor. A click with Alt is the same as the key.
+  await page.keyboard.down('Alt');
+  await page.mouse.click(below.x, canvas.y + 80);
+  await page.mouse.click(below.x, below.y);
+  await page.keyboard.up('Alt');
+  await stage.run(100);
+  expect(await stage.sent('point')).toHaveLength(2);
+});
+
 test('a takeover in spite of an open request is told once it is certain', async ({ stage }) => {
   const page = await stage.open({ state: 'asked-to-drive' });
   await page.keyboard.down('Space');

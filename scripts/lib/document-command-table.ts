@@ -264,6 +264,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
       'bridge --profile --points 22500',
       'codec --cloud FILE…',
       'connect',
+      'switch',
       'bridge',
       'bridge --profile',
       'signaling',

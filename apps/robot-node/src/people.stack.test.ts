@@ -116,6 +116,30 @@ describe('three people at one robot', { timeout: 60_000 }, () => {
     for (const name of ['"Ada"', '"Bob"']) expect(entries[0]).toContain(name);
   });
 
+  it('see where one of them points, and who only watches does not point', async () => {
+    const [ada, bob, wim] = [
+      await enter('Ada', 'drive'),
+      await enter('Bob', 'drive'),
+      await enter('Wim', 'watch'),
+    ];
+    const may = async (client: Client) => (await client.message('pointing')).may;
+    expect([await may(ada), await may(wim)]).toEqual([true, false]);
+    const number = await numberOf(bob, 'Ada');
+    ada.sendSession({ type: 'point', at: { x: 1.5, y: -2, z: 0 } });
+    for (const each of [bob, wim])
+      expect(await each.message('pointed')).toEqual({
+        type: 'pointed',
+        by: number,
+        at: { x: 1.5, y: -2, z: 0 },
+      });
+    wim.sendSession({ type: 'point', at: { x: 0, y: 0, z: 0 } });
+    await fault(wim, 'not-permitted');
+    await states(ada, 5);
+    expect([ada, bob].map(({ session }) => session.filter(({ type }) => type === 'pointed').length)).toEqual([
+      0, 1,
+    ]);
+  });
+
   it('refuse a request, and know who pressed STOP, which ends what is open', async () => {
     const [ada, bob, wim] = [
       await enter('Ada', 'drive'),

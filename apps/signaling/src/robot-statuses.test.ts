@@ -112,6 +112,9 @@ describe('what robots say about themselves', () => {
     }
     clock.advance(INTERVAL_MS);
     expect(told(looks)).toHaveLength(1);
+    looks.send({ type: 'statuses.watch', on: true });
+    clock.advance(INTERVAL_MS);
+    expect(told(looks)).toEqual([]);
   });
 
   test('is refused when a robot says it too often, and what was said before stays', () => {
@@ -189,5 +192,7 @@ test('the longest list, of as many robots as there may be, fits what operators a
     const robot: RobotEntry = { id: `${i}`.padStart(64, 'r'), name: 'R', key: 'k', peer: new FakePeer() };
     statuses.set(robot, status, 0);
   }
-  expect(decodeJson(serviceToOperatorCodec, statuses.listing.whole())).toMatchObject({ type: 'statuses' });
+  const whole = statuses.listing.whole();
+  expect(decodeJson(serviceToOperatorCodec, whole)).toMatchObject({ type: 'statuses' });
+  expect(new TextDecoder().decode(whole)).not.toContain('\\ud800');
 });

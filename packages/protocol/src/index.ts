@@ -65,6 +65,7 @@ export * from './picture-file.ts';
 export * from './placement.ts';
 export { MAX_PATH_POINTS, MAX_PLACE_M, type PlannedPath } from './planned-path.ts';
 export * from './point-packet.ts';
+export { POINT_SHOWN_MS, type Point, type Pointed, type Pointing, type Spot } from './pointing.ts';
 export * from './points64.ts';
 export * from './pose-algebra.ts';
 export {

@@ -15,6 +15,7 @@ import { displayNameSchema, handleSchema, robotIdSchema, uint32Schema } from './
 import type { JsonCodec } from './json.ts';
 import { MAX_CAMERAS } from './picture-chunk.ts';
 import { MAX_SENSORS } from './placement.ts';
+import { pointedSchema, pointingSchema, pointSchema } from './pointing.ts';
 import { operatorsSchema, roles } from './present-operators.ts';
 import { quantitySchema } from './quantity.ts';
 import { robotAboutSchema } from './robot-about.ts';
@@ -184,6 +185,8 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
     commandRunSchema,
     commandRefusedSchema,
     recordingStateSchema,
+    pointingSchema,
+    pointedSchema,
     z.strictObject({
       type: z.literal('fault'),
       message: z.string().check(z.maxLength(512)),
@@ -210,6 +213,7 @@ export const operatorSessionCodec: JsonCodec<OperatorSessionMessage> = {
     driveWithdrawSchema,
     commandCallSchema,
     commandCancelSchema,
+    pointSchema,
     z.strictObject({ type: z.literal('stream'), running: z.boolean() }),
     z.strictObject({
       type: z.literal('cloudFormats'),

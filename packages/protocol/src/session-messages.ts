@@ -6,6 +6,7 @@ import type { CloudFormat } from './cloud-format.ts';
 import type { CommandRejection } from './control.ts';
 import type { EstopCause } from './estop-cause.ts';
 import type { Handover } from './handover.ts';
+import type { Pointed, Pointing } from './pointing.ts';
 import type { Operators, Role } from './present-operators.ts';
 import type { Quantity } from './quantity.ts';
 import type { RobotAbout } from './robot-about.ts';
@@ -282,6 +283,8 @@ export type RobotSessionMessage =
   | CommandRun
   | CommandRefused
   | RecordingState
+  | Pointing
+  | Pointed
   | SessionFault;
 
 export const PROTOCOL_VERSION = 1;

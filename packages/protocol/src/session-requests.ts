@@ -1,6 +1,7 @@
 /** What an operator sends on the `session` channel; what the robot sends on it is in session-messages.ts. */
 import type { CloudFormat } from './cloud-format.ts';
 import type { DriveRequest } from './handover.ts';
+import type { Point } from './pointing.ts';
 import type { CommandCall, CommandCancel } from './robot-command.ts';
 
 /** Requests the lease. `take` asks to take over from another operator; the robot's policy decides. */
@@ -137,4 +138,5 @@ export type OperatorSessionMessage =
   | DriveRequest
   | CommandCall
   | CommandCancel
+  | Point
   | LatencyMeasured;

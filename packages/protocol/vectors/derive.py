@@ -712,6 +712,14 @@ robot_session.spoil(no, ("request", -1), ("request", ABSENT), ("reason", "becaus
 recorded = robot_session.good({"type": "recording", "on": True, "bytes": 48000000, "forS": 62})
 robot_session.good({"type": "recording", "on": False, "bytes": 0, "forS": 0}, "recording: none")
 robot_session.spoil(recorded, ("on", 1), ("on", ABSENT), ("bytes", -1), ("bytes", 0.5), ("bytes", ABSENT), ("forS", -1), ("forS", 0.5), ("path", "/tmp/a.mcap", ""))
+spot = {"x": 1.5, "y": -2.25, "z": 0}
+# Of a spot on the floor: too far, not a number, without a height, with a fourth, as a list.
+no_spot = [({**spot, "x": 100001}, "at.x"), ({**spot, "y": None}, "at.y"), ({"x": 1, "y": 2}, "at.z"), ({**spot, "w": 1}, "at"), ([1, 2, 3], "at")]
+may = robot_session.good({"type": "pointing", "may": True}, "pointing: may")
+robot_session.good({"type": "pointing", "may": False}, "pointing: may not")
+robot_session.good({"type": "pointed", "by": 2 ** 32 - 1, "at": spot})
+robot_session.spoil({"type": "pointed", "by": 1, "at": spot}, *[("at", at, where) for at, where in no_spot], ("by", -1), ("by", ABSENT))
+robot_session.spoil(may, ("may", 1))
 write("robot-session.json", robot_session.lists())
 
 operator_session = Messages()
@@ -780,6 +788,9 @@ operator_session.common(stop, 1024)
 operator_session.spoil(request, ("take", ABSENT), ("take", 0), ("limits", limits, ""))
 operator_session.spoil(stop, ("latch", "true"), ("latch", ABSENT), ("type", "eStop"))
 operator_session.spoil(stream, ("running", None))
+points = operator_session.good({"type": "point", "at": spot})
+operator_session.good({"type": "point", "at": {"x": -100000, "y": 100000, "z": -0.5}}, "point: farthest")
+operator_session.spoil(points, *[("at", at, where) for at, where in no_spot], ("by", 1, ""))
 write("operator-session.json", operator_session.lists())
 
 telemetry = Messages()
@@ -971,6 +982,24 @@ m.spoil(offer, ("session", ""), ("session", "s 1"), ("sdp", ""), ("sdp", ABSENT)
 m.spoil(trickle, ("candidate", CANDIDATE), ("candidate.candidate", "x" * 1025), ("candidate.sdpMLineIndex", -1), ("candidate.extra", 1, "candidate"))
 m.spoil(full, ("reason", "operator-left"), ("maxOperators", -1), ("maxOperators", "4"), ("detail", "x" * 301))
 m.spoil(refuse, ("claim", ABSENT), ("code", "unauthorized"), ("session", ABSENT))
+robot_status = {"state": "driven", "sinceMs": 1800000000000, "battery": 0.78, "driver": "Ada", "operators": 3, "watchers": 2, "maxOperators": 4, "alarms": 0,
+                "version": "1.2.3-rc.1+a"}
+no_status = [("battery", 1.01), ("battery", -0.01), ("battery", None), ("state", "asleep"), ("state", ABSENT), ("sinceMs", -1), ("sinceMs", 0.5),
+             ("sinceMs", 8640000000000001), ("sinceMs", ABSENT), ("driver", ""), ("driver", "\0"), ("operators", 0.5), ("operators", -1), ("watchers", ABSENT),
+             ("watchers", "2"), ("maxOperators", 1000001), ("alarms", ABSENT), ("version", ""), ("version", "a b"), ("version", "x" * 33), ("pose", [0, 0])]
+
+
+def spoil_status(messages, base, place):
+    """A status is wrong in each way. @param place: where it is in the message"""
+    messages.spoil(base, *[(place + "." + key, value, place if key == "pose" else place + "." + key) for key, value in no_status])
+
+
+told = m.good({"type": "robot.status", "status": robot_status}, "robot.status: everything")
+for state in ["free", "driven", "stopped", "fault"]:
+    m.good({"type": "robot.status", "status": {"state": state, "sinceMs": 0, "operators": 0, "watchers": 0, "maxOperators": 1000000, "alarms": 1000000}},
+           "robot.status: %s, nothing optional" % state)
+spoil_status(m, told, "status")
+m.spoil(told, ("id", "r2", ""), ("status", ABSENT))
 write("signaling-robot-to-service.json", m.lists())
 
 m = Messages()
@@ -1009,6 +1038,9 @@ m.common(m_open, 65536)
 m.spoil(hello, ("protocol", "1"), ("name", ABSENT), ("token", 5))
 m.spoil(m_resume, ("robotId", ABSENT), ("session", ABSENT), ("session", "a b"), ("resumeKey", ABSENT), ("resumeKey", "a.b"))
 m.spoil(m_open, ("robotId", 0), ("robotId", "../x"), ("type", "session.offer"))
+watches = m.good({"type": "statuses.watch", "on": True}, "statuses.watch: on")
+m.good({"type": "statuses.watch", "on": False}, "statuses.watch: off")
+m.spoil(watches, ("on", ABSENT), ("on", 1), ("robotId", "r", ""))
 write("signaling-operator-to-service.json", m.lists())
 
 GOOD_SIGN_IN_URLS = ["https://issuer.example/sign-in", "https://issuer.example:8443/a/sign-in",
@@ -1065,12 +1097,20 @@ for reason in [*ROBOT_REASONS, "closed-by-robot", "unknown-session"]:
     m.good({**ended, "reason": reason}, "session.closed: " + reason)
 m.good({**ended, "reason": "robot-full", "maxOperators": 4}, "session.closed: robot-full, with how many")
 m.good({**ended, "reason": "bad-answer", "detail": "no codec in common"}, "session.closed with a detail")
-m.common(opened, 1048576)
+m.common(opened, 3145728)
 m.spoil(robots, ("robots", None), ("robots.0.id", "A"), ("robots.1.name", ABSENT), ("robots.1.key", "k", "robots.1"))
 m.spoil(delta, ("here", ABSENT), ("here.0.name", ""), ("here.0.key", "k", "here.0"), ("gone", ABSENT), ("gone.1", "R 2"), ("gone.0", {"id": "sim-1"}), ("robots", [], ""))
 m.spoil(opened, ("robotId", ABSENT), ("type", "session.answer"))
 m.spoil(resuming, ("session", ABSENT), ("robotId", "sim-1", ""))
 m.spoil(ended, ("reason", "closed-by-operator"), ("maxOperators", 0.5), ("detail", 7))
+listed = {"id": "sim-1", "status": robot_status}
+statuses = m.good({"type": "statuses", "statuses": [listed]})
+m.good({"type": "statuses", "statuses": []}, "statuses: none")
+changes = m.good({"type": "statuses.changed", "here": [listed], "gone": ["sim-2"]})
+spoil_status(m, statuses, "statuses.0.status")
+spoil_status(m, changes, "here.0.status")
+m.spoil(statuses, ("statuses", ABSENT), ("statuses.0.id", "R 1"), ("statuses.0.name", "Rover", "statuses.0"))
+m.spoil({"type": "statuses.changed", "here": [], "gone": ["sim-2"]}, ("gone", ABSENT), ("gone.0", "R 2"), ("here", ABSENT))
 write("signaling-service-to-operator.json", m.lists())
 
 # The reference system's signaling: unknown fields are let through, ids are numbers from 0.

@@ -89,6 +89,8 @@ export interface RobotOptions extends RateControlOptions {
   broadcast?: BroadcastOptions | undefined;
   /** How many operators there may be, and of one person. */
   places: OperatorPlacesOptions;
+  /** Whether operators whose grant lets them only watch may point at a spot that the others see. */
+  watchersPoint: boolean;
   /** An operator that has not been heard from for this long is gone, ms. */
   silenceMs: number;
   /** A driver whose page has said nothing for this long loses the lease, ms. */

@@ -21,7 +21,7 @@ export interface SessionsParts extends Given {
 }
 
 export interface SessionsOptions
-  extends Pick<OperatorSessionsOptions, 'id' | 'places' | 'iceServers'>,
+  extends Pick<OperatorSessionsOptions, 'id' | 'places' | 'watchersPoint' | 'iceServers'>,
     RateControlOptions {
   /** `share`: the largest share of a path that pictures may take, 0–1. */
   pictures: { share: number };
@@ -31,7 +31,7 @@ export function openSessions(
   options: SessionsOptions,
   { peer, streams, host, paths, welcome, ...given }: SessionsParts,
 ): OperatorSessions {
-  const { id, places, iceServers, pictures } = options;
+  const { id, places, watchersPoint, iceServers, pictures } = options;
   const { sensors, cameras, sound, budgets, sendLoop } = streams;
   const { videos } = cameras;
   const { capture } = sensors.first;
@@ -40,6 +40,7 @@ export function openSessions(
       ...given,
       id,
       places,
+      watchersPoint,
       iceServers,
       peer: { ...peer, pictures: capture.cameras.length > 0 },
       pictureShare: pictures.share,

@@ -152,7 +152,10 @@ export class App implements ShownParts {
     this.sign = sign;
     this.headset = controls;
     const { estop, cloudPanel } = panels;
-    const drawRobot = (nowMs: number) => showRobot(this, nowMs);
+    const drawRobot = (nowMs: number) => {
+      showRobot(this, nowMs);
+      panels.pointing.show(nowMs);
+    };
     new SteadyWork({ ...this, estop, cloudPanel, showRobot: drawRobot }, document).start();
     this.frames.start();
   }

@@ -27,6 +27,7 @@ import type { OperatorInputs } from '../panels/ui/operator-inputs.ts';
 import { keepRobotInAddress, showTitle } from '../panels/ui/page-title.ts';
 import { showPeople } from '../panels/ui/people-panel.ts';
 import { showPicturePanels } from '../panels/ui/picture-panels.ts';
+import { PointingUi } from '../panels/ui/pointing-ui.ts';
 import { showRobotList } from '../panels/ui/robot-list.ts';
 import { showRobotSwitcher } from '../panels/ui/robot-switcher.ts';
 import { showSensorSwitches } from '../panels/ui/sensor-switches.ts';
@@ -75,6 +76,7 @@ export class PagePanels {
   readonly estop: EstopUi;
   readonly controls: ControlsUi;
   readonly sound: SoundUi;
+  readonly pointing: PointingUi;
   readonly cloudPanel: CloudPanel;
   readonly capture: CaptureUi;
   readonly #access: AccessUi;
@@ -95,6 +97,7 @@ export class PagePanels {
       tell,
     });
     this.estop = new EstopUi(client, state, parts.release);
+    this.pointing = new PointingUi({ client, stage, notices: state.notices });
     const { recorder } = parts;
     const { presented, predicted, clouds, remembered } = views;
     const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });
@@ -120,6 +123,7 @@ export class PagePanels {
       openEvents: () => void this.#events.toggle(),
       capture,
       nextHeadsetView: parts.nextHeadsetView,
+      point: () => this.pointing.point(),
       predicted,
       settings,
     });
@@ -137,6 +141,7 @@ export class PagePanels {
     showSpeedChoice(inputSettings.speed, maxLinear, state.driving.role);
     listenToCanvas(elements.stage, stage, state.notices);
     this.controls.start();
+    this.pointing.start(elements.stage);
     this.sound.start();
     this.#access.start();
     this.#events.start();

@@ -12,6 +12,7 @@ export function forwardedEvents(emitter: Emitter<RobotEvents>) {
     onGrantExpires: (inS) => emitter.emit('grantExpires', inS),
     onRejected: (rejected) => emitter.emit('commandRejected', rejected),
     onOperators: (operators) => emitter.emit('operators', operators),
+    onPointed: (pointed) => emitter.emit('pointed', pointed),
     onSensors: (sensors) => emitter.emit('sensors', sensors),
     onRings: (rings) => emitter.emit('rings', rings),
     onTelemetry: (telemetry) => emitter.emit('telemetry', telemetry),

@@ -1,4 +1,4 @@
-import type { DriveRequest } from '@farpoint/protocol';
+import type { DriveRequest, Point, Spot } from '@farpoint/protocol';
 import type { RobotLink } from '../link/robot-link.ts';
 
 /**
@@ -45,7 +45,17 @@ export class PeopleRequests {
     return this.#send({ type: 'driveWithdraw', id });
   }
 
-  #send(request: DriveRequest): boolean {
+  /**
+   * Points at a spot, which the other operators see for 5 s, or until this operator points elsewhere. The robot passes on ten a
+   * second.
+   *
+   * @param at in the robot's world (REP-103), metres
+   */
+  point(at: Spot): boolean {
+    return this.#send({ type: 'point', at });
+  }
+
+  #send(request: DriveRequest | Point): boolean {
     if (this.#link.phase !== 'live') return false;
     this.#link.sendSession(request);
     return true;

@@ -10,6 +10,7 @@ import type {
   NearField,
   Operators,
   PlannedPath,
+  Pointed,
   Quantity,
   Reading,
   RobotListing,
@@ -70,6 +71,8 @@ export interface RobotEvents {
   commands: RobotCommands;
   /** What has become of one of these commands: of each that ended, and of those of this operator that were refused. */
   commandEnd: CommandEnd;
+  /** Another operator points at a spot ({@link RobotClient.people}). */
+  pointed: Pointed;
   /** The robot refused a command. */
   commandRejected: CommandRejected;
   /** The emergency stop, latched or released. */

@@ -22,6 +22,7 @@ import {
   type Operators,
   PictureAssembler,
   type PlannedPath,
+  type Pointed,
   ProtocolError,
   type Quantity,
   type Reading,
@@ -73,6 +74,8 @@ export interface RobotSessionEvents {
   onCommandRefused(refused: CommandRefused): void;
   /** How much the robot has recorded. */
   onRecording(recording: RecordingState): void;
+  /** Another operator points at a spot. */
+  onPointed(pointed: Pointed): void;
   /** The robot has refused a command. */
   onRejected(rejected: CommandRejected): void;
   /** The state of the emergency stop. */
@@ -139,6 +142,8 @@ export class RobotSession {
   operators: Operators | null = null;
   /** What they ask of each other. */
   readonly people = new RobotPeople();
+  /** Whether the robot passes on at which spot this operator points; `null` if it passes nothing on, as older robots. */
+  mayPoint: boolean | null = null;
   /** Whether the emergency stop is latched. */
   estop: EstopState = { type: 'estop', latched: false };
   /** Who pressed STOP, why else the robot stands, and who may release it; `null` if the robot has not said so of the present latch. */
@@ -198,6 +203,10 @@ export class RobotSession {
     commandRun: (run) => this.#events.onCommandRun(run),
     commandRefused: (refused) => this.#events.onCommandRefused(refused),
     recording: (recording) => this.#events.onRecording(recording),
+    pointing: ({ may }) => {
+      this.mayPoint = may;
+    },
+    pointed: (pointed) => this.#events.onPointed(pointed),
     rejected: (rejected) => this.#events.onRejected(rejected),
     estop: (estop) => {
       this.estop = estop;

@@ -14,6 +14,11 @@ export const accessOptions = optionGroup('access', {
     argument: 'FILE',
     help: 'the private key by which operators recognise this robot; made if it does not exist; default: in --state-dir',
   }),
+  watchersPoint: defineOption({
+    schema: schema.boolean(),
+    default: false,
+    help: 'operators whose grant lets them only watch may also point at a spot that the others see',
+  }),
   revocations: defineOption({
     schema: schema.list(schema.text()),
     default: [],

@@ -144,6 +144,7 @@ function toIdentity(values: RobotOptionValues, folder: string, ca: RobotOptions[
     grantKeys: values.grantKeys ?? undefined,
     robotKey: values.robotKey ?? join(folder, `${values.id}.key.json`),
     revocations: values.revocations,
+    watchersPoint: values.watchersPoint,
     listStatus: values.listStatus,
     version: robotProgram.version,
     audit: toAudit(values),

@@ -1,10 +1,19 @@
 import { TokenBucket, type TokenBucketOptions } from '@farpoint/timing';
 
 /**
- * What an operator may send only so often. `probe` and `lease` are parts of `control` and `session`; `latch` is STOP on
+ * What an operator may send only so often. `probe` is a part of `control`, `lease` and `point` of `session`; `latch` is STOP on
  * `session`, and `stop` is STOP on `control`.
  */
-const ratedMessages = ['control', 'session', 'bandwidth', 'probe', 'lease', 'latch', 'stop'] as const;
+const ratedMessages = [
+  'control',
+  'session',
+  'bandwidth',
+  'probe',
+  'lease',
+  'latch',
+  'stop',
+  'point',
+] as const;
 export type RatedMessage = (typeof ratedMessages)[number];
 
 /**
@@ -21,6 +30,8 @@ const RATES: Record<RatedMessage, TokenBucketOptions> = {
   latch: { perSecond: 10, burst: 20 },
   // A page repeats it 20 times a second until it is acknowledged.
   stop: { perSecond: 50, burst: 50 },
+  // A page points as often as the hand has moved, but not more often than this.
+  point: { perSecond: 10, burst: 10 },
 };
 /** Messages that latch the emergency stop are no longer than this, bytes. */
 const MAX_LATCH_BYTES = 80;

@@ -15,6 +15,7 @@ import {
   type OperatorSessionMessage,
   operatorControlCodec,
   operatorSessionCodec,
+  type Point,
   ProtocolError,
   type ReceiverReport,
   type RobotSessionMessage,
@@ -91,6 +92,8 @@ export class OperatorMessages {
   onDriveRequest: ((request: DriveRequest) => void) | null = null;
   /** Which of the robot's commands it gives or cancels. */
   onCommandRequest: ((request: CommandCall | CommandCancel) => void) | null = null;
+  /** The spot at which it points, for the others. */
+  onPoint: ((point: Point) => void) | null = null;
   readonly #host: SessionHost;
   readonly #link: SessionLink;
   readonly #commands: CommandPipeline;
@@ -239,6 +242,9 @@ export class OperatorMessages {
       case 'callCommand':
       case 'cancelCommand':
         this.onCommandRequest?.(message);
+        break;
+      case 'point':
+        if (!this.#rates.over('point', this.heardMs)) this.onPoint?.(message);
         break;
       case 'estop':
         if (message.latch) this.#estop.press(message.press);

@@ -20,6 +20,7 @@ import type { SendLoop } from '../../send/transport/send-loop.ts';
 import { CommandDesk } from '../commands/command-desk.ts';
 import type { RobotCommands } from '../commands/open-commands.ts';
 import { People } from '../people/people.ts';
+import { Pointing } from '../people/pointing.ts';
 import type { SessionHost } from './operator-messages.ts';
 import { OperatorPlaces, type OperatorPlacesOptions } from './operator-places.ts';
 import { OperatorSession } from './operator-session.ts';
@@ -35,6 +36,8 @@ export interface OperatorSessionsOptions {
   robotKey: RobotKey | null;
   /** How many operators there may be, and of one person. */
   places: OperatorPlacesOptions;
+  /** Whether operators whose grant lets them only watch may point at a spot that the others see. */
+  watchersPoint: boolean;
   /** In addition to the signaling service's ICE servers. */
   iceServers: readonly IceServer[];
   peer: Omit<OperatorPeerOptions, 'iceServers'>;
@@ -80,6 +83,7 @@ export class OperatorSessions {
   readonly #roster = new OperatorRoster();
   readonly #people: People;
   readonly #commands: CommandDesk;
+  readonly #pointing: Pointing;
   readonly #waiting = new WaitingPlaces();
   /** `null` if everybody is admitted: then nobody is known by anything but a name of its own choice. */
   readonly #places: OperatorPlaces | null;
@@ -103,6 +107,8 @@ export class OperatorSessions {
       commands: options.commands,
       stands: options.stands,
     });
+    const { watchersPoint } = options;
+    this.#pointing = new Pointing({ operators, roster, watchersPoint, counters, now: monotonicMs });
     const { grantsRefused: refusals, revocationLists } = counters;
     const onRefused = (operator: AuditedOperator, reason: string) =>
       audit.refused('admission', reason, operator);
@@ -284,6 +290,7 @@ export class OperatorSessions {
           log.info({ operators: this.operators.size }, 'operator connected');
           this.#events.connected(operator);
           this.#commands.welcome(operator);
+          operator.messages.send(this.#pointing.told(operator));
         },
         onCloudFormats: () => this.#events.cloudFormats(operator),
         onNeedsKeyFrame: (video) => this.#events.needsKeyFrame(video),
@@ -295,6 +302,7 @@ export class OperatorSessions {
       this.#access?.endSession(operator, request, this.operators.values());
     operator.messages.onCommandRequest = (request) => this.#commands.request(operator, request);
     operator.messages.onDriveRequest = (request) => this.#people.request(operator, request);
+    operator.messages.onPoint = (point) => this.#pointing.point(operator, point);
     return operator;
   }
 

@@ -6,14 +6,14 @@
 /** Size of a picture, pixels. Chosen: twice that of the list's, for sharp screens. */
 export const LAST_PICTURE = { width: 192, height: 108 };
 /** Characters of a picture as a data URL. Chosen: 20 kB in base64; JPEG of that size takes 8. last-pictures.test.ts holds it. */
-export const MOST_PICTURE_CHARACTERS = 27_000;
+const MOST_PICTURE_CHARACTERS = 27_000;
 /**
  * Of so many robots, at most; then the oldest is forgotten. Chosen: with the longest pictures, a sixth of what browsers store for a
  * site. last-pictures.test.ts holds it.
  */
-export const MOST_PICTURES = 32;
+const MOST_PICTURES = 32;
 /** After that a picture is forgotten, ms. Chosen: what was seen the day before helps nobody. last-pictures.test.ts holds it. */
-export const FORGOTTEN_MS = 86_400_000;
+const FORGOTTEN_MS = 86_400_000;
 
 const PREFIX = 'farpoint.picture ';
 const STORED = /^(\d{1,16}) (data:image\/jpeg;base64,[A-Za-z0-9+/]+=*)$/;

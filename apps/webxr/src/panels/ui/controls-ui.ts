@@ -33,6 +33,8 @@ export interface Controlled {
   readonly predicted: Pick<PredictedView, 'on'>;
   readonly settings: Pick<LiveSettings, 'apply'>;
   choose(robotId: string): void;
+  /** Points at the floor under the mouse, for the other operators. */
+  point(): void;
   /** Opens or closes the dashboard. */
   toggleDashboard(): void;
   /** Opens the event log. */
@@ -90,6 +92,7 @@ export class ControlsUi {
     'next-robot': () => this.#nextRobot(),
     faster: () => this.#shift('faster'),
     slower: () => this.#shift('slower'),
+    point: () => this.#parts.point(),
   };
 
   #recentre(): void {

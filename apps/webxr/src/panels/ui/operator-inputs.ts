@@ -47,6 +47,7 @@ export type Action =
   | 'picture'
   | 'clip'
   | 'next-robot'
+  | 'point'
   | 'faster'
   | 'slower';
 
@@ -66,6 +67,7 @@ const ACTIONS: ReadonlySet<string> = new Set<Action>([
   'picture',
   'clip',
   'next-robot',
+  'point',
   'faster',
   'slower',
 ]);

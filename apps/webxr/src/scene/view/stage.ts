@@ -31,6 +31,7 @@ import { GroundGrid } from './ground-grid.ts';
 import { DEFAULT_FOV, Look } from './look.ts';
 import { NearRing } from './near-ring.ts';
 import { PlannedPathLine } from './planned-path-line.ts';
+import { PointerRings } from './pointer-rings.ts';
 import type { PredictedView } from './predicted-view.ts';
 import { RobotGhost } from './robot-ghost.ts';
 import { TopDownCamera } from './top-down-camera.ts';
@@ -116,6 +117,8 @@ export class Stage {
   /** What the robot's own navigator has planned, and its map. */
   readonly plan = new PlannedPathLine();
   readonly floorMap = new FloorMap();
+  /** Where operators point. */
+  readonly pointers = new PointerRings();
   /** Where the robot is when the picture is shown; `null`: the view follows the clouds. */
   predicted: PredictedView | null = null;
   /** From above, the robot's heading is up; otherwise north. */
@@ -151,6 +154,7 @@ export class Stage {
     this.scene.background = new Color(BACKGROUND);
     this.#marker.object.add(this.near.object, this.path.object);
     this.world.add(this.#marker.object, this.#ghost.object, this.plan.object, this.floorMap.object);
+    this.world.add(this.pointers.object);
     this.figures = new RobotFigures(this.#marker.object, this.#ghost.object, this.world);
     this.rig.add(this.camera, this.headset.front);
     this.camera.add(this.#vignette.object, this.#front.object);

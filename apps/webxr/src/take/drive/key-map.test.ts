@@ -43,7 +43,7 @@ test('all presets are usable, and have a key for everything that is needed often
 });
 
 test('the keys of the left hand lie at the left, those of the right hand at the right; X stops in all of them', () => {
-  const left = /^(Digit[1-5]|Key[QWERTASDFGZXCVB]|Space|ShiftLeft)$/;
+  const left = /^(Digit[1-5]|Key[QWERTASDFGZXCVB]|Backquote|Space|ShiftLeft)$/;
   const right =
     /^(Digit[6-90]|Minus|Key[YUIOPHJKLNM]|Comma|Period|Equal|Bracket(Left|Right)|Semicolon|Quote|Slash|Space|ShiftRight|Numpad.+)$/;
   for (const role of KEY_ROLES) {

@@ -26,6 +26,7 @@ export const KEY_ROLES = [
   'picture',
   'clip',
   'next-robot',
+  'point',
 ] as const;
 export type KeyRole = (typeof KEY_ROLES)[number];
 
@@ -61,8 +62,9 @@ export const DEFAULT_KEYS: KeyMap = {
   bookmark: ['KeyK'],
   events: ['KeyJ'],
   picture: ['KeyO'],
-  clip: ['KeyG'],
+  clip: ['KeyU'],
   'next-robot': ['KeyN'],
+  point: ['KeyG'],
 };
 
 /**
@@ -96,6 +98,7 @@ export const KEY_PRESETS = {
     picture: [],
     clip: [],
     'next-robot': ['Digit3'],
+    point: ['Backquote'],
   },
   right: {
     estop: ['KeyN', 'NumpadDecimal', USUAL_STOP_KEY],
@@ -122,6 +125,7 @@ export const KEY_PRESETS = {
     picture: ['Quote'],
     clip: ['BracketRight'],
     'next-robot': ['Digit6'],
+    point: ['Equal'],
   },
 } as const satisfies Record<string, KeyMap>;
 export type KeyPreset = keyof typeof KEY_PRESETS;

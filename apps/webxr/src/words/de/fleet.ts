@@ -21,4 +21,12 @@ export const fleet: Texts['fleet'] = {
     minutes: (count) => `Vor ${count} min hier gesehen`,
     hours: (count) => `Vor ${count} h hier gesehen`,
   },
+  pointing: {
+    you: 'Sie',
+    somebody: 'Jemand',
+    aim: 'Zeigen Sie auf den Boden: Bewegen Sie die Maus dorthin und drücken Sie G, oder klicken Sie mit gedrückter Alt-Taste.',
+    notPermitted: 'Ihre Berechtigung erlaubt Ihnen, diesem Roboter zuzusehen, aber nicht zu zeigen.',
+    notPassedOn: 'Dieser Roboter zeigt anderen Bedienern nicht, worauf Sie zeigen.',
+    alone: 'Es ist niemand sonst verbunden, der sehen könnte, worauf Sie zeigen.',
+  },
 };

@@ -25,6 +25,7 @@ const keyRoles: Texts['inputs']['keyRoles'] = {
   picture: 'Bild speichern',
   clip: 'Clip speichern',
   'next-robot': 'Nächster Roboter',
+  point: 'Auf den Boden zeigen',
 };
 
 export const inputs: Texts['inputs'] = {

@@ -1,4 +1,4 @@
-/** What the list of robots says about each. */
+/** Several robots, and several people at one: what the list says about each robot, and what is pointed at. */
 import type { RobotState } from '@farpoint/protocol';
 
 export const fleet = {
@@ -23,5 +23,17 @@ export const fleet = {
     justNow: 'Seen here just now',
     minutes: (count: number) => `Seen here ${count} min ago`,
     hours: (count: number) => `Seen here ${count} h ago`,
+  },
+  /** About a spot that an operator of the same robot points at, and that the others see. */
+  pointing: {
+    /** Beside the ring on the floor. */
+    you: 'You',
+    somebody: 'Somebody',
+    /** What there is to do. */
+    aim: 'Point at the floor: move the mouse over it and press G, or click it with Alt held.',
+    /** Why nothing is shown to the others. */
+    notPermitted: 'Your grant lets you watch this robot, but not point.',
+    notPassedOn: 'This robot does not show other operators where you point.',
+    alone: 'Nobody else is connected who could see where you point.',
   },
 };

@@ -27,6 +27,7 @@ const keyRoles = {
   picture: 'Save a picture',
   clip: 'Save a clip',
   'next-robot': 'Next robot',
+  point: 'Point at the floor',
 } satisfies Record<KeyRole, string>;
 
 export const inputs = {
