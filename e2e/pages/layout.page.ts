@@ -76,6 +76,13 @@ const OPENED: readonly {
     seen: ['estop'],
   },
   { state: 'commands', what: 'the commands', open: ['#commands summary'], seen: ['estop'] },
+  { state: 'live', what: 'the first drive', open: ['#help-open', '#tour-start'], seen: ['tour', 'estop'] },
+  {
+    state: 'stop-latched',
+    what: 'the first drive',
+    open: ['#help-open', '#tour-start'],
+    seen: ['tour', 'estop', 'estop-release', 'stop-band'],
+  },
   { state: 'videos', what: 'what became of the frames', open: ['.video-report button'], seen: ['estop'] },
 ];
 /** When a state has come about, ms: at once, or after a path has been silent. */

@@ -55,6 +55,7 @@ for (const [name, open] of Object.entries({
     if (!(await page.locator('#settings').isVisible())) await page.locator('#settings-open').click();
     await page.locator('#inputs-open').click();
   },
+  Help: async (page: Page) => page.locator('#help-open').click(),
 })) {
   test(`STOP is in reach while a dialog is open: ${name}`, async ({ stage }) => {
     const page = await stage.open();

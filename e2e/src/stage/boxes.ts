@@ -7,7 +7,7 @@ const KEPT = [
   '#drive button, #drive input, #joystick, #holder, #motion-state, #obstacle-guard, #drive-hint, #minimap, #near',
   '#sensors button, #sound button, #clouds .heads button, #clouds .legend, #clouds .controls',
   '#about, #handover, #handover button, #facts, #facts-fold, #no-gpu, #people, #commands, #alarm, #pictures, #pictures figure button, #dashboard',
-  '#stop button, #stop-band, #banner, #notice, #stop-state',
+  '#stop button, #stop-band, #banner, #notice, #stop-state, #tour, #tour button',
   '#robots, #obstacle, #failure',
 ].join(', ');
 

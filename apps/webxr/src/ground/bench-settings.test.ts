@@ -3,16 +3,18 @@ import { NO_BENCH, readBenchSettings } from './bench-settings.ts';
 
 const read = (query: string) => readBenchSettings(new URLSearchParams(query));
 
-test('an address that asks for nothing gives the page as people see it', () => {
-  expect(read('robot=sim-1')).toEqual(NO_BENCH);
+test('an address that asks for nothing gives the page as people see it, but no first drive in the way of a test', () => {
+  expect(read('robot=sim-1')).toEqual({ ...NO_BENCH, tour: false });
+  expect(NO_BENCH.tour).toBe(true);
 });
 
 test('reads what tests and benchmarks ask for', () => {
-  expect(read('canvas=640x360&measure=1&every=8&barcode=1')).toEqual({
+  expect(read('canvas=640x360&measure=1&every=8&barcode=1&tour=1')).toEqual({
     canvas: { width: 640, height: 360 },
     measure: true,
     drawEvery: 8,
     barcode: true,
+    tour: true,
   });
 });
 

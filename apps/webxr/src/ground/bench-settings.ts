@@ -11,6 +11,8 @@ export interface BenchSettings {
   drawEvery: number | null;
   /** Whether the robot draws the capture time into videos, to measure latency. */
   barcode: boolean;
+  /** Whether the first drive is shown by itself, as the deployed page shows it. */
+  tour: boolean;
 }
 
 export const NO_BENCH: Readonly<BenchSettings> = {
@@ -18,6 +20,7 @@ export const NO_BENCH: Readonly<BenchSettings> = {
   measure: false,
   drawEvery: null,
   barcode: false,
+  tour: true,
 };
 
 /** The largest side of a canvas in the address, pixels: what WebGL 2 draws on any common GPU. */
@@ -30,6 +33,7 @@ export function readBenchSettings(query: URLSearchParams): BenchSettings {
     measure: query.get('measure') === '1',
     drawEvery: parseEvery(query.get('every')),
     barcode: query.get('barcode') === '1',
+    tour: query.get('tour') === '1',
   };
 }
 

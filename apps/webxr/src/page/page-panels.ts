@@ -12,6 +12,7 @@ import type { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
 import { CaptureUi } from '../panels/capture/capture-ui.ts';
 import { DashboardOpener } from '../panels/dashboard/dashboard-opener.ts';
 import { EventsOpener } from '../panels/events/events-opener.ts';
+import { Guide } from '../panels/help/guide.ts';
 import { startInputsDialog } from '../panels/inputs/inputs-dialog.ts';
 import { showKeyHints } from '../panels/inputs/key-hints.ts';
 import { showSpeedChoice } from '../panels/inputs/speed-controls.ts';
@@ -63,7 +64,7 @@ export interface PagePanelsParts {
   readonly vr: VrSession;
   readonly player: SoundPlayer;
   readonly release: ReleaseHold;
-  readonly inputs: Pick<OperatorInputs, 'settingUp'>;
+  readonly inputs: Pick<OperatorInputs, 'pause'>;
   /** Connects to this robot. */
   choose(robotId: string): void;
   /** Shows the next view in the headset. */
@@ -81,6 +82,7 @@ export class PagePanels {
   readonly capture: CaptureUi;
   readonly #access: AccessUi;
   readonly #events: EventsOpener;
+  readonly #guide: Guide;
   readonly #parts: PagePanelsParts;
 
   constructor(parts: PagePanelsParts) {
@@ -101,6 +103,7 @@ export class PagePanels {
     const { recorder } = parts;
     const { presented, predicted, clouds, remembered } = views;
     const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });
+    this.#guide = new Guide({ client, state, settings, inputs: parts.inputs, inVr: vr.active });
     showStagesLine(client, state, () => dashboard.openStages());
     const { afterNextFrame } = parts;
     this.capture = new CaptureUi({ state, settings, inVr: vr.active, afterNextFrame });
@@ -122,6 +125,7 @@ export class PagePanels {
       toggleDashboard: () => dashboard.toggle(),
       openEvents: () => void this.#events.toggle(),
       capture,
+      toggleHelp: () => this.#guide.toggleHelp(),
       nextHeadsetView: parts.nextHeadsetView,
       point: () => this.pointing.point(),
       predicted,
@@ -137,7 +141,7 @@ export class PagePanels {
   start(): void {
     const { stage, state, inputs } = this.#parts;
     const { maxLinear } = state.robot;
-    startInputsDialog({ inputs, settings: inputSettings, maxLinear });
+    this.#guide.start(startInputsDialog({ inputs, settings: inputSettings, maxLinear }));
     showSpeedChoice(inputSettings.speed, maxLinear, state.driving.role);
     listenToCanvas(elements.stage, stage, state.notices);
     this.controls.start();

@@ -7,7 +7,7 @@ import {
   type MapRefusal,
   missingOf,
 } from '../take/drive/controller-map.ts';
-import { KEY_ROLES, type KeyMap, type KeyRefusal, type KeyRole, mainKey } from '../take/drive/key-map.ts';
+import { type KeyMap, type KeyRefusal, type KeyRole, mainKey } from '../take/drive/key-map.ts';
 import { keyboardLayout } from '../take/drive/keyboard-layout.ts';
 import { texts } from './language.ts';
 import { fixed } from './numbers.ts';
@@ -65,18 +65,19 @@ export interface HintPart {
   readonly isKey: boolean;
 }
 
-/** The hint beside the controls, one list for each thing that keys do. What has no key is left out. */
+/** The hint beside the controls, one list for each thing that keys do. What has no key is left out; a question mark always asks for help. */
 export function hintParts(keys: KeyMap): HintPart[][] {
   const first = (...roles: readonly KeyRole[]) => roles.flatMap((role) => mainKey(keys, role) ?? []);
   const named: Record<string, readonly string[]> = {
-    ...Object.fromEntries(KEY_ROLES.map((role) => [role, first(role)])),
-    ways: first('forward', 'left', 'back', 'right'),
-    gears: first('slower', 'faster'),
+    grip: first('grip').map(keyName),
+    ways: first('forward', 'left', 'back', 'right').map(keyName),
+    estop: first('estop').map(keyName),
+    help: ['?'],
   };
   return Object.values(texts().inputs.hint).flatMap((template) => {
     const parts = template.split(/\{(.+?)\}/).flatMap((piece, i): HintPart[] => {
       if (i % 2 === 0) return piece === '' ? [] : [{ text: piece, isKey: false }];
-      return (named[piece] ?? []).map((code) => ({ text: keyName(code), isKey: true }));
+      return (named[piece] ?? []).map((name) => ({ text: name, isKey: true }));
     });
     return parts.some(({ isKey }) => isKey) ? [parts] : [];
   });

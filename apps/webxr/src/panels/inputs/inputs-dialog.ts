@@ -16,14 +16,14 @@ import { speedControls } from './speed-controls.ts';
 const READ_MS = 50;
 
 export interface InputsDialogParts {
-  readonly inputs: Pick<OperatorInputs, 'settingUp'>;
+  readonly inputs: Pick<OperatorInputs, 'pause'>;
   readonly settings: InputSettings;
   /** The most that the robot ever drives, m/s; 0 while it is not known. */
   readonly maxLinear: ReadonlySignal<number>;
 }
 
-/** Puts the button into the settings that opens the dialog. */
-export function startInputsDialog(parts: InputsDialogParts): void {
+/** Puts the button into the settings that opens the dialog. @returns opens it from elsewhere */
+export function startInputsDialog(parts: InputsDialogParts): () => void {
   const dialog = document.createElement('dialog');
   dialog.id = 'inputs';
   dialog.setAttribute('aria-labelledby', 'inputs-title');
@@ -31,17 +31,19 @@ export function startInputsDialog(parts: InputsDialogParts): void {
   const field = document.createElement('fieldset');
   const legend = document.createElement('legend');
   const row = paragraphOf('', 'row');
-  const button = dialogButton('', '', () => openInputs(dialog, parts));
+  const open = () => openInputs(dialog, parts);
+  const button = dialogButton('', '', open);
   button.id = 'inputs-open';
   effect(() => {
-    const { section, open } = texts().inputs;
+    const { section, open: name } = texts().inputs;
     legend.textContent = section;
-    button.textContent = open;
-    button.ariaLabel = open;
+    button.textContent = name;
+    button.ariaLabel = name;
   });
   row.append(button);
   field.append(legend, row);
   elements.settings.querySelector('.fields > fieldset')?.after(field);
+  return open;
 }
 
 function openInputs(dialog: HTMLDialogElement, { inputs, settings, maxLinear }: InputsDialogParts): void {
@@ -63,7 +65,7 @@ function openInputs(dialog: HTMLDialogElement, { inputs, settings, maxLinear }: 
   menu.append(dialogButton(words.close, words.close, () => dialog.close()));
   const stands = paragraphOf(words.stands, 'hint small');
   dialog.replaceChildren(title, stands, said, speedSection, devices.element, keys.element, menu);
-  inputs.settingUp = true;
+  const resume = inputs.pause();
   openDialog(dialog);
   devices.read();
   const timer = setInterval(() => devices.read(), READ_MS);
@@ -72,7 +74,7 @@ function openInputs(dialog: HTMLDialogElement, { inputs, settings, maxLinear }: 
     () => {
       clearInterval(timer);
       for (const part of [keys, devices, speed]) part.dispose();
-      inputs.settingUp = false;
+      resume();
     },
     { once: true },
   );

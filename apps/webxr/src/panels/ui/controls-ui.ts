@@ -41,6 +41,8 @@ export interface Controlled {
   openEvents(): void;
   /** Saves a picture of the view, and a clip of the last 30 s. */
   readonly capture: { picture(): void; clip(): void };
+  /** Opens or closes the help. */
+  toggleHelp(): void;
 }
 
 export class ControlsUi {
@@ -93,6 +95,7 @@ export class ControlsUi {
     faster: () => this.#shift('faster'),
     slower: () => this.#shift('slower'),
     point: () => this.#parts.point(),
+    help: () => this.#parts.toggleHelp(),
   };
 
   #recentre(): void {

@@ -21,6 +21,7 @@ export const elements = {
   dashboard: byId('dashboard', HTMLElement),
   about: byId('about', HTMLElement),
   alarm: byId('alarm', HTMLButtonElement),
+  helpOpen: byId('help-open', HTMLButtonElement),
   settingsOpen: byId('settings-open', HTMLButtonElement),
   settings: byId('settings', HTMLDialogElement),
   settingsSave: byId('settings-save', HTMLButtonElement),

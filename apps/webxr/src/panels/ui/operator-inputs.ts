@@ -5,7 +5,7 @@ import type { HeadsetSettings } from '../../ground/headset-settings.ts';
 import type { Notices } from '../../state/notices.ts';
 import { Gamepads } from '../../take/drive/gamepads.ts';
 import { HeadsetInput, type Tracks, type XrController } from '../../take/drive/headset-input.ts';
-import { type KeyRole, roleOf, STOP_KEY_ALWAYS } from '../../take/drive/key-map.ts';
+import { type KeyRole, pressedRole, STOP_KEY_ALWAYS } from '../../take/drive/key-map.ts';
 import { KeyboardInput } from '../../take/drive/keyboard-input.ts';
 import type { ReleaseControl } from '../../take/drive/release-hold.ts';
 import { ScaledInput } from '../../take/drive/speed-choice.ts';
@@ -48,6 +48,7 @@ export type Action =
   | 'clip'
   | 'next-robot'
   | 'point'
+  | 'help'
   | 'faster'
   | 'slower';
 
@@ -68,6 +69,7 @@ const ACTIONS: ReadonlySet<string> = new Set<Action>([
   'clip',
   'next-robot',
   'point',
+  'help',
   'faster',
   'slower',
 ]);
@@ -91,6 +93,8 @@ export class OperatorInputs {
   readonly #headset: HeadsetInput;
   readonly #touch: TouchJoystick;
   readonly #port: InputPort;
+  /** How many dialogs keep the devices from driving. */
+  #pauses = 0;
 
   /** @param headset with the hand that drives in the headset, which may become the other one */
   constructor(port: InputPort, headset: Pick<HeadsetSettings, 'driveHand'>, notices: Pick<Notices, 'tell'>) {
@@ -143,11 +147,25 @@ export class OperatorInputs {
   }
 
   /**
-   * Whether devices are being set up. Whoever does that moves them: they drive nothing meanwhile, and afterwards only once
-   * their grip has been opened. Their buttons for STOP work.
+   * Keeps gamepads from driving, and releases every grip, until the returned function is called: their owner sets them up, or
+   * tries what the help lists. Their buttons for STOP work. Afterwards a device drives only once its grip has been opened.
+   *
+   * @returns lets them drive again; only its first call counts
    */
-  set settingUp(settingUp: boolean) {
-    this.#gamepads.settingUp = settingUp;
+  pause(): () => void {
+    let isOver = false;
+    this.#pauses++;
+    this.#applyPauses();
+    return () => {
+      if (isOver) return;
+      isOver = true;
+      this.#pauses--;
+      this.#applyPauses();
+    };
+  }
+
+  #applyPauses(): void {
+    this.#gamepads.settingUp = this.#pauses > 0;
     this.releaseAll();
   }
 
@@ -201,7 +219,7 @@ export class OperatorInputs {
 
   #onKey(event: KeyboardEvent, down: boolean): void {
     const { target } = event;
-    const role = roleOf(inputSettings.keys.peek(), event.code);
+    const role = pressedRole(inputSettings.keys.peek(), event.code, event.key);
     const typing = takesText(target);
     const elsewhere = typing || isDialogOpen();
     const driving = this.#port.mayDrive() && !elsewhere;
@@ -216,6 +234,10 @@ export class OperatorInputs {
     }
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if ((!typing || event.code === STOP_KEY_ALWAYS) && this.#onEstopKey(event, role)) return;
+    if (role === 'help' && !typing) {
+      this.#askHelp(event);
+      return;
+    }
     if (elsewhere) return;
     const choosing = target instanceof HTMLSelectElement || target instanceof HTMLInputElement;
     if (choosing && event.code.startsWith('Arrow')) return;
@@ -236,6 +258,15 @@ export class OperatorInputs {
     // A letter would also select an entry of the list.
     if (choosing) event.preventDefault();
     if (!event.repeat) this.#port.onAction(role, event.timeStamp);
+  }
+
+  /** The key that opens the help also closes it, whatever in it has the focus. */
+  #askHelp(event: KeyboardEvent): void {
+    // It would also search in the page.
+    event.preventDefault();
+    if (event.repeat) return;
+    if (event.shiftKey && this.#keyboard.letGoOfShift(performance.now())) this.#port.onChange();
+    this.#port.onAction('help', event.timeStamp);
   }
 
   /**

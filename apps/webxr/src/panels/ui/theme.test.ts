@@ -6,7 +6,7 @@ type Rgb = readonly [red: number, green: number, blue: number];
 
 const css = readFileSync(new URL('theme.css', import.meta.url), 'utf8');
 /** All but the palette itself, and what a library brings. */
-const STYLE_SHEETS = ['./', '../dashboard/', '../events/'].flatMap((folder) =>
+const STYLE_SHEETS = ['./', '../dashboard/', '../events/', '../help/'].flatMap((folder) =>
   readdirSync(new URL(folder, import.meta.url))
     .filter((name) => name.endsWith('.css') && name !== 'theme.css')
     .map((name) => readFileSync(new URL(folder + name, import.meta.url), 'utf8')),

@@ -67,6 +67,19 @@ test('other keys drive once they are chosen, and whatever was held counts as rel
   expect([keys.held, keys.wish]).toEqual([true, { forward: 1, left: 1 }]);
 });
 
+test('Shift that types a question mark is no grip, unless a key for a direction or another grip is held with it', () => {
+  const keys = new KeyboardInput();
+  expect(keys.letGoOfShift(0)).toBe(false);
+  keys.key('ShiftRight', true, 0);
+  expect([keys.letGoOfShift(1), keys.held]).toEqual([true, false]);
+  keys.key('ShiftLeft', true, 2);
+  keys.key('KeyA', true, 2);
+  expect([keys.letGoOfShift(3), keys.held]).toEqual([false, true]);
+  keys.key('KeyA', false, 4);
+  keys.key('Space', true, 4);
+  expect([keys.letGoOfShift(5), keys.held]).toEqual([false, true]);
+});
+
 test('a keyboard is read while the page runs, at a new grip and when it opens', () => {
   const keys = new KeyboardInput();
   keys.key('Space', true, 10);

@@ -10,6 +10,7 @@ import {
   type KeyRole,
   MOST_KEYS,
   mainKey,
+  pressedRole,
   removeKey,
   roleOf,
   STOP_KEY_ALWAYS,
@@ -43,7 +44,7 @@ test('all presets are usable, and have a key for everything that is needed often
 });
 
 test('the keys of the left hand lie at the left, those of the right hand at the right; X stops in all of them', () => {
-  const left = /^(Digit[1-5]|Key[QWERTASDFGZXCVB]|Backquote|Space|ShiftLeft)$/;
+  const left = /^(Digit[1-6]|Key[QWERTASDFGZXCVB]|Backquote|Space|ShiftLeft)$/;
   const right =
     /^(Digit[6-90]|Minus|Key[YUIOPHJKLNM]|Comma|Period|Equal|Bracket(Left|Right)|Semicolon|Quote|Slash|Space|ShiftRight|Numpad.+)$/;
   for (const role of KEY_ROLES) {
@@ -69,6 +70,18 @@ test('a role is known by its usual key, or else by the one that was chosen in it
   const arrow = mapAfter(removeKey(changed, 'forward', 'KeyI'));
   expect(mainKey(arrow, 'forward')).toBe('ArrowUp');
   expect(mainKey(mapAfter(removeKey(arrow, 'forward', 'ArrowUp')), 'forward')).toBe(undefined);
+});
+
+test('a question mark asks for help wherever the keyboard has it, but no key that drives or stops does', () => {
+  // On a German keyboard it is on the key to the right of 0.
+  expect(pressedRole(DEFAULT_KEYS, 'Minus', '?')).toBe('help');
+  expect(pressedRole(DEFAULT_KEYS, 'Slash', '-')).toBe('help');
+  expect(pressedRole(KEY_PRESETS.right, 'Minus', '?')).toBe('help');
+  expect(pressedRole(KEY_PRESETS.right, 'Minus', 'ß')).toBe('predict');
+  for (const role of ['estop', 'grip', 'forward', 'back', 'left', 'right', 'release', 'talk'] as const) {
+    const keys = { ...DEFAULT_KEYS, help: [], [role]: ['Slash'] };
+    expect(pressedRole(keys, 'Slash', '?')).toBe(role);
+  }
 });
 
 test('X may give way to another key for STOP, but the last one stays; F9 gets no other use', () => {

@@ -27,6 +27,7 @@ export const KEY_ROLES = [
   'clip',
   'next-robot',
   'point',
+  'help',
 ] as const;
 export type KeyRole = (typeof KEY_ROLES)[number];
 
@@ -65,6 +66,7 @@ export const DEFAULT_KEYS: KeyMap = {
   clip: ['KeyU'],
   'next-robot': ['KeyN'],
   point: ['KeyG'],
+  help: ['Slash'],
 };
 
 /**
@@ -93,12 +95,13 @@ export const KEY_PRESETS = {
     dashboard: ['KeyB'],
     swap: ['KeyF'],
     predict: ['Digit4'],
-    bookmark: ['KeyZ'],
+    bookmark: ['Digit6'],
     events: [],
     picture: [],
     clip: [],
     'next-robot': ['Digit3'],
     point: ['Backquote'],
+    help: ['KeyZ'],
   },
   right: {
     estop: ['KeyN', 'NumpadDecimal', USUAL_STOP_KEY],
@@ -126,6 +129,7 @@ export const KEY_PRESETS = {
     clip: ['BracketRight'],
     'next-robot': ['Digit6'],
     point: ['Equal'],
+    help: ['Slash'],
   },
 } as const satisfies Record<string, KeyMap>;
 export type KeyPreset = keyof typeof KEY_PRESETS;
@@ -152,6 +156,29 @@ export type KeyChange = { readonly keys: KeyMap } | KeyRefusal;
 
 export function roleOf(keys: KeyMap, code: string): KeyRole | undefined {
   return KEY_ROLES.find((role) => keys[role].includes(code));
+}
+
+/** Keys with these roles are held or pressed while the robot moves: typed as a question mark, they still do what they do. */
+const DRIVING_ROLES: readonly KeyRole[] = [
+  'estop',
+  'grip',
+  'forward',
+  'back',
+  'left',
+  'right',
+  'release',
+  'talk',
+];
+
+/**
+ * The role of a key that was pressed. A question mark asks for help wherever the keyboard has it, unless its key drives or stops.
+ *
+ * @param typed KeyboardEvent.key
+ */
+export function pressedRole(keys: KeyMap, code: string, typed: string): KeyRole | undefined {
+  const role = roleOf(keys, code);
+  if (typed !== '?' || (role !== undefined && DRIVING_ROLES.includes(role))) return role;
+  return 'help';
 }
 
 /** The one key that a role is known by: the usual one if it still has the role, or else one that was chosen in its place. */

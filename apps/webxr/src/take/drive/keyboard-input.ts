@@ -51,6 +51,17 @@ export class KeyboardInput implements DriveInput {
     this.wish.left = 0;
   }
 
+  /**
+   * Shift types a question mark, and may be a grip: it counts as released, unless a key for a direction is held with it.
+   *
+   * @returns whether the keyboard's grip was held and is open now
+   */
+  letGoOfShift(nowMs: number): boolean {
+    if (!this.held || WAYS.some((way) => this.#any(way))) return false;
+    for (const code of ['ShiftLeft', 'ShiftRight']) this.key(code, false, nowMs);
+    return !this.held;
+  }
+
   #any(role: 'grip' | (typeof WAYS)[number]): boolean {
     return this.#keys[role].some((code) => this.#down.has(code));
   }

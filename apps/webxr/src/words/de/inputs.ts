@@ -26,6 +26,7 @@ const keyRoles: Texts['inputs']['keyRoles'] = {
   clip: 'Clip speichern',
   'next-robot': 'Nächster Roboter',
   point: 'Auf den Boden zeigen',
+  help: 'Hilfe',
 };
 
 export const inputs: Texts['inputs'] = {
@@ -144,16 +145,7 @@ export const inputs: Texts['inputs'] = {
   hint: {
     drive: '{grip} halten und mit {ways} fahren',
     stop: '{estop} STOP',
-    speed: '{gears} Tempo',
-    latency: '{latency-test} Latenz',
-    recentre: '{recentre} zentrieren',
-    dashboard: '{dashboard} Dashboard',
-    fromAbove: '{from-above} von oben',
-    hazards: '{hazards} Gefahren',
-    enlarge: '{enlarge} Kamera vergrößern',
-    swap: '{swap} Kamera statt Punktwolke',
-    predict: '{predict} vorausberechneter Blick',
-    nextRobot: '{next-robot} nächster Roboter',
+    help: '{help} Hilfe',
   },
   titles: {
     estop: (key) => `Den Roboter stoppen (${key}; F9 auch beim Tippen)`,

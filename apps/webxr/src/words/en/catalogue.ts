@@ -16,6 +16,7 @@ import { figures } from './figures.ts';
 import { fleet } from './fleet.ts';
 import { headset } from './headset.ts';
 import { headsetMenu } from './headset-menu.ts';
+import { help } from './help.ts';
 import { inputs } from './inputs.ts';
 import { link } from './link.ts';
 import { measures } from './measures.ts';
@@ -45,6 +46,7 @@ export const english = {
   fleet,
   headset,
   headsetMenu,
+  help,
   inputs,
   link,
   measures,

@@ -28,6 +28,7 @@ const keyRoles = {
   clip: 'Save a clip',
   'next-robot': 'Next robot',
   point: 'Point at the floor',
+  help: 'Help',
 } satisfies Record<KeyRole, string>;
 
 export const inputs = {
@@ -154,16 +155,7 @@ export const inputs = {
   hint: {
     drive: 'Hold {grip} and drive with {ways}',
     stop: '{estop} stop',
-    speed: '{gears} speed',
-    latency: '{latency-test} latency',
-    recentre: '{recentre} centre',
-    dashboard: '{dashboard} dashboard',
-    fromAbove: '{from-above} from above',
-    hazards: '{hazards} hazards',
-    enlarge: '{enlarge} enlarge a camera',
-    swap: '{swap} camera instead of cloud',
-    predict: '{predict} predicted view',
-    nextRobot: '{next-robot} next robot',
+    help: '{help} help',
   },
   titles: {
     estop: (key: string) => `Stop the robot (${key}; F9 also while you type)`,
