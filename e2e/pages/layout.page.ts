@@ -83,6 +83,14 @@ const OPENED: readonly {
     open: ['#help-open', '#tour-start'],
     seen: ['tour', 'estop', 'estop-release', 'stop-band'],
   },
+  { state: 'videos', what: 'the first drive', open: ['#help-open', '#tour-start'], seen: ['tour', 'estop'] },
+  {
+    state: 'everything',
+    what: 'the first drive',
+    open: ['#help-open', '#tour-start'],
+    // On a phone there is no room for the first drive itself.
+    seen: ['estop', 'estop-release'],
+  },
   { state: 'videos', what: 'what became of the frames', open: ['.video-report button'], seen: ['estop'] },
 ];
 /** When a state has come about, ms: at once, or after a path has been silent. */
