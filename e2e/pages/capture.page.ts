@@ -38,9 +38,12 @@ async function show(page: Page, download: Download, type: string): Promise<Shown
         video.src = URL.createObjectURL(file);
         await loaded;
         ({ videoWidth: width, videoHeight: height, duration } = video);
+        document.body.append(video);
+        // It has been sought before its picture can be read.
+        const presented = new Promise((resolve) => video.requestVideoFrameCallback(resolve));
         const sought = happens('seeked');
         video.currentTime = Math.max(0, duration - 0.05);
-        await sought;
+        await Promise.all([sought, presented]);
         picture = video;
       } else {
         const bitmap = await createImageBitmap(file);

@@ -1,5 +1,5 @@
 /** Tiles with the robot's telemetry beside the picture. */
-import type { Page } from '@playwright/test';
+import type { Locator, Page } from '@playwright/test';
 import { expect, test } from '../src/stage/page-test.ts';
 import type { Stage } from '../src/stage/stage.ts';
 
@@ -33,6 +33,14 @@ async function measure(stage: Stage, left: number): Promise<void> {
   }, left);
 }
 
+/** Curves and numbers are drawn while they can be seen, of which the browser tells in its own time. */
+async function scrollTo(element: Locator): Promise<void> {
+  await element.scrollIntoViewIfNeeded();
+  await element.evaluate(
+    (seen) => new Promise<void>((resolve) => new IntersectionObserver(() => resolve()).observe(seen)),
+  );
+}
+
 test('values, curves, diagnostics and alarms of a robot, live', async ({ stage }) => {
   const loaded: string[] = [];
   stage.page.on('request', (request) => loaded.push(request.url()));
@@ -55,12 +63,12 @@ test('values, curves, diagnostics and alarms of a robot, live', async ({ stage }
   await expect(tile(page, 'Diagnostics').locator('li').first()).toContainText(/^warningBattery: low/);
   // A curve is drawn while it can be seen.
   const curve = tile(page, 'Left motor, °C');
-  await curve.scrollIntoViewIfNeeded();
+  await scrollTo(curve);
   await stage.run(500);
   await expect(curve.locator('.now')).toHaveText('41.0 °C');
 
   const speed = tile(page, 'Speed, m/s');
-  await speed.scrollIntoViewIfNeeded();
+  await scrollTo(speed);
   const position = await tile(page, 'Position').locator('.number').textContent();
   await page.keyboard.down('Space');
   await stage.run(100);
@@ -72,7 +80,7 @@ test('values, curves, diagnostics and alarms of a robot, live', async ({ stage }
   await stage.run(1000);
   // The window still has the drive.
   await expect(speed.locator('.figures > :nth-child(3)')).toHaveText(/^max 0\.50/);
-  await tile(page, 'Speed').scrollIntoViewIfNeeded();
+  await scrollTo(tile(page, 'Speed'));
   await stage.run(500);
   await expect(tile(page, 'Speed').locator('.number')).toHaveText('0.00 m/s');
   await expect(tile(page, 'Position').locator('.number')).not.toHaveText(position ?? '');
@@ -95,7 +103,7 @@ test('values of a robot that is not heard are stale and say how old they are; th
   await openDashboard(stage);
   const speed = tile(page, 'Speed');
   const curve = tile(page, 'Left motor, °C');
-  await curve.scrollIntoViewIfNeeded();
+  await scrollTo(curve);
   await stage.run(500);
   await expect(speed.locator('.value')).toHaveAttribute('data-stale', 'false');
   await expect(curve.locator('.chart')).toHaveAttribute('data-stale', 'false');
@@ -103,7 +111,7 @@ test('values of a robot that is not heard are stale and say how old they are; th
   await stage.script((stage) => stage.cut());
   await stage.run(8000);
   await expect(curve.locator('.now')).toHaveText(/\(\d+(\.\d)? s old\)$/);
-  await speed.scrollIntoViewIfNeeded();
+  await scrollTo(speed);
   await stage.run(500);
   await expect(speed.locator('.value')).toHaveAttribute('data-stale', 'true');
   await expect(speed.locator('.below')).toHaveText(/^stale: [\d.]+ s old$/);
@@ -204,7 +212,7 @@ test('what a robot plays from a recording is marked as recorded', async ({ stage
   await expect(dashboard(page).locator('.state')).toHaveText(/^In step with the picture, \d+ ms old$/);
   await expect(tile(page, 'Diagnostics').locator('.counts')).toHaveText('1 warning, 3 OK (recorded)');
   const curve = tile(page, 'Left motor (recorded), °C');
-  await curve.scrollIntoViewIfNeeded();
+  await scrollTo(curve);
   await stage.run(500);
   await expect(curve.locator('.now')).toHaveText('25.3 °C');
 });

@@ -2,7 +2,7 @@
 import { headsetViewport } from '../src/headset.ts';
 import { enterVr } from '../src/stage/in-headset.ts';
 import { expect, test } from '../src/stage/page-test.ts';
-import type { Stage } from '../src/stage/stage.ts';
+import { FRAME_MS, type Stage } from '../src/stage/stage.ts';
 
 /** What the last command says. */
 async function lastCommand(stage: Stage) {
@@ -18,7 +18,7 @@ test.describe('in the headset', () => {
   test('frames that stop with the grip held: after 100 ms the robot brakes, after 300 ms the grip must be opened', async ({
     stage,
   }) => {
-    const headset = await enterVr(stage);
+    const headset = await enterVr(stage, { frameMs: FRAME_MS });
     await headset.thumbstick('right', 0, -1);
     await headset.button('right', 'squeeze', 1);
     await stage.run(400);
@@ -50,7 +50,7 @@ test.describe('in the headset', () => {
   test('taken off with the grip held: the robot stops at once, after two seconds it is free for others, and it waits for a fresh grip', async ({
     stage,
   }) => {
-    const headset = await enterVr(stage);
+    const headset = await enterVr(stage, { frameMs: FRAME_MS });
     await headset.thumbstick('right', 0, -1);
     await headset.button('right', 'squeeze', 1);
     await stage.run(400);
@@ -78,7 +78,7 @@ test.describe('in the headset', () => {
 });
 
 test('a command says what is on the screen, not what has arrived', async ({ stage }) => {
-  const { keyboard } = await stage.open();
+  const { keyboard } = await stage.open({ frameMs: FRAME_MS });
   await keyboard.down('Space');
   await stage.run(200);
   await keyboard.down('KeyW');

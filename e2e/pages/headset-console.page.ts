@@ -205,13 +205,11 @@ test('labels say what each control does now: in the first minute, then beside a 
 
 test('a menu whose code cannot be loaded says so, and B stops all the same', async ({ stage }) => {
   await stage.page.route(/vr-console/, (route) => route.abort());
+  const refused = stage.page.waitForEvent('requestfailed');
   const headset = await enterVr(stage);
-  await expect
-    .poll(async () => {
-      await stage.frames(2);
-      return (await shownIn(stage)).notice?.rows.join(' ');
-    })
-    .toContain('The menu could not be loaded.');
+  await refused;
+  await stage.run(400);
+  expect((await shownIn(stage)).notice?.rows.join(' ')).toContain('The menu could not be loaded.');
   await headset.press('right', 'a-button');
   await headset.press('right', 'b-button');
   expect((await stage.state()).estop).toBe(true);

@@ -83,7 +83,8 @@ test('a page that the browser caches leaves the robot at once, and reconnects wh
   await expect(page.getByText('Opened 4')).toBeVisible();
   expect((await stage.state()).session).toBe('opening');
   expect(service.closed.size).toBe(3);
-  const each = ['operator.hello', 'session.open', 'session.close'];
+  // Without a session the list is shown, and with it what robots say of themselves.
+  const each = ['operator.hello', 'session.open', 'session.close', 'statuses.watch'];
   expect(service.sockets.map((messages) => messages.map(({ type }) => type))).toEqual([
     ...[each, each, each],
     each.slice(0, 2),

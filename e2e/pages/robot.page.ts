@@ -147,6 +147,8 @@ test.describe('in the headset', () => {
 
   test('the model is seen over the shoulder, not from the robot’s own eyes', async ({ stage }) => {
     const headset = await enterVr(stage, { canvas: '320x180' });
+    // The words beside a hand are red where they say STOP.
+    for (const hand of ['left', 'right'] as const) await headset.place(hand, [0, 0.2, 1]);
     await tellModel(stage);
     expect(await model(stage)).toMatchObject({ shapes: SHAPES, drawn: false });
     expect(await reds(stage)).toBe(0);

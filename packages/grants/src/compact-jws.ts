@@ -1,5 +1,5 @@
 /** Reads the compact form of a JWS (RFC 7515 §7.1): header and payload as JSON, both checked. */
-import { base64url, type CryptoKey, compactVerify, errors } from 'jose';
+import { base64url, type CryptoKey } from 'jose';
 import * as z from 'zod/mini';
 
 const FORM = /^[A-Za-z0-9_-]+\.[A-Za-z0-9_-]+\.[A-Za-z0-9_-]*$/;
@@ -47,6 +47,7 @@ export async function checkSignature(
   key: CryptoKey,
   alg: string,
 ): Promise<void> {
+  const { compactVerify, errors } = await import('./signatures.ts');
   try {
     await compactVerify(text, key, { algorithms: [alg] });
   } catch (error) {

@@ -1,5 +1,5 @@
 /** The keys whose signatures under grants count: a JWK set (RFC 7517 §5) with public keys only. */
-import { type CryptoKey, importJWK } from 'jose';
+import type { CryptoKey } from 'jose';
 import * as z from 'zod/mini';
 
 export const grantAlgorithms = ['EdDSA', 'ES256'] as const;
@@ -80,6 +80,7 @@ export function readJwkSet(text: string): GrantPublicJwk[] {
 
 /** @throws {GrantKeysError} */
 export async function parseGrantKeys(text: string): Promise<GrantKeys> {
+  const { importJWK } = await import('./signatures.ts');
   const keys = new Map<string, GrantKey>();
   for (const jwk of readJwkSet(text)) {
     const alg = algorithmOf(jwk);

@@ -1,6 +1,6 @@
 /** Issues and verifies grants: who may do what with which robot, until when. */
 import type { Role } from '@farpoint/protocol';
-import { base64url, CompactSign, type CryptoKey } from 'jose';
+import { base64url, type CryptoKey } from 'jose';
 import * as z from 'zod/mini';
 import { checkSignature, readHeader, readPayload } from './compact-jws.ts';
 import {
@@ -49,6 +49,7 @@ export interface SigningKey {
 
 /** @returns the compact form; printable characters without spaces */
 export async function issueGrant(claims: GrantClaims, { keyId, alg, key }: SigningKey): Promise<string> {
+  const { CompactSign } = await import('./signatures.ts');
   return await new CompactSign(new TextEncoder().encode(JSON.stringify(claims)))
     .setProtectedHeader({ typ: GRANT_TYPE, alg, kid: keyId })
     .sign(key);

@@ -1,5 +1,5 @@
 /** The operator's own key: P-256, made where it is used. Grants name it by its thumbprint. */
-import { type CryptoKey, calculateJwkThumbprint, exportJWK, generateKeyPair, importJWK } from 'jose';
+import type { CryptoKey } from 'jose';
 import * as z from 'zod/mini';
 
 const coordinate = z.string().check(z.regex(/^[A-Za-z0-9_-]{43}$/));
@@ -24,23 +24,27 @@ export interface OperatorKey {
 
 /** @param extractable whether the private key can be exported, for a ticket */
 export async function makeOperatorKey(extractable = false): Promise<OperatorKey> {
+  const { exportJWK, generateKeyPair } = await import('./signatures.ts');
   const { privateKey, publicKey } = await generateKeyPair('ES256', { extractable });
   return { privateKey, publicJwk: toOperatorJwk(await exportJWK(publicKey)) };
 }
 
 /** @throws {TypeError} if the key is not extractable */
 export async function exportOperatorKey({ privateKey }: OperatorKey): Promise<OperatorSecretJwk> {
+  const { exportJWK } = await import('./signatures.ts');
   const { kty, crv, x, y, d } = await exportJWK(privateKey);
   return z.parse(operatorSecretJwkSchema, { kty, crv, x, y, d });
 }
 
 /** @throws {Error} if the numbers are not a key of the curve */
 export async function importOperatorKey({ d, ...publicJwk }: OperatorSecretJwk): Promise<OperatorKey> {
+  const { importJWK } = await import('./signatures.ts');
   return { privateKey: (await importJWK({ ...publicJwk, d }, 'ES256')) as CryptoKey, publicJwk };
 }
 
 /** RFC 7638: SHA-256 of the key's required members, in base64url. */
 export async function keyThumbprint({ kty, crv, x, y }: OperatorJwk): Promise<string> {
+  const { calculateJwkThumbprint } = await import('./signatures.ts');
   return await calculateJwkThumbprint({ kty, crv, x, y }, 'sha256');
 }
 

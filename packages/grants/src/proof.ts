@@ -3,7 +3,7 @@
  * own key over this session and both DTLS certificates. Whoever relays it can use it nowhere else.
  */
 import { handleSchema, robotIdSchema } from '@farpoint/protocol';
-import { CompactSign, type CryptoKey, importJWK } from 'jose';
+import type { CryptoKey } from 'jose';
 import * as z from 'zod/mini';
 import { checkSignature, type JwsKind, readHeader, readPayload } from './compact-jws.ts';
 import { type Grant, grantHash } from './grant.ts';
@@ -69,6 +69,7 @@ export async function makeProof(
     gth: await grantHash(grant),
     iat: Math.floor(nowS),
   };
+  const { CompactSign } = await import('./signatures.ts');
   return await new CompactSign(new TextEncoder().encode(JSON.stringify(claims)))
     .setProtectedHeader({ typ: PROOF_TYPE, alg: 'ES256', jwk: publicJwk })
     .sign(privateKey);
@@ -90,6 +91,7 @@ export async function verifyProof(
   const { jwk } = readHeader(PROOF, headerSchema, text);
   if ((await keyThumbprint(jwk)) !== operatorKey)
     throw new GrantRefusedError('proof-wrong-key', 'not the key that the grant names');
+  const { importJWK } = await import('./signatures.ts');
   let key: CryptoKey;
   try {
     key = (await importJWK(jwk, 'ES256')) as CryptoKey;

@@ -3,7 +3,7 @@
  * session. An operator that knows the key thus recognises the robot, whoever introduced them.
  */
 import { handleSchema, robotIdSchema } from '@farpoint/protocol';
-import { CompactSign, type CryptoKey, importJWK } from 'jose';
+import type { CryptoKey } from 'jose';
 import * as z from 'zod/mini';
 import { checkSignature, type JwsKind, readHeader, readPayload } from './compact-jws.ts';
 import { dateSchema } from './grant-claims.ts';
@@ -76,6 +76,7 @@ export async function makeIdentity(
     fp: robotFingerprint,
     iat: Math.floor(nowS),
   };
+  const { CompactSign } = await import('./signatures.ts');
   return await new CompactSign(new TextEncoder().encode(JSON.stringify(claims)))
     .setProtectedHeader({ typ: IDENTITY_TYPE, alg: 'ES256', jwk: publicJwk })
     .sign(privateKey);
@@ -90,6 +91,7 @@ export async function makeIdentity(
  */
 export async function verifyIdentity(text: string, facts: OfferFacts): Promise<string> {
   const { jwk } = readHeader(IDENTITY, headerSchema, text);
+  const { importJWK } = await import('./signatures.ts');
   let key: CryptoKey;
   try {
     key = (await importJWK(jwk, 'ES256')) as CryptoKey;

@@ -13,7 +13,7 @@ import { CaptureUi } from '../panels/capture/capture-ui.ts';
 import { DashboardOpener } from '../panels/dashboard/dashboard-opener.ts';
 import { EventsOpener } from '../panels/events/events-opener.ts';
 import { Guide } from '../panels/help/guide.ts';
-import { startInputsDialog } from '../panels/inputs/inputs-dialog.ts';
+import { startInputsDialog } from '../panels/inputs/inputs-opener.ts';
 import { showKeyHints } from '../panels/inputs/key-hints.ts';
 import { showSpeedChoice } from '../panels/inputs/speed-controls.ts';
 import { AccessUi } from '../panels/ui/access-ui.ts';
@@ -141,7 +141,7 @@ export class PagePanels {
   start(): void {
     const { stage, state, inputs } = this.#parts;
     const { maxLinear } = state.robot;
-    this.#guide.start(startInputsDialog({ inputs, settings: inputSettings, maxLinear }));
+    this.#guide.start(startInputsDialog({ inputs, settings: inputSettings, maxLinear }, state.notices));
     showSpeedChoice(inputSettings.speed, maxLinear, state.driving.role);
     listenToCanvas(elements.stage, stage, state.notices);
     this.controls.start();

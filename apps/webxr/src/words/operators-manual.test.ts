@@ -34,7 +34,10 @@ function textsOf(value: unknown): string[] {
   if (typeof value === 'string') return [value];
   if (typeof value !== 'function') return Object.values(value as object).flatMap(textsOf);
   const named: unknown = new Proxy(() => '', {
-    get: (_, key) => (key === Symbol.toPrimitive || key === 'join' ? () => '' : named),
+    get: (_, key) => {
+      if (key === 'map') return () => named;
+      return key === Symbol.toPrimitive || key === 'join' ? () => '' : named;
+    },
   });
   return [String(value(named, named, named, named))];
 }

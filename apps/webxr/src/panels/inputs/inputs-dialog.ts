@@ -1,10 +1,9 @@
-/** The dialog for keys, gamepads, wheels and joysticks, reached from the settings. It is built anew each time it is opened. */
-import { effect, type ReadonlySignal } from '@preact/signals-core';
+/** The dialog for keys, gamepads, wheels and joysticks. It is built anew each time it is opened, and loaded when it first is. */
+import type { ReadonlySignal } from '@preact/signals-core';
 import { controllerKey } from '../../take/drive/input-choices.ts';
 import type { InputSettings } from '../../take/drive/input-settings.ts';
 import { controllerName } from '../../words/input-words.ts';
 import { texts } from '../../words/language.ts';
-import { elements } from '../ui/elements.ts';
 import { openDialog } from '../ui/open-dialog.ts';
 import type { OperatorInputs } from '../ui/operator-inputs.ts';
 import { DeviceControls } from './device-controls.ts';
@@ -22,31 +21,10 @@ export interface InputsDialogParts {
   readonly maxLinear: ReadonlySignal<number>;
 }
 
-/** Puts the button into the settings that opens the dialog. @returns opens it from elsewhere */
-export function startInputsDialog(parts: InputsDialogParts): () => void {
-  const dialog = document.createElement('dialog');
-  dialog.id = 'inputs';
-  dialog.setAttribute('aria-labelledby', 'inputs-title');
-  document.body.append(dialog);
-  const field = document.createElement('fieldset');
-  const legend = document.createElement('legend');
-  const row = paragraphOf('', 'row');
-  const open = () => openInputs(dialog, parts);
-  const button = dialogButton('', '', open);
-  button.id = 'inputs-open';
-  effect(() => {
-    const { section, open: name } = texts().inputs;
-    legend.textContent = section;
-    button.textContent = name;
-    button.ariaLabel = name;
-  });
-  row.append(button);
-  field.append(legend, row);
-  elements.settings.querySelector('.fields > fieldset')?.after(field);
-  return open;
-}
-
-function openInputs(dialog: HTMLDialogElement, { inputs, settings, maxLinear }: InputsDialogParts): void {
+export function openInputs(
+  dialog: HTMLDialogElement,
+  { inputs, settings, maxLinear }: InputsDialogParts,
+): void {
   const words = texts().inputs;
   const title = headingOf(words.title, 'h2');
   Object.assign(title, { id: 'inputs-title', tabIndex: -1, autofocus: true });

@@ -32,6 +32,7 @@ const keyRoles: Texts['inputs']['keyRoles'] = {
 export const inputs: Texts['inputs'] = {
   section: 'Fahren',
   open: 'Eingabegeräte …',
+  cannotLoad: 'Die Eingaben konnten nicht geladen werden. Versuchen Sie es noch einmal.',
   title: 'Eingabegeräte',
   stands: 'Tasten, Gamepads und Joysticks fahren nicht, solange dieses Fenster offen ist. STOP wirkt.',
   close: 'Schließen',

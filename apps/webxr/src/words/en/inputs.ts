@@ -35,6 +35,7 @@ export const inputs = {
   /** In the settings. */
   section: 'Driving',
   open: 'Inputs…',
+  cannotLoad: 'The inputs could not be loaded. Try again.',
   title: 'Inputs',
   stands: 'Keys, gamepads and joysticks do not drive while this dialog is open. STOP works.',
   close: 'Close',
