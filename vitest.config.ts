@@ -25,7 +25,11 @@ export default defineConfig({
           name: 'pure',
           include: [`${ROOMS}/**/*.test.ts`],
           exclude: [...NOT_OURS, STACK, SCENARIO],
-          setupFiles: ['scripts/lib/test-setup.ts', 'scripts/lib/pure-guard.ts'],
+          setupFiles: [
+            'scripts/lib/test-setup.ts',
+            'scripts/lib/pure-guard.ts',
+            'apps/webxr/src/testing/speak-english.ts',
+          ],
           // Nothing to isolate: modules are loaded once for all files, which is most of the time.
           isolate: false,
           // A process of its own, because a thread takes no options of the engine: fewer and larger collections of what is new.

@@ -54,6 +54,15 @@ const AUDITED: readonly Audited[] = [
     forMs: 1000,
     open: (page) => page.locator('#events-open').click(),
   },
+  { what: 'the help', state: 'live', open: (page) => page.locator('#help-open').click() },
+  {
+    what: 'the first drive',
+    state: 'live',
+    async open(page) {
+      await page.locator('#help-open').click();
+      await page.locator('#tour-start').click();
+    },
+  },
   { what: 'driving', state: 'driving', forMs: 1000 },
   { what: 'an emergency stop that is latched', state: 'stop-latched', forMs: 1000 },
   { what: 'the dashboard', state: 'alarm', open: (page) => page.locator('#dashboard-open').click() },

@@ -74,7 +74,8 @@ test('the watchers’ page is in German, too', async ({ stage }) => {
 test('a page that cannot load its language speaks English, and says so on the console', async ({ stage }) => {
   const told: string[] = [];
   stage.page.on('console', (message) => told.push(message.text()));
-  await stage.page.route(/catalogue-[^/]*\.js$/, (route) => route.abort());
+  // The first that is asked for is the German one.
+  await stage.page.route(/catalogue-[^/]*\.js$/, (route) => route.abort(), { times: 1 });
   const page = await stage.open({ canvas: '64x36' });
   await expect(page.locator('html')).toHaveAttribute('lang', 'en');
   await expect(page.locator('#settings-open')).toHaveText('Settings');

@@ -134,7 +134,7 @@ test('it is saved as PLY and as PCD, forgotten on reload and on demand, and load
   const count = points.toLocaleString('en');
   await openPanel(page);
   const ply = await save(page);
-  expect(ply.name).toMatch(/^farpoint-2026-01-01T[\d-]+\.ply$/);
+  expect(ply.name).toMatch(/^farpoint-world-2026-01-01T[\d-]+\.ply$/);
   expect(ply.file.toString('latin1')).toMatch(
     new RegExp(`^ply\nformat binary_little_endian 1\\.0\n[^]*\nelement vertex ${points}\n`),
   );

@@ -14,7 +14,7 @@ import type { VrSession } from '../scene/view/vr-session.ts';
 import type { WristPanel } from '../scene/view/wrist-panel.ts';
 import type { PageState } from '../state/page-state.ts';
 import { viewNotice } from '../words/headset-words.ts';
-import { texts } from '../words/language.ts';
+import { loadLaterTexts, texts } from '../words/language.ts';
 
 export interface HeadsetParts extends Pick<ConsoleParts, 'sources' | 'settings' | 'gripLost' | 'menuOpen'> {
   readonly stage: Pick<Stage, 'renderer' | 'rig' | 'camera' | 'headset'>;
@@ -145,7 +145,7 @@ export class HeadsetControls {
     const { stage, vr, inputs, state, sources, settings, gripLost, menuOpen, panel, sign, actions } =
       this.#parts;
     try {
-      const { VrConsole } = await import('../scene/console/vr-console.ts');
+      const [{ VrConsole }] = await Promise.all([import('../scene/console/vr-console.ts'), loadLaterTexts()]);
       this.console ??= new VrConsole({
         sources,
         settings,
@@ -162,7 +162,7 @@ export class HeadsetControls {
         isGripped: () => inputs.isHeadsetGripped,
       });
     } catch {
-      state.notices.tell(texts().headsetMenu.notLoaded, 'bad');
+      state.notices.tell(texts().headset.notLoaded, 'bad');
     }
   }
 

@@ -1,6 +1,6 @@
 /** What each control of the headset's controllers does now, for the labels on them. */
 import type { Hand, HeadsetView } from '../ground/headset-settings.ts';
-import { texts } from './language.ts';
+import { laterTexts } from './language.ts';
 
 export const CONTROLS = ['stick', 'stickPress', 'upper', 'lower', 'trigger', 'grip'] as const;
 export type Control = (typeof CONTROLS)[number];
@@ -43,7 +43,7 @@ const LETTERS = { right: { lower: 'A', upper: 'B' }, left: { lower: 'X', upper: 
  * @param drives whether that hand drives; the other one has the view
  */
 export function controlWords(facts: LabelFacts, hand: Hand, drives: boolean): ControlWords {
-  const said = texts().controllerLabels;
+  const said = laterTexts().controllerLabels;
   const { lower, upper } = LETTERS[hand];
   const always = {
     upper: facts.chosen ? (facts.latched ? said.stopIsOn(upper) : said.stop(upper)) : null,
@@ -70,7 +70,7 @@ function mayDrive({ live, latched, watches }: LabelFacts): boolean {
 type HandWords = Omit<ControlWords, 'upper' | 'lower'>;
 
 function drivingWords(facts: LabelFacts): HandWords {
-  const said = texts().controllerLabels;
+  const said = laterTexts().controllerLabels;
   const { gripped, nextRobot } = facts;
   const steer = gripped ? said.steer : said.steerWithGrip;
   return {
@@ -82,7 +82,7 @@ function drivingWords(facts: LabelFacts): HandWords {
 }
 
 function gripWords({ live, latched, watches, otherDrives, mustLetGo, gripped }: LabelFacts): string | null {
-  const said = texts().controllerLabels;
+  const said = laterTexts().controllerLabels;
   if (!live || latched) return null;
   if (watches) return said.onlyWatch;
   if (mustLetGo) return said.letGoFirst;
@@ -91,7 +91,7 @@ function gripWords({ live, latched, watches, otherDrives, mustLetGo, gripped }: 
 }
 
 function viewWords(facts: LabelFacts): HandWords {
-  const said = texts().controllerLabels;
+  const said = laterTexts().controllerLabels;
   return {
     grip: null,
     stick: facts.turns ? said.turn : null,
@@ -101,7 +101,7 @@ function viewWords(facts: LabelFacts): HandWords {
 }
 
 function triggerWords({ latched, mayRelease, view, pictures }: LabelFacts): string | null {
-  const said = texts().controllerLabels;
+  const said = laterTexts().controllerLabels;
   if (latched) return mayRelease ? said.release : null;
   if (view === 'tabletop') return said.holdModel;
   return pictures ? said.enlarge : null;

@@ -1,7 +1,7 @@
 import { afterEach, describe, expect, test } from 'vitest';
 import type { KeptEvents } from '../ground/events/event-log.ts';
 import type { DetailOf, EventDetail, PageEvent } from '../ground/events/page-event.ts';
-import { english } from './en/catalogue.ts';
+import { laterEnglish } from './en/later-catalogue.ts';
 import { eventsCsv, eventsJsonLines, eventText, passes } from './event-words.ts';
 import { speak } from './language.ts';
 
@@ -93,7 +93,7 @@ describe('what happened, in words', () => {
     expect(eventText(detail)).toBe(inEnglish);
     await speak('de');
     expect(eventText(detail)).toContain(partOfGerman);
-    expect(eventText(detail, english)).toBe(inEnglish);
+    expect(eventText(detail, laterEnglish)).toBe(inEnglish);
   });
 
   test('is filtered by its part of the log, its words and the robot’s name', async () => {

@@ -5,11 +5,11 @@
 import type { KeptEvents } from '../ground/events/event-log.ts';
 import { groupOf, severityOf } from '../ground/events/event-table.ts';
 import type { EventDetail, EventGroup, PageEvent } from '../ground/events/page-event.ts';
-import { english, type Texts } from './en/catalogue.ts';
-import { texts } from './language.ts';
+import { type LaterTexts, laterEnglish } from './en/later-catalogue.ts';
+import { laterTexts } from './language.ts';
 
 /** What happened, as a sentence. @param said default: in the page's language */
-export function eventText(detail: EventDetail, said: Texts = texts()): string {
+export function eventText(detail: EventDetail, said: LaterTexts = laterTexts()): string {
   const say = said.events.kinds[detail.kind] as (detail: EventDetail) => string;
   return say(detail);
 }
@@ -89,7 +89,7 @@ function writtenEvents({ events, dropped }: KeptEvents): WrittenEvent[] {
     severity: 'warning',
     kind: 'dropped',
     details: { count: dropped },
-    text: english.events.dropped(dropped),
+    text: laterEnglish.events.dropped(dropped),
   };
   return [gap, ...written];
 }
@@ -105,7 +105,7 @@ function writtenEvent({ atMs, lastMs, times, sessionMs, robot, detail }: PageEve
     severity: severityOf(detail),
     kind,
     details,
-    text: eventText(detail, english),
+    text: eventText(detail, laterEnglish),
   };
 }
 

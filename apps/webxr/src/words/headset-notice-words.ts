@@ -81,12 +81,12 @@ function standingOf({
   if (stop !== null)
     return { title: texts().stop.title, text: `${stop.why} ${releaseWords(stop, menuOpen)}`, tone: 'bad' };
   if (held !== null) return { title: null, ...held };
-  if (asked !== null) return { title: null, text: texts().headsetMenu.answer(asked), tone: 'warning' };
+  if (asked !== null) return { title: null, text: texts().headset.answer(asked), tone: 'warning' };
   return choice === null ? null : { title: texts().headset.noRobot, ...choice };
 }
 
 function releaseWords({ mayRelease, release }: LatchedStop, menuOpen: boolean): string {
-  if (mayRelease && menuOpen) return texts().headsetMenu.releaseInMenu;
+  if (mayRelease && menuOpen) return texts().headset.releaseInMenu;
   return mayRelease ? texts().headset.release : release;
 }
 
@@ -104,12 +104,12 @@ export interface ChoiceFacts {
 
 /** What an operator does who wears the headset and has chosen no robot, or why there is none to choose. */
 export function choiceWords({ next, others, signaling, host, driveHand }: ChoiceFacts): Words {
-  const { headset, headsetMenu } = texts();
+  const { headset } = texts();
   if (next === null) {
     const { text, tone } = emptyListWords(signaling, host);
     const isForSettings = signaling === 'refused' || signaling === 'waiting';
-    return { text: isForSettings ? `${text} ${headsetMenu.settingsOutside}` : text, tone };
+    return { text: isForSettings ? `${text} ${headset.settingsOutside}` : text, tone };
   }
   const press = headset.pressToConnect(headset.hands[driveHand], next.name);
-  return { text: others ? `${press} ${headsetMenu.otherRobots}` : press, tone: 'neutral' };
+  return { text: others ? `${press} ${headset.otherRobots}` : press, tone: 'neutral' };
 }

@@ -1,9 +1,10 @@
 /** The rows of the help: every key, button, axis and gesture with what it does, grouped, as they are mapped now. */
 import type { AxisRole, ButtonRole, ControllerMap } from '../take/drive/controller-map.ts';
 import { KEY_ROLES, type KeyMap, type KeyRole, STOP_KEY_ALWAYS } from '../take/drive/key-map.ts';
-import type { Texts } from './en/catalogue.ts';
-import { buttonName, keyName } from './input-words.ts';
-import { texts } from './language.ts';
+import type { LaterTexts } from './en/later-catalogue.ts';
+import { keyName } from './input-words.ts';
+import { buttonName } from './inputs-dialog-words.ts';
+import { laterTexts } from './language.ts';
 
 export interface HelpController {
   readonly name: string;
@@ -27,10 +28,12 @@ export interface HelpGroup {
   readonly rows: readonly HelpRow[];
 }
 
-type Gesture = keyof Texts['help']['gestures'];
+type Gesture = keyof LaterTexts['help']['gestures'];
 
 /** Each role and gesture once, in the order in which operators need them. */
-export const HELP_GROUPS: Readonly<Record<keyof Texts['help']['groups'], readonly (KeyRole | Gesture)[]>> = {
+export const HELP_GROUPS: Readonly<
+  Record<keyof LaterTexts['help']['groups'], readonly (KeyRole | Gesture)[]>
+> = {
   drive: ['grip', 'forward', 'back', 'left', 'right', 'slower', 'faster'],
   stop: ['estop', 'release'],
   views: ['look', 'zoom', 'recentre', 'view', 'from-above', 'hazards', 'predict'],
@@ -40,7 +43,7 @@ export const HELP_GROUPS: Readonly<Record<keyof Texts['help']['groups'], readonl
   panels: ['dashboard', 'latency-test', 'help', 'fullScreen', 'close'],
 };
 
-const HANDS: Readonly<Partial<Record<KeyRole, keyof Texts['help']['hands']>>> = {
+const HANDS: Readonly<Partial<Record<KeyRole, keyof LaterTexts['help']['hands']>>> = {
   grip: 'grip',
   forward: 'ways',
   back: 'ways',
@@ -84,7 +87,7 @@ const AXES: Readonly<Partial<Record<KeyRole, AxisRole>>> = {
 };
 
 export function helpGroups(keys: KeyMap, controllers: readonly HelpController[]): readonly HelpGroup[] {
-  const { groups } = texts().help;
+  const { groups } = laterTexts().help;
   return Object.entries(HELP_GROUPS).map(([name, roles]) => ({
     title: groups[name as keyof typeof HELP_GROUPS],
     rows: roles.map((role) => (isKeyRole(role) ? keyRow(role, keys, controllers) : gestureRow(role))),
@@ -107,13 +110,13 @@ export function controllerParts(role: KeyRole, { map, isStandard }: HelpControll
 }
 
 function keyRow(role: KeyRole, keys: KeyMap, controllers: readonly HelpController[]): HelpRow {
-  const { hands } = texts().help;
+  const { hands } = laterTexts().help;
   const hand = HANDS[role];
   const names = keys[role].map(keyName);
   if (role === 'estop') names.push(keyName(STOP_KEY_ALWAYS));
   if (role === 'help' && !names.includes('?')) names.push('?');
   return {
-    what: texts().inputs.keyRoles[role],
+    what: laterTexts().inputsDialog.keyRoles[role],
     keys: names,
     controllers: controllers
       .map((controller) => ({ name: controller.name, parts: controllerParts(role, controller) }))
@@ -123,13 +126,13 @@ function keyRow(role: KeyRole, keys: KeyMap, controllers: readonly HelpControlle
 }
 
 function gestureRow(gesture: Gesture): HelpRow {
-  const { gestures, hands } = texts().help;
+  const { gestures, hands } = laterTexts().help;
   return { what: gestures[gesture], keys: [], controllers: [], hand: hands[gesture] };
 }
 
 function axisName(axis: number, isStandard: boolean): string {
-  const { sticks } = texts().help;
-  return (isStandard ? sticks[axis] : undefined) ?? texts().inputs.axis(axis + 1);
+  const { sticks } = laterTexts().help;
+  return (isStandard ? sticks[axis] : undefined) ?? laterTexts().inputsDialog.axis(axis + 1);
 }
 
 function isKeyRole(role: KeyRole | Gesture): role is KeyRole {

@@ -1,16 +1,10 @@
 import { afterEach, expect, test } from 'vitest';
-import { EMPTY_MAP, STANDARD_MAP } from '../take/drive/controller-map.ts';
 import { DEFAULT_KEYS, KEY_PRESETS, KEY_ROLES } from '../take/drive/key-map.ts';
 import { keyboardLayout, readKeyboardLayout } from '../take/drive/keyboard-layout.ts';
 import {
-  buttonName,
   controllerName,
   hintParts,
   keyName,
-  keyRefusalWords,
-  mapRefusalWords,
-  measuredWords,
-  missingWords,
   speedShareWords,
   withChosenSpeed,
   withKey,
@@ -71,29 +65,6 @@ test('a title ends with the key that counts, whatever it ended with before', () 
   expect(withKey('View (V)', keys, 'view')).toBe('View');
 });
 
-test('each refusal says what to do, in both languages', async () => {
-  for (const language of ['en', 'de'] as const) {
-    await speak(language);
-    const said = [
-      keyRefusalWords('KeyX', { reason: 'last-stop' }),
-      keyRefusalWords('KeyR', { reason: 'taken', by: 'release' }),
-      keyRefusalWords('F9', { reason: 'always-stops' }),
-      keyRefusalWords('Tab', { reason: 'reserved' }),
-      keyRefusalWords('KeyQ', { reason: 'full' }),
-      mapRefusalWords('axis 2', { reason: 'taken', by: 'left' }),
-      mapRefusalWords('button 2', { reason: 'taken', by: 'grip' }),
-      mapRefusalWords('button 2', { reason: 'keeps-stop' }),
-    ];
-    expect(new Set(said).size).toBe(said.length);
-    for (const each of said) expect(each).toMatch(/^\p{Lu}.*\.$/u);
-  }
-  await speak('en');
-  expect(keyRefusalWords('KeyR', { reason: 'taken', by: 'release' })).toBe(
-    'R is taken: Release STOP (hold). Remove it there first.',
-  );
-  expect(mapRefusalWords('axis 2', { reason: 'taken', by: 'left' })).toMatch(/^Axis 2 is taken: Turn\./);
-});
-
 test('every key of every preset has a name of its own', () => {
   for (const preset of Object.values(KEY_PRESETS)) {
     const names = KEY_ROLES.flatMap((role) => preset[role]).map(keyName);
@@ -108,17 +79,7 @@ test('a device has its own name, without the numbers of its maker', () => {
   expect(controllerName('x'.repeat(500))).toHaveLength(60);
 });
 
-test('a button has the name that is written on a standard gamepad, or its number', () => {
-  expect([buttonName(1, true), buttonName(12, true), buttonName(20, true), buttonName(1, false)]).toEqual([
-    ...['B', '↑', 'button 21', 'button 2'],
-  ]);
-});
-
-test('says what a device lacks, what was measured, and how fast it may go', () => {
-  expect(missingWords(EMPTY_MAP)).toMatch(/without a grip/);
-  expect(missingWords(STANDARD_MAP)).toBe(null);
-  expect(measuredWords([])).toBe('Measured. Not saved yet.');
-  expect(measuredWords([0, 3])).toBe('Measured, except what did not move: axis 1, axis 4.');
+test('the chosen speed is told in m/s where the robot has said how fast it drives', () => {
   expect([speedShareWords(0.5, 0), speedShareWords(0.5, 1.5)]).toEqual(['50 %', '50 % · 0.75 m/s']);
 });
 

@@ -1,13 +1,5 @@
 /** What the page says about keys, devices and the speed that the operator chooses. */
-import {
-  AXIS_ROLES,
-  type AxisRole,
-  type ButtonRole,
-  type ControllerMap,
-  type MapRefusal,
-  missingOf,
-} from '../take/drive/controller-map.ts';
-import { type KeyMap, type KeyRefusal, type KeyRole, mainKey } from '../take/drive/key-map.ts';
+import { type KeyMap, type KeyRole, mainKey } from '../take/drive/key-map.ts';
 import { keyboardLayout } from '../take/drive/keyboard-layout.ts';
 import { texts } from './language.ts';
 import { fixed } from './numbers.ts';
@@ -81,87 +73,6 @@ export function hintParts(keys: KeyMap): HintPart[][] {
     });
     return parts.some(({ isKey }) => isKey) ? [parts] : [];
   });
-}
-
-export function keyRefusalWords(code: string, refusal: KeyRefusal): string {
-  const { taken, full, lastStop, alwaysStops, reserved, keyRoles } = texts().inputs;
-  switch (refusal.reason) {
-    case 'last-stop':
-      return lastStop;
-    case 'taken':
-      return taken(keyName(code), keyRoles[refusal.by]);
-    case 'always-stops':
-      return alwaysStops(keyName(code));
-    case 'reserved':
-      return reserved(keyName(code));
-    case 'full':
-      return full;
-  }
-}
-
-/** @param what an axis or a button, by its name */
-export function mapRefusalWords(what: string, refusal: MapRefusal): string {
-  const { taken, full, keepsStop } = texts().inputs;
-  switch (refusal.reason) {
-    case 'taken':
-      return taken(capital(what), roleWords(refusal.by));
-    case 'full':
-      return full;
-    case 'keeps-stop':
-      return keepsStop(capital(what));
-  }
-}
-
-/** What is written on the buttons of a gamepad in the standard mapping, the axes of the pad as arrows. */
-const STANDARD_BUTTONS = [
-  'A',
-  'B',
-  'X',
-  'Y',
-  'LB',
-  'RB',
-  'LT',
-  'RT',
-  'Back',
-  'Start',
-  'L3',
-  'R3',
-  '↑',
-  '↓',
-  '←',
-  '→',
-  'Home',
-] as const;
-
-/** @param isStandard whether the browser knows which button it is */
-export function buttonName(button: number, isStandard: boolean): string {
-  return (isStandard ? STANDARD_BUTTONS[button] : undefined) ?? texts().inputs.button(button + 1);
-}
-
-/** What a sentence begins with. */
-export function capital(words: string): string {
-  return words.slice(0, 1).toUpperCase() + words.slice(1);
-}
-
-function roleWords(role: ButtonRole | AxisRole): string {
-  const { axisRoles, buttonRoles } = texts().inputs;
-  return isAxisRole(role) ? axisRoles[role] : buttonRoles[role];
-}
-
-function isAxisRole(role: ButtonRole | AxisRole): role is AxisRole {
-  return (AXIS_ROLES as readonly string[]).includes(role);
-}
-
-/** What has been measured. @param still indexes of axes that did not move */
-export function measuredWords(still: readonly number[]): string {
-  const { measuredAll, notMoved, axis } = texts().inputs;
-  return still.length === 0 ? measuredAll : notMoved(still.map((each) => axis(each + 1)).join(', '));
-}
-
-/** Why what was chosen for a device cannot be saved; `null` if it can. */
-export function missingWords(map: ControllerMap): string | null {
-  const missing = missingOf(map);
-  return missing === null ? null : texts().inputs.missing[missing];
 }
 
 /** The most characters of a device's name that are shown. Chosen: a line of the dialog; input-words.test.ts holds it. */

@@ -1,7 +1,7 @@
 import { afterEach, expect, test } from 'vitest';
 import { bannerWords } from './banner-words.ts';
 import { sessionFacts } from './facts.ts';
-import { language, speak, textAt, texts } from './language.ts';
+import { language, laterTexts, loadLaterTexts, speak, textAt, texts } from './language.ts';
 import type { PageStats } from './page-stats.ts';
 import { saveWords, sliderWords, tileFaultWords } from './settings-words.ts';
 
@@ -19,6 +19,13 @@ test('what is said follows the language that is spoken', async () => {
     'Nothalt',
     'Einstellungen',
   ]);
+});
+
+test('what parts say that are loaded later follows the language, too, and is there once', async () => {
+  await loadLaterTexts();
+  expect(laterTexts().help.groups.stop).toBe('Stop');
+  await speak('de');
+  expect(laterTexts().help.groups.stop).toBe('Anhalten');
 });
 
 test('a place without a text is a fault of the page', () => {

@@ -1,6 +1,6 @@
 /** Where the time goes, as lines of the headset's menu. */
 import type { CommandStage, FrameStage, StageSummary } from '@farpoint/operator';
-import { texts } from './language.ts';
+import { laterTexts, texts } from './language.ts';
 import { stageLines, totalWords, unknownWords } from './stage-words.ts';
 import type { Words } from './words.ts';
 
@@ -9,7 +9,8 @@ export function menuTimes(
   clouds: StageSummary<FrameStage> | null,
   commands: StageSummary<CommandStage>,
 ): { clouds: Words[]; commands: Words[] } {
-  const { headsetMenu: said, timing } = texts();
+  const { timing } = texts();
+  const { headsetMenu: said } = laterTexts();
   return {
     clouds: linesOf(said.clouds, clouds, timing.frameStages),
     commands: linesOf(said.commands, commands, timing.commandStages),
@@ -28,7 +29,7 @@ function linesOf<Stage extends string>(
     total,
     ...stageLines(summary, names).map(
       ({ name, median, p95, isWorst }): Words => ({
-        text: texts().headsetMenu.stage(name, median, p95),
+        text: laterTexts().headsetMenu.stage(name, median, p95),
         tone: isWorst ? 'warning' : 'neutral',
       }),
     ),

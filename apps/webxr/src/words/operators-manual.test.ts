@@ -3,7 +3,9 @@ import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { STANDARD_MAP } from '../take/drive/controller-map.ts';
 import { DEFAULT_KEYS } from '../take/drive/key-map.ts';
+import { leavesOf, said } from '../testing/catalogue-leaves.ts';
 import { english } from './en/catalogue.ts';
+import { laterEnglish } from './en/later-catalogue.ts';
 import { helpGroups } from './help-rows.ts';
 
 const manual = readFileSync(new URL('../../../../docs/operators-manual.md', import.meta.url), 'utf8');
@@ -29,22 +31,11 @@ test('its keys and buttons are those that the page has at first, and none is lef
   expect(told.toSorted()).toEqual(mapped.toSorted());
 });
 
-/** Every text of the catalogue; what a text names is left empty. */
-function textsOf(value: unknown): string[] {
-  if (typeof value === 'string') return [value];
-  if (typeof value !== 'function') return Object.values(value as object).flatMap(textsOf);
-  const named: unknown = new Proxy(() => '', {
-    get: (_, key) => {
-      if (key === 'map') return () => named;
-      return key === Symbol.toPrimitive || key === 'join' ? () => '' : named;
-    },
-  });
-  return [String(value(named, named, named, named))];
-}
-
 test('what it quotes where the robot does not move, the page says', () => {
-  const said = textsOf(english).join('\n');
+  // What a text names is left empty.
+  const texts = leavesOf({ ...english, ...laterEnglish }).map((leaf) => said(leaf, ''));
+  const page = texts.join('\n');
   const quoted = tableAfter('| what the page says | why | what to do |').map(([first = '']) => first);
   expect(quoted.length).toBeGreaterThan(12);
-  for (const each of quoted) expect(said).toContain(each.replace(/^\*(.*)\*$/, '$1'));
+  for (const each of quoted) expect(page).toContain(each.replace(/^\*(.*)\*$/, '$1'));
 });

@@ -4,7 +4,7 @@
  */
 import type { Summary } from '../ground/report/quantiles.ts';
 import type { SessionReport } from '../ground/report/report-schema.ts';
-import { texts } from './language.ts';
+import { laterTexts } from './language.ts';
 import { durationText } from './session-text.ts';
 
 const STYLE = `body{font:14px/1.4 system-ui,sans-serif;color:#111;background:#fff;max-width:52rem;margin:1.5rem auto;padding:0 1rem}
@@ -20,7 +20,7 @@ type Row = readonly [name: string, ...values: string[]];
 
 /** @param language of the page, for its `lang` @returns HTML */
 export function reportPage(report: SessionReport, language: string): string {
-  const said = texts().report;
+  const said = laterTexts().report;
   const sections = [
     sectionOf(said.driving, drivingRows(report)),
     sectionOf(said.interventions, interventionRows(report)),
@@ -59,7 +59,7 @@ ${[sectionOf(null, headRows(report)), ...sections].join('\n')}
 
 /** Why a session ended, in the page's language; as it stands if it is unknown. */
 function endText(end: string): string {
-  const { report, events } = texts();
+  const { report, events } = laterTexts();
   const own: Readonly<Record<string, string>> = {
     left: report.left,
     'new-session': report.newSession,
@@ -69,7 +69,7 @@ function endText(end: string): string {
 }
 
 function headRows({ robot, operator, beganMs, endedMs, durationS, end }: SessionReport): Row[] {
-  const said = texts().report;
+  const said = laterTexts().report;
   const role = operator.role === null ? '' : ` (${operator.role})`;
   return [
     [said.robot, robot.name === robot.id ? robot.id : `${robot.name} (${robot.id})`],
@@ -82,7 +82,7 @@ function headRows({ robot, operator, beganMs, endedMs, durationS, end }: Session
 }
 
 function drivingRows({ driving }: SessionReport): Row[] {
-  const said = texts().report;
+  const said = laterTexts().report;
   const { leaseS, drivingS, standingS, unknownS, distanceM, positionJumps, topSpeedMps } = driving;
   return [
     [said.lease, durationText(leaseS)],
@@ -96,7 +96,7 @@ function drivingRows({ driving }: SessionReport): Row[] {
 }
 
 function interventionRows({ interventions: all }: SessionReport): Row[] {
-  const { report: said, events } = texts();
+  const { report: said, events } = laterTexts();
   const lasting = (times: number, seconds: number) => `${said.times(times)}, ${durationText(seconds)}`;
   const refused = Object.entries(all.commandsRefused);
   return [
@@ -121,7 +121,7 @@ function interventionRows({ interventions: all }: SessionReport): Row[] {
 }
 
 function linkRows({ link }: SessionReport): Row[] {
-  const said = texts().report;
+  const said = laterTexts().report;
   const sent = link.packetsReceived + link.packetsLost;
   const lost = sent === 0 ? '–' : `${((100 * link.packetsLost) / sent).toFixed(2)} %`;
   return [
@@ -134,7 +134,7 @@ function linkRows({ link }: SessionReport): Row[] {
 }
 
 function latencyRows({ latency }: SessionReport): (readonly [string, Summary | null])[] {
-  const said = texts().report;
+  const said = laterTexts().report;
   const { frameMs, frameStagesMs, commandMs, commandStagesMs, motionToPhotonMs } = latency;
   const part = (name: string) => `– ${name}`;
   return [
@@ -151,7 +151,7 @@ function latencyRows({ latency }: SessionReport): (readonly [string, Summary | n
 }
 
 function tableOf(title: string, rows: readonly (readonly [string, Summary | null])[]): string {
-  const said = texts().report;
+  const said = laterTexts().report;
   const head: Row = ['', said.median, said.p95, said.most, said.mean, said.samples];
   return sectionOf(
     title,

@@ -1,6 +1,6 @@
 /** Sessions in a few words. Pure. */
 import type { SessionReport } from '../ground/report/report-schema.ts';
-import { texts } from './language.ts';
+import { laterTexts } from './language.ts';
 
 /** How long something took, for people: `1:02:03` hours or `2:03` minutes. @param seconds 0 or more */
 export function durationText(seconds: number): string {
@@ -13,7 +13,7 @@ export function durationText(seconds: number): string {
 
 /** Which robot, when, and for how long. */
 export function sessionText({ robot, beganMs, durationS, end }: SessionReport): string {
-  const { sessionOf, lasts } = texts().report;
+  const { sessionOf, lasts } = laterTexts().report;
   const time = new Date(beganMs).toLocaleTimeString([], { timeStyle: 'short' });
   return sessionOf(robot.name, time, end === null ? lasts : durationText(durationS));
 }

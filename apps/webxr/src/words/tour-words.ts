@@ -3,7 +3,7 @@ import { type KeyMap, type KeyRole, mainKey } from '../take/drive/key-map.ts';
 import type { LatchedStop } from './estop-words.ts';
 import { controllerParts, type HelpController } from './help-rows.ts';
 import { keyName } from './input-words.ts';
-import { texts } from './language.ts';
+import { laterTexts, texts } from './language.ts';
 
 export const TOUR_STEPS = ['grip', 'drive', 'stop', 'release'] as const;
 export type TourStep = (typeof TOUR_STEPS)[number];
@@ -26,13 +26,13 @@ export interface TourFacts {
 
 /** What the operator does in this step; or what keeps the step from being done. */
 export function tourLine(step: TourStep | 'done', facts: TourFacts): string {
-  const { tour } = texts().help;
+  const { tour } = laterTexts().help;
   if (step === 'done') return tour.done;
   return tour.step(TOUR_STEPS.indexOf(step) + 1, TOUR_STEPS.length, sentence(step, facts));
 }
 
 function sentence(step: TourStep, facts: TourFacts): string {
-  const { tour } = texts().help;
+  const { tour } = laterTexts().help;
   const { stop, heldBy } = facts;
   if (stop !== null && (step !== 'release' || !stop.mayRelease)) return tour.stopIsOn(stop.why, stop.release);
   switch (step) {
@@ -59,14 +59,14 @@ function refusal({ watches, otherDrives }: TourFacts): string | null {
 }
 
 function gripSentence(facts: TourFacts): string {
-  const { tour } = texts().help;
+  const { tour } = laterTexts().help;
   if (facts.touch) return tour.gripFinger;
   const names = named('grip', facts);
   return names === '' ? tour.gripUnset : tour.grip(names);
 }
 
 function driveSentence({ keys, touch, controller }: TourFacts): string {
-  const { tour } = texts().help;
+  const { tour } = laterTexts().help;
   if (touch) return tour.driveFinger;
   const ways = (['forward', 'left', 'back', 'right'] as const).flatMap((role) => mainKey(keys, role) ?? []);
   const stick = controller === null ? undefined : controllerParts('forward', controller)[0];
@@ -81,10 +81,10 @@ function named(role: KeyRole, { keys, controller }: TourFacts): string {
   if (controller === null || button === undefined) return oneOf(keys[role].map(keyName));
   const key = mainKey(keys, role);
   const names = key === undefined ? [] : [keyName(key)];
-  return oneOf([...names, texts().help.tour.ofDevice(button, controller.name)]);
+  return oneOf([...names, laterTexts().help.tour.ofDevice(button, controller.name)]);
 }
 
 function oneOf(names: readonly string[]): string {
   const [last = '', ...others] = names.toReversed();
-  return others.length === 0 ? last : texts().help.tour.or(others.reverse().join(', '), last);
+  return others.length === 0 ? last : laterTexts().help.tour.or(others.reverse().join(', '), last);
 }

@@ -1,4 +1,5 @@
 import { describe, expect, test } from 'vitest';
+import * as files from './memory-files.ts';
 import { MemoryKeeping } from './memory-keeping.ts';
 import type { FromMemoryWorker } from './memory-messages.ts';
 import { MemoryPages } from './memory-pages.ts';
@@ -9,6 +10,12 @@ import { TOP_VIEW_BYTES, TopView } from './top-view.ts';
 class Port {
   readonly posted: FromMemoryWorker[] = [];
   now = 0;
+  /** Whether the code for files cannot be loaded. */
+  offline = false;
+  withFiles(use: (code: typeof files) => void, failed: () => void): void {
+    if (this.offline) failed();
+    else use(files);
+  }
   post(message: FromMemoryWorker): void {
     this.posted.push(message);
   }
@@ -101,5 +108,17 @@ describe('MemoryKeeping', () => {
     expect(refusal('VERSION 0.7\n')).toEqual([
       { type: 'refused', ticket: 9, message: 'PCD, line 2: the header does not end with a DATA line' },
     ]);
+  });
+
+  test('says so where the code for files cannot be loaded, and keeps what it has', () => {
+    const { port, keeping } = seen();
+    port.take();
+    port.offline = true;
+    const asked = { nowMs: 5000, savedAt: '2026-01-01T00:00:00Z', format: 'ply', agoS: 0 } as const;
+    keeping.onMessage({ type: 'save', ticket: 3, ...asked });
+    keeping.onMessage({ type: 'load', ticket: 4, ...asked, bytes: new ArrayBuffer(8) });
+    const message = 'the code for files could not be loaded: check the network';
+    expect(port.take()).toEqual([3, 4].map((ticket) => ({ type: 'refused', ticket, message })));
+    expect(keeping.map.store.count).toBeGreaterThan(3000);
   });
 });

@@ -1,10 +1,9 @@
 /** The memory worker's work, without the worker: takes key frames, hands changed pages on. The clock is an argument. */
 import { KeyFrame } from './key-frame.ts';
-import { TICKS_PER_S, ticksOf } from './memory-layout.ts';
+import type { readIntoMemory, writeMemory } from './memory-files.ts';
+import { ticksOf } from './memory-layout.ts';
 import type { FromMemoryWorker, ToMemoryWorker } from './memory-messages.ts';
 import { MemoryPages, PAGES_BYTES } from './memory-pages.ts';
-import { isPcd, readPcd, writePcd } from './pcd.ts';
-import { readPly, writePly } from './ply.ts';
 import { PointFileError } from './point-file.ts';
 import { TopView } from './top-view.ts';
 import { WorldMap, type WorldMapOptions } from './world-map.ts';
@@ -16,6 +15,13 @@ export interface MemoryPort {
   post(message: FromMemoryWorker, transfer: Transferable[]): void;
   /** `performance.now()` */
   nowMs(): number;
+  /** Hands over what reads and writes files, which is loaded with the first of them; or says that it cannot be loaded. */
+  withFiles(use: (files: MemoryFiles) => void, failed: () => void): void;
+}
+
+export interface MemoryFiles {
+  readonly writeMemory: typeof writeMemory;
+  readonly readIntoMemory: typeof readIntoMemory;
 }
 
 export class MemoryKeeping {
@@ -57,6 +63,7 @@ export class MemoryKeeping {
         return;
       case 'load':
         this.#load(message);
+        return;
     }
     this.#handOn();
   }
@@ -91,37 +98,27 @@ export class MemoryKeeping {
   }
 
   #save({ ticket, nowMs, savedAt, format }: ToMemoryWorker & { type: 'save' }): void {
-    const { store } = this.map;
-    const now = ticksOf(nowMs);
-    const bytes =
-      format === 'ply'
-        ? writePly(store, now, savedAt)
-        : writePcd(store, format === 'pcd' ? 'binary' : 'ascii', now, savedAt);
-    this.#port.post({ type: 'saved', ticket, bytes }, [bytes]);
+    this.#withFiles(ticket, ({ writeMemory: write }) => {
+      const bytes = write(this.map.store, format, ticksOf(nowMs), savedAt);
+      this.#port.post({ type: 'saved', ticket, bytes }, [bytes]);
+    });
   }
 
   #load({ ticket, nowMs, agoS, bytes }: ToMemoryWorker & { type: 'load' }): void {
-    try {
-      const whole = new Uint8Array(bytes);
-      const file = isPcd(whole) ? readPcd(whole) : readPly(whole);
-      const now = ticksOf(nowMs);
-      let points = 0;
-      for (let i = 0; i < file.count; i++) {
-        const [x, y, z] = [file.places[i * 3], file.places[i * 3 + 1], file.places[i * 3 + 2]];
-        const ticks = Math.max(now - Math.round(((file.agesS[i] as number) + agoS) * TICKS_PER_S), 0);
-        const isNew = this.map.restore(
-          x as number,
-          y as number,
-          z as number,
-          file.colours[i] as number,
-          ticks,
-        );
-        points += Number(isNew);
+    this.#withFiles(ticket, ({ readIntoMemory: read }) => {
+      try {
+        const points = read(this.map, bytes, ticksOf(nowMs), agoS);
+        this.#port.post({ type: 'loaded', ticket, points }, []);
+      } catch (error) {
+        if (!(error instanceof PointFileError)) throw error;
+        this.#port.post({ type: 'refused', ticket, message: error.message }, []);
       }
-      this.#port.post({ type: 'loaded', ticket, points }, []);
-    } catch (error) {
-      if (!(error instanceof PointFileError)) throw error;
-      this.#port.post({ type: 'refused', ticket, message: error.message }, []);
-    }
+      this.#handOn();
+    });
+  }
+
+  #withFiles(ticket: number, use: (files: MemoryFiles) => void): void {
+    const message = 'the code for files could not be loaded: check the network';
+    this.#port.withFiles(use, () => this.#port.post({ type: 'refused', ticket, message }, []));
   }
 }

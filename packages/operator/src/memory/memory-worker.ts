@@ -8,6 +8,7 @@ declare const self: DedicatedWorkerGlobalScope;
 const keeping = new MemoryKeeping({
   post: (message, transfer) => self.postMessage(message, transfer),
   nowMs: () => performance.now(),
+  withFiles: (use, failed) => void import('./memory-files.ts').then(use, failed),
 });
 
 self.onmessage = ({ data }: MessageEvent<ToMemoryWorker>) => keeping.onMessage(data);

@@ -110,7 +110,7 @@ export class WorldMemory {
     return this.#nowMs / 1000;
   }
 
-  /** Everything that is remembered, as a file. */
+  /** Everything that is remembered, as a file. @throws {MemoryFileError} where the code for files cannot be loaded */
   async save(format: PointFileFormat = 'ply'): Promise<ArrayBuffer> {
     const savedAt = new Date().toISOString();
     return (await this.#ask((ticket) => ({

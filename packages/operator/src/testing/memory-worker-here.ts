@@ -1,4 +1,5 @@
 /** Stands in for the memory's worker: remembers at once, on the caller's thread, so that a test knows what is remembered. */
+import * as files from '../memory/memory-files.ts';
 import { MemoryKeeping } from '../memory/memory-keeping.ts';
 import type { FromMemoryWorker, ToMemoryWorker } from '../memory/memory-messages.ts';
 
@@ -11,6 +12,7 @@ export class MemoryWorkerHere {
     // A copy, as between threads: who keeps a buffer that it has handed over finds it detached.
     post: (message, transfer) => this.#answers.push(structuredClone(message, { transfer })),
     nowMs: () => performance.now(),
+    withFiles: (use) => use(files),
   });
   #busy = false;
 

@@ -7,8 +7,8 @@ import type { Moment } from '../../ground/telemetry/moment.ts';
 import type { PresentedInstant } from '../../ground/telemetry/presented-instant.ts';
 import type { TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
 import type { PageState } from '../../state/page-state.ts';
-import { texts } from '../../words/language.ts';
 import { elements } from '../ui/elements.ts';
+import { LaterPart } from '../ui/later-part.ts';
 import type { Dashboard } from './dashboard.ts';
 
 export interface DashboardOpenerParts {
@@ -26,13 +26,14 @@ export class DashboardOpener {
   readonly #dashboard = signal<Dashboard | null>(null);
   /** The tile with where the time goes is to be shown, once the dashboard is. */
   readonly #wantsStages = signal(false);
-  #loading = false;
+  readonly #code;
   /** Robot's clock minus page's clock, as last known, ms. */
   #offsetMs: number | null = null;
 
   constructor(parts: DashboardOpenerParts) {
     this.#parts = parts;
     const { state, client, inVr } = parts;
+    this.#code = new LaterPart(() => import('./dashboard.ts'), state.notices);
     const { dashboardOpen, dashboard, alarm } = elements;
     dashboardOpen.addEventListener('click', () => this.toggle());
     alarm.addEventListener('click', () => {
@@ -76,32 +77,32 @@ export class DashboardOpener {
   }
 
   #load(): void {
-    if (this.#loading) return;
-    this.#loading = true;
-    const { client, state, settings, recorder } = this.#parts;
-    import('./dashboard.ts').then(
-      (module) => {
-        this.#dashboard.value = new module.Dashboard({
-          element: elements.dashboard,
-          recorder,
-          mapTiles: () => settings.mapTiles,
-          alarms: state.robot.alarms,
-          stages: () => client.statistics,
-          testLatency: (startedAtMs) => client.latencyTest(startedAtMs),
-          session: () => client.link.session,
-          momentAt: (nowMs) => this.#momentAt(nowMs),
-          close: () => {
-            this.#open.value = false;
-          },
-        });
+    if (this.#dashboard.peek() !== null) return;
+    void this.#code.use(
+      (code) => {
+        this.#dashboard.value ??= this.#build(code.Dashboard);
       },
-      (error: unknown) => {
-        console.error(error);
-        this.#loading = false;
+      () => {
         this.#open.value = false;
-        state.notices.tell(texts().dashboard.cannotLoad, 'warning');
       },
     );
+  }
+
+  #build(Kind: typeof Dashboard): Dashboard {
+    const { client, state, settings, recorder } = this.#parts;
+    return new Kind({
+      element: elements.dashboard,
+      recorder,
+      mapTiles: () => settings.mapTiles,
+      alarms: state.robot.alarms,
+      stages: () => client.statistics,
+      testLatency: (startedAtMs) => client.latencyTest(startedAtMs),
+      session: () => client.link.session,
+      momentAt: (nowMs) => this.#momentAt(nowMs),
+      close: () => {
+        this.#open.value = false;
+      },
+    });
   }
 
   #momentAt(nowMs: number): Moment {

@@ -6,7 +6,7 @@ import { effect, type ReadonlySignal, signal } from '@preact/signals-core';
 import type { MapTiles } from '../../ground/telemetry/map-tiles.ts';
 import type { Moment } from '../../ground/telemetry/moment.ts';
 import type { TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
-import { texts } from '../../words/language.ts';
+import { laterTexts } from '../../words/language.ts';
 import type { Words } from '../../words/words.ts';
 import { followKey } from '../ui/key-title.ts';
 import { quietButton, selectOf } from '../ui/panel-parts.ts';
@@ -55,7 +55,7 @@ class TileFrameView {
   constructor(tile: Tile, { move, resize, hide }: TileActions) {
     this.#tile = tile;
     this.element.className = 'tile';
-    const said = texts().dashboard;
+    const said = laterTexts().dashboard;
     this.#named = [
       [quietButton('◀', said.earlier, () => move(-1)), said.moveEarlier],
       [quietButton('▶', said.later, () => move(1)), said.moveLater],
@@ -188,7 +188,7 @@ export class Dashboard {
 
   #header(): HTMLElement {
     const header = part('heads');
-    const said = texts().dashboard;
+    const said = laterTexts().dashboard;
     const title = document.createElement('h2');
     title.textContent = said.title;
     const spans = WINDOWS_S.map(spanText);
@@ -222,7 +222,7 @@ export class Dashboard {
     alert.setAttribute('role', 'alert');
     const list = document.createElement('ul');
     list.className = 'alarms';
-    list.ariaLabel = texts().dashboard.alarms;
+    list.ariaLabel = laterTexts().dashboard.alarms;
     alert.append(list);
     effect(() => {
       const alarms = this.#parts.alarms.value;
@@ -270,7 +270,7 @@ export class Dashboard {
     this.#hidden.replaceChildren(
       ...hidden.map(({ id }) => {
         const title = kinds.get(id)?.title ?? id;
-        return quietButton(`+ ${title}`, texts().dashboard.showTile(title), () =>
+        return quietButton(`+ ${title}`, laterTexts().dashboard.showTile(title), () =>
           this.#change(id, { shown: true }),
         );
       }),
@@ -297,7 +297,7 @@ export class Dashboard {
 }
 
 function stateWords(silentMs: number, { instantMs, robotNowMs, heard }: Moment): string {
-  const said = texts().dashboard;
+  const said = laterTexts().dashboard;
   if (silentMs === Number.POSITIVE_INFINITY) return said.noDataYet;
   if (!heard) return said.noDataFor(ageText(silentMs));
   if (instantMs === null) return said.newest;

@@ -3,7 +3,7 @@ import { effect } from '@preact/signals-core';
 import { palette } from '../../ground/display/palette.ts';
 import type { MapTiles } from '../../ground/telemetry/map-tiles.ts';
 import type { TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
-import { texts } from '../../words/language.ts';
+import { laterTexts } from '../../words/language.ts';
 import { quietButton } from '../ui/panel-parts.ts';
 import { paintMap } from './map-painter.ts';
 import { MapProjection } from './map-projection.ts';
@@ -112,7 +112,7 @@ export class MapTile implements Tile {
   constructor(recorder: TelemetryRecorder, tiles: () => MapTiles | null) {
     this.#robot = new RobotOnMap(recorder);
     this.element.append(this.#canvas, this.#buttons, this.#attribution);
-    const said = texts().dashboard;
+    const said = laterTexts().dashboard;
     this.#addButton('+', said.zoomIn, () => this.#projection.zoom(BUTTON_ZOOM));
     this.#addButton('−', said.zoomOut, () => this.#projection.zoom(1 / BUTTON_ZOOM));
     this.#following = this.#addButton(said.follow, said.followTitle, () => this.#setFollow(!this.#follow));
@@ -180,7 +180,7 @@ export class MapTile implements Tile {
   }
 
   #showDirection(): void {
-    const said = texts().dashboard;
+    const said = laterTexts().dashboard;
     setText(this.#turning, this.#projection.up === 'north' ? said.northUp : said.xUp);
   }
 
@@ -192,7 +192,7 @@ export class MapTile implements Tile {
 
   #showSource(): void {
     const { bySatellite } = this.#robot;
-    const said = texts().dashboard;
+    const said = laterTexts().dashboard;
     setText(this.#source, bySatellite ? said.bySatellite : said.byOdometry);
     // Tiles have north up.
     this.#turning.disabled = bySatellite;
@@ -246,6 +246,6 @@ function mapCanvas(): HTMLCanvasElement {
   const canvas = document.createElement('canvas');
   canvas.tabIndex = 0;
   canvas.setAttribute('role', 'img');
-  canvas.ariaLabel = texts().dashboard.mapLabel;
+  canvas.ariaLabel = laterTexts().dashboard.mapLabel;
   return canvas;
 }

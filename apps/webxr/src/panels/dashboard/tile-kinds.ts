@@ -8,7 +8,7 @@ import {
   type RecordedSeries,
   type TelemetryRecorder,
 } from '../../ground/telemetry/recorder.ts';
-import { texts } from '../../words/language.ts';
+import { laterTexts } from '../../words/language.ts';
 import { shownReading } from '../../words/shown-readings.ts';
 import { ChartTile } from './chart-tile.ts';
 import type { PlacedTile } from './layout.ts';
@@ -50,7 +50,7 @@ function diagnosticsTile(session: () => RobotSession): Tile {
         const item = list.children[i] as HTMLElement;
         item.dataset.level = level;
         const [word, text, age] = [...item.children] as [HTMLElement, HTMLElement, HTMLElement];
-        setText(word, texts().dashboard.levels[level]);
+        setText(word, laterTexts().dashboard.levels[level]);
         setText(text, message === '' ? name : `${name}: ${message}`);
         setText(age, ageText(Math.max(0, robotNowMs - sinceMs)));
       });
@@ -60,7 +60,7 @@ function diagnosticsTile(session: () => RobotSession): Tile {
 }
 
 function countWords(topics: readonly ReportedComponents[], silentMs: number | null): string {
-  const said = texts().dashboard;
+  const said = laterTexts().dashboard;
   if (topics.length === 0) return said.noComponent;
   const words = diagnosticLevels.flatMap((level) => {
     const count = topics.reduce((sum, { counts }) => sum + counts[level], 0);
@@ -84,7 +84,7 @@ const TOPICS_EVERY_MS = 250;
 function topicsTile(session: () => RobotSession): Tile {
   const element = part('topics');
   const nothing = part('nothing', 'p');
-  nothing.textContent = texts().dashboard.noTopics;
+  nothing.textContent = laterTexts().dashboard.noTopics;
   const list = document.createElement('dl');
   element.append(nothing, list);
   return {
@@ -131,7 +131,7 @@ export const STAGES_TILE = 'stages';
 
 /** The page names what comes with the robot's state; the robot names the rest. */
 function seriesTitle({ key, label, unit, recorded }: Omit<RecordedSeries, 'series' | 'field'>): string {
-  const { series, recorded: ofRecording } = texts().dashboard;
+  const { series, recorded: ofRecording } = laterTexts().dashboard;
   const own = (Object.keys(OWN) as OwnSeries[]).find((name) => OWN[name].key === key);
   const name = label ?? (own === undefined ? key : series[own]);
   const shown = recorded === true ? ofRecording(name) : name;
@@ -142,7 +142,7 @@ function seriesTitle({ key, label, unit, recorded }: Omit<RecordedSeries, 'serie
 export function tileKinds(sources: TileSources): TileKind[] {
   const { recorder, mapTiles, session } = sources;
   const values = ownValues(recorder);
-  const said = texts().dashboard.tiles;
+  const said = laterTexts().dashboard.tiles;
   const value = (id: 'speed' | 'battery' | 'heading' | 'position'): TileKind => ({
     id,
     title: said[id],

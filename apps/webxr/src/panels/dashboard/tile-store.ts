@@ -1,6 +1,6 @@
 /** Images of a map's tiles: fetched when asked for, a few at a time, and kept up to a limit. */
 import { type MapTiles, tileUrl } from '../../ground/telemetry/map-tiles.ts';
-import { texts } from '../../words/language.ts';
+import { laterTexts } from '../../words/language.ts';
 
 /** About 50 MB of pixels; and as many at once as browsers ask one server for over HTTP/1.1. */
 const MOST_KEPT = 192;
@@ -31,7 +31,7 @@ export class TileStore {
 
   get attribution(): string {
     const { attribution, host } = this.#tiles;
-    return attribution ?? texts().dashboard.mapOf(host);
+    return attribution ?? laterTexts().dashboard.mapOf(host);
   }
 
   /** @returns `null` if it is not there (yet) */

@@ -1,7 +1,7 @@
 /** A tile with one value in large digits, a line below it, and its age once it is stale. */
 import { type ShownValue, shownAt } from '../../ground/telemetry/moment.ts';
 import { OWN, type RecordedSeries, type TelemetryRecorder } from '../../ground/telemetry/recorder.ts';
-import { texts } from '../../words/language.ts';
+import { laterTexts, texts } from '../../words/language.ts';
 import { ageText, fixText, withUnit } from './number-words.ts';
 import { part, setText, type Tile, type TileFrame } from './tile.ts';
 
@@ -52,13 +52,17 @@ export function ownValues(recorder: TelemetryRecorder): Readonly<Record<string, 
       const speed = textOf(own('speed'), frame);
       const turning = textOf(own('turning'), frame);
       if (speed === null) return NOTHING;
-      return { text: speed.text, below: texts().dashboard.turning(turning?.text ?? '–'), value: speed.shown };
+      return {
+        text: speed.text,
+        below: laterTexts().dashboard.turning(turning?.text ?? '–'),
+        value: speed.shown,
+      };
     },
     heading(frame) {
       const heading = textOf(own('heading'), frame);
       return heading === null
         ? NOTHING
-        : { text: heading.text, below: texts().dashboard.fromX, value: heading.shown };
+        : { text: heading.text, below: laterTexts().dashboard.fromX, value: heading.shown };
     },
     position(frame) {
       const [latitude, longitude] = [recorder.ofField('latitude', '°'), recorder.ofField('longitude', '°')];
@@ -69,13 +73,13 @@ export function ownValues(recorder: TelemetryRecorder): Readonly<Record<string, 
         return { text: fixText(north.value, east.value), below: world ?? '', value: north };
       return world === null
         ? NOTHING
-        : { text: world, below: texts().dashboard.odometry, value: x?.shown ?? null };
+        : { text: world, below: laterTexts().dashboard.odometry, value: x?.shown ?? null };
     },
     battery(frame) {
       const charge = textOf(recorder.charge, frame);
       const voltage = textOf(recorder.voltage, frame);
       const first = charge ?? voltage;
-      if (first === null) return { ...NOTHING, below: texts().dashboard.noGauge };
+      if (first === null) return { ...NOTHING, below: laterTexts().dashboard.noGauge };
       return { text: first.text, below: charge === null ? '' : (voltage?.text ?? ''), value: first.shown };
     },
   };

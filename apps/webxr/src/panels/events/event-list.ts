@@ -3,7 +3,7 @@ import type { EventLog } from '../../ground/events/event-log.ts';
 import { severityOf } from '../../ground/events/event-table.ts';
 import type { PageEvent } from '../../ground/events/page-event.ts';
 import { type EventFilter, eventText, passes } from '../../words/event-words.ts';
-import { texts } from '../../words/language.ts';
+import { laterTexts } from '../../words/language.ts';
 
 /** So many of the newest are listed; files have all. Chosen: more than anybody scrolls through, and made in a few ms. */
 const MOST_LISTED = 300;
@@ -27,7 +27,7 @@ export function listedEvents({ kept }: Pick<EventLog, 'kept'>, filter: EventFilt
 
 /** A table with an empty body. */
 export function eventTable(body: HTMLElement): HTMLElement {
-  const { time, robot, severity, what } = texts().events;
+  const { time, robot, severity, what } = laterTexts().events;
   const table = document.createElement('table');
   const head = document.createElement('thead');
   const row = document.createElement('tr');
@@ -44,7 +44,7 @@ export function eventTable(body: HTMLElement): HTMLElement {
 
 export function eventRow(event: PageEvent): HTMLElement {
   const { atMs, lastMs, times, robot, detail } = event;
-  const said = texts().events;
+  const said = laterTexts().events;
   const row = document.createElement('tr');
   const time = document.createElement('time');
   const at = new Date(atMs);

@@ -5,7 +5,7 @@ import type { EventLog } from '../../ground/events/event-log.ts';
 import { EVENT_GROUPS } from '../../ground/events/page-event.ts';
 import type { SessionReport } from '../../ground/report/report-schema.ts';
 import { type EventFilter, eventsCsv, eventsJsonLines } from '../../words/event-words.ts';
-import { texts } from '../../words/language.ts';
+import { laterTexts } from '../../words/language.ts';
 import { quietButton, selectOf } from '../ui/panel-parts.ts';
 import { saveFile, saveTable } from '../ui/save-file.ts';
 import { type Capturing, captureButtons } from './capture-buttons.ts';
@@ -67,7 +67,7 @@ export class EventsDialog {
     const { events, dropped } = this.#log.kept;
     const news = events.length + dropped - this.#listed;
     this.#newer.hidden = news <= 0;
-    this.#newer.textContent = texts().events.newer(news);
+    this.#newer.textContent = laterTexts().events.newer(news);
   }
 
   #list(): void {
@@ -75,14 +75,14 @@ export class EventsDialog {
     this.#listed = kept + dropped;
     this.#newer.hidden = true;
     this.#rows.replaceChildren(...rows.map(eventRow));
-    const said = texts().events;
+    const said = laterTexts().events;
     this.#count.textContent = kept === 0 ? said.empty : said.count(rows.length, kept, dropped);
     this.#scrolled.scrollTop = 0;
     this.element.scrollTop = 0;
   }
 
   #head(): HTMLElement {
-    const said = texts().events;
+    const said = laterTexts().events;
     const head = document.createElement('header');
     const title = document.createElement('h2');
     title.id = 'events-title';
@@ -107,7 +107,7 @@ export class EventsDialog {
   }
 
   #groups(): HTMLElement {
-    const said = texts().events;
+    const said = laterTexts().events;
     const choice = {
       label: said.filterGroup,
       values: ['all', ...EVENT_GROUPS] as const,
@@ -121,7 +121,7 @@ export class EventsDialog {
   #text(): HTMLElement {
     const field = document.createElement('input');
     field.type = 'search';
-    field.placeholder = texts().events.filterText;
+    field.placeholder = laterTexts().events.filterText;
     field.ariaLabel = field.placeholder;
     field.maxLength = 100;
     field.addEventListener('input', () => {

@@ -5,9 +5,11 @@ import type { Notices } from '../../state/notices.ts';
 import { texts } from '../../words/language.ts';
 import { elements } from '../ui/elements.ts';
 import { followKey } from '../ui/key-title.ts';
+import { LaterPart } from '../ui/later-part.ts';
 import { openDialog } from '../ui/open-dialog.ts';
 import { quietButton } from '../ui/panel-parts.ts';
 import type { Capturing } from './capture-buttons.ts';
+import type { EventsDialog } from './events-dialog.ts';
 import { showLastSession } from './last-session.ts';
 
 export interface EventsOpenerParts {
@@ -19,45 +21,38 @@ export interface EventsOpenerParts {
 
 export class EventsOpener {
   readonly #parts: EventsOpenerParts;
+  readonly #code;
   #dialog: HTMLDialogElement | null = null;
-  #loading = false;
 
   constructor(parts: EventsOpenerParts) {
     this.#parts = parts;
+    this.#code = new LaterPart(() => import('./events-dialog.ts'), parts.notices);
   }
 
   /** Puts a button into the bar, and the last session's report below the list of robots. */
   start(): void {
-    const { open, openTitle } = texts().events;
-    const button = quietButton(open, openTitle, () => void this.toggle());
+    const { events, eventsTitle } = texts().dialogs;
+    const button = quietButton(events, eventsTitle, () => this.toggle());
     followKey(button, 'events');
     button.id = 'events-open';
     elements.settingsOpen.before(button);
     showLastSession(this.#parts.reports);
   }
 
-  async toggle(): Promise<void> {
+  toggle(): void {
     if (this.#dialog?.open === true) {
       this.#dialog.close();
       return;
     }
-    if (this.#loading) return;
-    this.#loading = true;
-    try {
-      this.#dialog ??= await this.#load();
+    void this.#code.use(({ EventsDialog }) => {
+      this.#dialog ??= this.#build(EventsDialog);
       openDialog(this.#dialog);
-    } catch (error) {
-      console.error(error);
-      this.#parts.notices.tell(texts().events.loadFailed, 'warning');
-    } finally {
-      this.#loading = false;
-    }
+    });
   }
 
-  async #load(): Promise<HTMLDialogElement> {
-    const { EventsDialog } = await import('./events-dialog.ts');
+  #build(Dialog: typeof EventsDialog): HTMLDialogElement {
     const { log, reports, capture } = this.#parts;
-    const { element } = new EventsDialog(log, () => reports.all(performance.now()), capture);
+    const { element } = new Dialog(log, () => reports.all(performance.now()), capture);
     document.body.append(element);
     return element;
   }

@@ -23,9 +23,9 @@ export function showLastSession(reports: Pick<SessionReports, 'ended'>): void {
     const [last] = reports.ended.value;
     line.hidden = last === undefined;
     if (last === undefined) return;
-    const { savePage, savePageTitle, lastSession } = texts().report;
-    save.textContent = savePage;
-    save.title = savePageTitle;
+    const { saveReport, saveReportTitle, lastSession } = texts().dialogs;
+    save.textContent = saveReport;
+    save.title = saveReportTitle;
     text.textContent = lastSession(last.robot.name, durationText(last.durationS));
   });
 }

@@ -1,6 +1,6 @@
 /** The row of the event log from which the report of a session is saved. */
 import type { SessionReport } from '../../ground/report/report-schema.ts';
-import { texts } from '../../words/language.ts';
+import { laterTexts, texts } from '../../words/language.ts';
 import { sessionText } from '../../words/session-text.ts';
 import { quietButton } from '../ui/panel-parts.ts';
 import { saveReportJson, saveReportPage } from './report-files.ts';
@@ -13,7 +13,8 @@ export interface ReportRow {
 
 /** @param all the sessions of this tab, the newest first, as they are now */
 export function reportRow(all: () => readonly SessionReport[]): ReportRow {
-  const said = texts().report;
+  const said = laterTexts().report;
+  const { saveReport, saveReportTitle } = texts().dialogs;
   const element = document.createElement('div');
   element.className = 'reports';
   const select = document.createElement('select');
@@ -23,7 +24,7 @@ export function reportRow(all: () => readonly SessionReport[]): ReportRow {
     const report = all()[select.selectedIndex];
     if (report !== undefined) write(report);
   };
-  const page = quietButton(said.savePage, said.savePageTitle, () => save(saveReportPage));
+  const page = quietButton(saveReport, saveReportTitle, () => save(saveReportPage));
   const json = quietButton(said.saveJson, said.saveJsonTitle, () => save(saveReportJson));
   element.append(select, page, json);
   return {

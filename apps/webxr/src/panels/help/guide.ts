@@ -7,6 +7,7 @@ import type { PageState } from '../../state/page-state.ts';
 import { inputSettings } from '../../take/drive/stored-inputs.ts';
 import { texts } from '../../words/language.ts';
 import { elements } from '../ui/elements.ts';
+import { LaterPart } from '../ui/later-part.ts';
 import { isDialogOpen } from '../ui/open-dialog.ts';
 import type { OperatorInputs } from '../ui/operator-inputs.ts';
 import type { openHelp } from './help-dialog.ts';
@@ -25,13 +26,16 @@ export class Guide {
   readonly #dialog = document.createElement('dialog');
   /** Whether there is a robot to drive, and a screen on which to read. */
   readonly #canTour: ReadonlySignal<boolean>;
+  readonly #helpCode;
+  readonly #tourCode;
   #openInputs: () => void = () => undefined;
-  #isLoadingTour = false;
   #endTour: (() => void) | null = null;
 
   constructor(parts: GuideParts) {
     this.#parts = parts;
-    const { link, robot } = parts.state;
+    const { link, robot, notices } = parts.state;
+    this.#helpCode = new LaterPart(() => import('./help-dialog.ts'), notices);
+    this.#tourCode = new LaterPart(() => import('./tour-panel.ts'), notices);
     this.#canTour = computed(() => link.live.value && robot.drives.value && !parts.inVr.value);
     this.#dialog.id = 'help';
     this.#dialog.setAttribute('aria-labelledby', 'help-title');
@@ -52,29 +56,22 @@ export class Guide {
       return;
     }
     const { state, inVr } = this.#parts;
-    const { leaveVr, cannotLoad } = texts().help;
     if (inVr.peek()) {
-      state.notices.tell(leaveVr);
+      state.notices.tell(texts().dialogs.leaveVr);
       return;
     }
     if (!this.#mayOpen()) return;
-    import('./help-dialog.ts').then(
-      ({ openHelp }) => {
-        // A hand may have taken the grip while the code was loaded.
-        if (!this.#dialog.open && this.#mayOpen()) this.#open(openHelp);
-      },
-      (error: unknown) => {
-        console.error(error);
-        state.notices.tell(cannotLoad, 'warning');
-      },
-    );
+    void this.#helpCode.use(({ openHelp }) => {
+      // A hand may have taken the grip while the code was loaded.
+      if (!this.#dialog.open && this.#mayOpen()) this.#open(openHelp);
+    });
   }
 
   #mayOpen(): boolean {
     const { client, state } = this.#parts;
     if (isDialogOpen()) return false;
     if (!client.driver.isGripped) return true;
-    state.notices.tell(texts().help.letGoFirst);
+    state.notices.tell(texts().dialogs.letGoFirst);
     return false;
   }
 
@@ -103,30 +100,20 @@ export class Guide {
 
   #startTour(): void {
     this.#end();
-    if (this.#isLoadingTour) return;
-    this.#isLoadingTour = true;
     const { client, state } = this.#parts;
-    import('./tour-panel.ts').then(
-      ({ showTour }) => {
-        this.#isLoadingTour = false;
-        this.#endTour = showTour({
-          client,
-          state,
-          settings: inputSettings,
-          canTour: this.#canTour,
-          onDone: rememberTour,
-          onEnd: () => {
-            rememberTour();
-            this.#end();
-          },
-        });
-      },
-      (error: unknown) => {
-        console.error(error);
-        this.#isLoadingTour = false;
-        state.notices.tell(texts().help.tour.cannotLoad, 'warning');
-      },
-    );
+    void this.#tourCode.use(({ showTour }) => {
+      this.#endTour = showTour({
+        client,
+        state,
+        settings: inputSettings,
+        canTour: this.#canTour,
+        onDone: rememberTour,
+        onEnd: () => {
+          rememberTour();
+          this.#end();
+        },
+      });
+    });
   }
 
   #end(): void {

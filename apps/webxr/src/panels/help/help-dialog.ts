@@ -4,7 +4,7 @@ import { effect } from '@preact/signals-core';
 import { STANDARD_MAP } from '../../take/drive/controller-map.ts';
 import type { InputSettings } from '../../take/drive/input-settings.ts';
 import { type HelpRow, helpGroups } from '../../words/help-rows.ts';
-import { texts } from '../../words/language.ts';
+import { laterTexts, texts } from '../../words/language.ts';
 import { dialogButton, headingOf, paragraphOf } from '../inputs/dialog-parts.ts';
 import { openDialog } from '../ui/open-dialog.ts';
 import { connectedControllers } from './connected-controllers.ts';
@@ -20,8 +20,8 @@ export interface HelpDialogParts {
 }
 
 export function openHelp(dialog: HTMLDialogElement, parts: HelpDialogParts): void {
-  const words = texts().help;
-  const title = headingOf(words.title, 'h2');
+  const words = laterTexts().help;
+  const title = headingOf(texts().dialogs.help, 'h2');
   Object.assign(title, { id: 'help-title', tabIndex: -1, autofocus: true });
   const noController = paragraphOf(words.noController, 'hint small');
   const groups = document.createElement('div');
@@ -57,7 +57,7 @@ export function openHelp(dialog: HTMLDialogElement, parts: HelpDialogParts): voi
 }
 
 function menuOf(dialog: HTMLDialogElement, parts: HelpDialogParts): HTMLElement {
-  const { tour, close } = texts().help;
+  const { tour, close } = laterTexts().help;
   const { open } = texts().inputs;
   const leaveFor = (act: () => void) => () => {
     dialog.close();
@@ -94,7 +94,7 @@ function rowOf({ what, keys, controllers, hand }: HelpRow): HTMLElement {
     ...controllers.map(({ name, parts }) => textOf('span', `${name}: ${parts.join(', ')}`, 'pad')),
   );
   if (hand !== null) how.append(textOf('span', hand, 'hand'));
-  if (how.childElementCount === 0) how.append(textOf('span', texts().help.none));
+  if (how.childElementCount === 0) how.append(textOf('span', laterTexts().help.none));
   row.append(textOf('dt', what), how);
   return row;
 }

@@ -6,7 +6,7 @@ import { type DriveFacts, FirstDrive } from '../../state/first-drive.ts';
 import type { PageState } from '../../state/page-state.ts';
 import { missingOf } from '../../take/drive/controller-map.ts';
 import type { InputSettings } from '../../take/drive/input-settings.ts';
-import { texts } from '../../words/language.ts';
+import { laterTexts } from '../../words/language.ts';
 import { type TourFacts, tourLine } from '../../words/tour-words.ts';
 import { elements } from '../ui/elements.ts';
 import { quietButton } from '../ui/panel-parts.ts';
@@ -33,7 +33,7 @@ export interface TourParts {
 /** Shows the first drive from its beginning. @returns takes it away */
 export function showTour(parts: TourParts): () => void {
   const tour = new FirstDrive();
-  const words = texts().help.tour;
+  const words = laterTexts().help.tour;
   const panel = document.createElement('section');
   panel.id = 'tour';
   panel.ariaLabel = words.title;

@@ -4,8 +4,8 @@ import { type ControllerMap, missingOf } from '../../take/drive/controller-map.t
 import { GamepadInput, type GamepadState } from '../../take/drive/gamepad-input.ts';
 import { isStandardKey } from '../../take/drive/input-choices.ts';
 import type { InputSettings } from '../../take/drive/input-settings.ts';
-import { buttonName, missingWords } from '../../words/input-words.ts';
-import { texts } from '../../words/language.ts';
+import { buttonName, missingWords } from '../../words/inputs-dialog-words.ts';
+import { laterTexts } from '../../words/language.ts';
 import { fixed } from '../../words/numbers.ts';
 import { rowOf } from '../ui/panel-parts.ts';
 import { DeviceSetup } from './device-setup.ts';
@@ -62,7 +62,7 @@ export class DeviceControls {
   }
 
   #showState(map: ControllerMap, isSettingUp: boolean): void {
-    const { drives, notSetUp } = texts().inputs;
+    const { drives, notSetUp } = laterTexts().inputsDialog;
     const missing = isSettingUp ? missingWords(map) : missingOf(map) === null ? null : notSetUp;
     this.#state.textContent = missing ?? (isSettingUp ? '' : drives);
     this.#state.dataset.tone = missing === null ? 'good' : 'warning';
@@ -71,7 +71,7 @@ export class DeviceControls {
 
   #showLive(pad: GamepadState, nowMs: number): void {
     const { key, settings } = this.#parts;
-    const { live, gripHeld, gripOpen, axis } = texts().inputs;
+    const { live, gripHeld, gripOpen, axis } = laterTexts().inputsDialog;
     this.#probe.read(pad, nowMs, this.#draft.peek() ?? settings.mapOf(key));
     const { wish, held } = this.#probe;
     const read = pad.axes.map((value, i) => `${axis(i + 1)} ${fixed(value ?? 0, 2)}`);
@@ -88,7 +88,7 @@ export class DeviceControls {
 
   #closed(): HTMLElement[] {
     const { key, name, settings, say } = this.#parts;
-    const { setUp, setUpOf, resetDevice, resetDeviceOf, deviceReset } = texts().inputs;
+    const { setUp, setUpOf, resetDevice, resetDeviceOf, deviceReset } = laterTexts().inputsDialog;
     const open = dialogButton(setUp, setUpOf(name), () => {
       this.#draft.value = settings.mapOf(key);
     });
@@ -102,7 +102,7 @@ export class DeviceControls {
 
   #opened(draft: ControllerMap): HTMLElement[] {
     const { key, name, settings, say } = this.#parts;
-    const { save, cancel, unchanged, deviceSaved } = texts().inputs;
+    const { save, cancel, unchanged, deviceSaved } = laterTexts().inputsDialog;
     const done = (text: string) => {
       this.#setup.cancel();
       this.#draft.value = null;

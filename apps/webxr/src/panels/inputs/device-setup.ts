@@ -16,8 +16,8 @@ import {
 } from '../../take/drive/controller-map.ts';
 import type { GamepadState } from '../../take/drive/gamepad-input.ts';
 import { isStandardKey } from '../../take/drive/input-choices.ts';
-import { buttonName, capital, mapRefusalWords, measuredWords } from '../../words/input-words.ts';
-import { texts } from '../../words/language.ts';
+import { buttonName, capital, mapRefusalWords, measuredWords } from '../../words/inputs-dialog-words.ts';
+import { laterTexts } from '../../words/language.ts';
 import { rowOf, sliderOf } from '../ui/panel-parts.ts';
 import { checkOf, dialogButton } from './dialog-parts.ts';
 
@@ -69,7 +69,7 @@ export class DeviceSetup {
     }
     const axis = task.kind === 'button' ? null : task.moved.see(pad.axes);
     if (axis === null) return;
-    this.#apply(texts().inputs.axis(axis.axis + 1), (map) =>
+    this.#apply(laterTexts().inputsDialog.axis(axis.axis + 1), (map) =>
       task.kind === 'axis' ? assignAxis(map, task.stick, task.role, axis) : assignGripAxis(map, axis),
     );
   }
@@ -83,7 +83,7 @@ export class DeviceSetup {
   }
 
   #axisRows(role: AxisRole, stick: number, sticks: number, axis: AxisMap | null): HTMLElement[] {
-    const { axisRoles, axisPrompts, setAxis, set, stick: stickWords } = texts().inputs;
+    const { axisRoles, axisPrompts, setAxis, set, stick: stickWords } = laterTexts().inputsDialog;
     const name = sticks > 1 ? stickWords(axisRoles[role], stick + 1) : axisRoles[role];
     const learn = dialogButton(set, setAxis(name), () => {
       this.#task = { kind: 'axis', stick, role, moved: new MovedAxis(this.#pad.axes) };
@@ -94,8 +94,8 @@ export class DeviceSetup {
   }
 
   #buttonRows(role: ButtonRole, map: ControllerMap): HTMLElement[] {
-    const { buttonRoles, removeButton: remove, addButton, add } = texts().inputs;
-    const { buttonPrompt, gripPrompt } = texts().inputs;
+    const { buttonRoles, removeButton: remove, addButton, add } = laterTexts().inputsDialog;
+    const { buttonPrompt, gripPrompt } = laterTexts().inputsDialog;
     const name = buttonRoles[role];
     const chips = map.buttons[role].map((button) => {
       const words = this.#nameOf(button);
@@ -123,7 +123,7 @@ export class DeviceSetup {
 
   /** The first press begins, the second ends it. */
   #measure(): HTMLButtonElement {
-    const { measure, measured, measurePrompt } = texts().inputs;
+    const { measure, measured, measurePrompt } = laterTexts().inputsDialog;
     const isRunning = this.#task?.kind === 'range';
     const button = dialogButton(isRunning ? measured : measure, isRunning ? measured : measure, () => {
       const { draft, say } = this.#parts;
@@ -150,7 +150,7 @@ export class DeviceSetup {
   #apply(what: string, act: (map: ControllerMap) => MapChange): void {
     this.cancel();
     const isDone = this.#change(act, what);
-    if (isDone) this.#parts.say(texts().inputs.found(capital(what)));
+    if (isDone) this.#parts.say(laterTexts().inputsDialog.found(capital(what)));
   }
 
   /** @returns whether it was not refused */
@@ -172,7 +172,7 @@ function axisRowsOf(
   learn: HTMLElement | null,
   change: (now: AxisMap | null) => void,
 ): HTMLElement[] {
-  const words = texts().inputs;
+  const words = laterTexts().inputsDialog;
   const [label, box] = checkOf(words.inverted, words.invertedOf(name), (inverted) =>
     change({ ...axis, inverted }),
   );

@@ -1,9 +1,9 @@
 /** The dialog for keys, gamepads, wheels and joysticks. It is built anew each time it is opened, and loaded when it first is. */
 import type { ReadonlySignal } from '@preact/signals-core';
-import { controllerKey } from '../../take/drive/input-choices.ts';
+import { connectedPads } from '../../take/drive/connected-pads.ts';
 import type { InputSettings } from '../../take/drive/input-settings.ts';
 import { controllerName } from '../../words/input-words.ts';
-import { texts } from '../../words/language.ts';
+import { laterTexts, texts } from '../../words/language.ts';
 import { openDialog } from '../ui/open-dialog.ts';
 import type { OperatorInputs } from '../ui/operator-inputs.ts';
 import { DeviceControls } from './device-controls.ts';
@@ -25,7 +25,7 @@ export function openInputs(
   dialog: HTMLDialogElement,
   { inputs, settings, maxLinear }: InputsDialogParts,
 ): void {
-  const words = texts().inputs;
+  const words = laterTexts().inputsDialog;
   const title = headingOf(words.title, 'h2');
   Object.assign(title, { id: 'inputs-title', tabIndex: -1, autofocus: true });
   const said = paragraphOf('', 'said');
@@ -38,7 +38,7 @@ export function openInputs(
   const speed = speedControls(settings.speed, maxLinear);
   const speedSection = document.createElement('section');
   speedSection.id = 'inputs-speed';
-  speedSection.append(headingOf(words.speedTitle), ...speed.elements);
+  speedSection.append(headingOf(texts().inputs.speedTitle), ...speed.elements);
   const menu = document.createElement('menu');
   menu.append(dialogButton(words.close, words.close, () => dialog.close()));
   const stands = paragraphOf(words.stands, 'hint small');
@@ -64,13 +64,13 @@ class Devices {
   readonly #settings: InputSettings;
   readonly #say: (text: string) => void;
   readonly #shown = new Map<string, DeviceControls>();
-  readonly #none = paragraphOf(texts().inputs.noDevice, 'hint small');
+  readonly #none = paragraphOf(laterTexts().inputsDialog.noDevice, 'hint small');
 
   constructor(settings: InputSettings, say: (text: string) => void) {
     this.#settings = settings;
     this.#say = say;
     this.element.id = 'inputs-devices';
-    this.element.append(headingOf(texts().inputs.devicesTitle), this.#none);
+    this.element.append(headingOf(laterTexts().inputsDialog.devicesTitle), this.#none);
   }
 
   dispose(): void {
@@ -78,8 +78,7 @@ class Devices {
   }
 
   read(): void {
-    const pads = (navigator.getGamepads?.() ?? []).filter((pad) => pad !== null && pad.connected !== false);
-    const there = new Map(pads.map((pad) => [controllerKey(pad as Gamepad), pad as Gamepad]));
+    const there = new Map(connectedPads().map(({ key, pad }) => [key, pad]));
     for (const [key, controls] of this.#shown) {
       if (there.has(key)) continue;
       controls.dispose();

@@ -3,6 +3,7 @@ import { effect } from '@preact/signals-core';
 import type { Notices } from '../../state/notices.ts';
 import { texts } from '../../words/language.ts';
 import { elements } from '../ui/elements.ts';
+import { LaterPart } from '../ui/later-part.ts';
 import { dialogButton, paragraphOf } from './dialog-parts.ts';
 import type { InputsDialogParts } from './inputs-dialog.ts';
 
@@ -15,15 +16,8 @@ export function startInputsDialog(parts: InputsDialogParts, notices: Pick<Notice
   const field = document.createElement('fieldset');
   const legend = document.createElement('legend');
   const row = paragraphOf('', 'row');
-  const open = () => {
-    import('./inputs-dialog.ts').then(
-      ({ openInputs }) => openInputs(dialog, parts),
-      (error: unknown) => {
-        console.error(error);
-        notices.tell(texts().inputs.cannotLoad, 'warning');
-      },
-    );
-  };
+  const code = new LaterPart(() => import('./inputs-dialog.ts'), notices);
+  const open = () => void code.use(({ openInputs }) => openInputs(dialog, parts));
   const button = dialogButton('', '', open);
   button.id = 'inputs-open';
   effect(() => {

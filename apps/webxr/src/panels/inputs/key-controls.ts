@@ -13,8 +13,9 @@ import {
   roleOf,
   STOP_KEY_ALWAYS,
 } from '../../take/drive/key-map.ts';
-import { keyName, keyRefusalWords } from '../../words/input-words.ts';
-import { texts } from '../../words/language.ts';
+import { keyName } from '../../words/input-words.ts';
+import { keyRefusalWords } from '../../words/inputs-dialog-words.ts';
+import { laterTexts } from '../../words/language.ts';
 import { rowOf } from '../ui/panel-parts.ts';
 import { dialogButton, headingOf, keepingFocus } from './dialog-parts.ts';
 
@@ -38,7 +39,7 @@ export class KeyControls {
     this.#list.className = 'roles';
     const preset = document.createElement('select');
     preset.addEventListener('change', () => this.#choosePreset(preset.value));
-    const { keysTitle, presetTitle } = texts().inputs;
+    const { keysTitle, presetTitle } = laterTexts().inputsDialog;
     preset.ariaLabel = presetTitle;
     this.element.append(headingOf(keysTitle), rowOf(presetTitle, preset), this.#list, this.#reset());
     this.#stop = effect(() => {
@@ -59,7 +60,7 @@ export class KeyControls {
   }
 
   #row(role: KeyRole, codes: readonly string[]): HTMLElement {
-    const { keyRoles, removeKey: remove, add, addKey, keyPrompt } = texts().inputs;
+    const { keyRoles, removeKey: remove, add, addKey, keyPrompt } = laterTexts().inputsDialog;
     const name = keyRoles[role];
     const chips = codes.map((code) =>
       dialogButton(`${keyName(code)} ✕`, remove(name, keyName(code)), () =>
@@ -75,11 +76,11 @@ export class KeyControls {
   }
 
   #reset(): HTMLElement {
-    const { resetKeys } = texts().inputs;
+    const { resetKeys } = laterTexts().inputsDialog;
     return dialogButton(resetKeys, resetKeys, () => {
       this.#waiting = null;
       this.#settings.usePreset('both');
-      this.#say(texts().inputs.keysReset);
+      this.#say(laterTexts().inputsDialog.keysReset);
     });
   }
 
@@ -88,7 +89,7 @@ export class KeyControls {
     if (preset === undefined) return;
     this.#waiting = null;
     this.#settings.usePreset(preset);
-    const { presetChosen, presets } = texts().inputs;
+    const { presetChosen, presets } = laterTexts().inputsDialog;
     this.#say(presetChosen(presets[preset]));
   }
 
@@ -103,7 +104,7 @@ export class KeyControls {
       event.stopImmediatePropagation();
     }
     this.#waiting = null;
-    if (code === 'Escape') this.#say(texts().inputs.unchanged);
+    if (code === 'Escape') this.#say(laterTexts().inputsDialog.unchanged);
     else this.#apply(code, assignKey(keys, role, code));
   }
 
@@ -113,13 +114,13 @@ export class KeyControls {
       return;
     }
     this.#settings.keys.value = change.keys;
-    this.#say(texts().inputs.saved);
+    this.#say(laterTexts().inputsDialog.saved);
   }
 }
 
 /** The presets, and what is chosen: one of them, or keys of the operator's own. */
 function showPresets(select: HTMLSelectElement, keys: KeyMap): void {
-  const { presets, ownKeys } = texts().inputs;
+  const { presets, ownKeys } = laterTexts().inputsDialog;
   const chosen = PRESETS.find((preset) =>
     KEY_ROLES.every((role) => KEY_PRESETS[preset][role].join() === keys[role].join()),
   );

@@ -23,6 +23,7 @@ import { followKey } from './key-title.ts';
 import { cssOf, type Legend, legendOf } from './legend.ts';
 import { quietButton, rowOf, selectOf, sliderOf } from './panel-parts.ts';
 import type { RememberedWorld } from './remembered-world.ts';
+import { saveFile } from './save-file.ts';
 
 export interface MemoryControlsParts {
   readonly remembered: Pick<RememberedWorld, 'forget' | 'save' | 'load'>;
@@ -39,7 +40,7 @@ function memoryControls(
     memory.value = !remembers.peek();
   });
   const forget = quietButton(said.forget, said.forgetTitle, () => remembered.forget());
-  const save = quietButton(said.save, said.saveTitle, () => void saveFile());
+  const save = quietButton(said.save, said.saveTitle, () => void saveWorld());
   const load = quietButton(said.load, said.loadTitle, () => input.click());
   let format: PointFileFormat = 'ply';
   const formats = selectOf(
@@ -63,14 +64,15 @@ function memoryControls(
   group.append(rowOf(said.keep, toggle), file, as, anew);
   return group;
 
-  async function saveFile(): Promise<void> {
-    const bytes = await remembered.save(format);
-    if (bytes === null) return;
-    const link = document.createElement('a');
-    link.href = URL.createObjectURL(new Blob([bytes], { type: 'application/octet-stream' }));
-    link.download = `farpoint-${new Date().toISOString().slice(0, 19).replaceAll(':', '-')}.${format.slice(0, 3)}`;
-    link.click();
-    URL.revokeObjectURL(link.href);
+  async function saveWorld(): Promise<void> {
+    try {
+      const bytes = await remembered.save(format);
+      if (bytes === null) return;
+      saveFile('world', format.slice(0, 3), new Blob([bytes], { type: 'application/octet-stream' }));
+    } catch (error) {
+      if (!(error instanceof MemoryFileError)) throw error;
+      tell(said.cannotSave(error.message), 'warning');
+    }
   }
 
   async function loadFile(file: File | undefined): Promise<void> {

@@ -7,6 +7,7 @@ import type { Stage } from '../../scene/view/stage.ts';
 import type { HeadsetMode, VrSession } from '../../scene/view/vr-session.ts';
 import type { CloudAppearance } from '../../state/cloud-appearance.ts';
 import type { PageState } from '../../state/page-state.ts';
+import type { Action } from '../../take/drive/key-map.ts';
 import { inputSettings } from '../../take/drive/stored-inputs.ts';
 import { ms } from '../../words/facts.ts';
 import { hazardNotice } from '../../words/hazard-words.ts';
@@ -17,7 +18,7 @@ import { addBookmark } from './commands-panel.ts';
 import { elements } from './elements.ts';
 import type { EstopUi } from './estop-ui.ts';
 import { startLook } from './look-controls.ts';
-import type { Action } from './operator-inputs.ts';
+
 import { initSettingsDialog } from './settings-dialog.ts';
 
 /** What the controls act on. */

@@ -43,6 +43,7 @@ export async function startLanguage(): Promise<void> {
     await speak(wanted);
   } catch (error) {
     console.warn(`no texts in “${wanted}”: the page speaks English`, error);
+    await speak('en');
   }
   document.documentElement.lang = language();
   for (const [name, write] of Object.entries(WAYS))

@@ -5,7 +5,13 @@ import type { HeadsetSettings } from '../../ground/headset-settings.ts';
 import type { Notices } from '../../state/notices.ts';
 import { Gamepads } from '../../take/drive/gamepads.ts';
 import { HeadsetInput, type Tracks, type XrController } from '../../take/drive/headset-input.ts';
-import { type KeyRole, pressedRole, STOP_KEY_ALWAYS } from '../../take/drive/key-map.ts';
+import {
+  type Action,
+  isAction,
+  type KeyRole,
+  pressedRole,
+  STOP_KEY_ALWAYS,
+} from '../../take/drive/key-map.ts';
 import { KeyboardInput } from '../../take/drive/keyboard-input.ts';
 import type { ReleaseControl } from '../../take/drive/release-hold.ts';
 import { ScaledInput } from '../../take/drive/speed-choice.ts';
@@ -30,49 +36,6 @@ export class TalkHold {
     return this.#down.size > 0;
   }
 }
-
-export type Action =
-  | 'estop'
-  | 'latency-test'
-  | 'recentre'
-  | 'view'
-  | 'from-above'
-  | 'hazards'
-  | 'enlarge'
-  | 'dashboard'
-  | 'predict'
-  | 'swap'
-  | 'bookmark'
-  | 'events'
-  | 'picture'
-  | 'clip'
-  | 'next-robot'
-  | 'point'
-  | 'help'
-  | 'faster'
-  | 'slower';
-
-/** The keys with these roles do something at once. */
-const ACTIONS: ReadonlySet<string> = new Set<Action>([
-  'latency-test',
-  'recentre',
-  'view',
-  'from-above',
-  'hazards',
-  'enlarge',
-  'dashboard',
-  'predict',
-  'swap',
-  'bookmark',
-  'events',
-  'picture',
-  'clip',
-  'next-robot',
-  'point',
-  'help',
-  'faster',
-  'slower',
-]);
 
 export interface InputPort {
   /** A grip or a stick changed. */
@@ -292,8 +255,4 @@ export class OperatorInputs {
 
 function isPanelKey({ target, code }: KeyboardEvent): boolean {
   return target instanceof HTMLElement && target.dataset.panel !== undefined && code.startsWith('Arrow');
-}
-
-function isAction(role: KeyRole): role is KeyRole & Action {
-  return ACTIONS.has(role);
 }

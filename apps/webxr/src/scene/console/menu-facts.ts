@@ -8,7 +8,7 @@ import { steady } from '../../state/sampler.ts';
 import { peopleShown } from '../../state/shown-people.ts';
 import type { LabelFacts } from '../../words/controller-label-words.ts';
 import { askedWords, waitingWords } from '../../words/handover-words.ts';
-import { texts } from '../../words/language.ts';
+import { laterTexts } from '../../words/language.ts';
 import { menuTimes } from '../../words/menu-times-words.ts';
 import { emptyListWords } from '../../words/robots-words.ts';
 import type { HeadsetRig } from '../headset/headset-rig.ts';
@@ -55,7 +55,7 @@ export function menuFacts({
         readings: [
           ...robot.alarms.value,
           ...robot.readings.value.map(({ label, text, tone }) => ({
-            text: texts().headsetMenu.reading(label, text),
+            text: laterTexts().headsetMenu.reading(label, text),
             tone,
           })),
         ],
@@ -70,13 +70,13 @@ function askedOf({ people }: PageState): MenuFacts['asked'] {
   const asked = people.asked.value;
   if (asked === null) return null;
   const words = askedWords(asked);
-  return { ...words, id: asked.id, text: texts().headsetMenu.left(words.text, asked.leftS) };
+  return { ...words, id: asked.id, text: laterTexts().headsetMenu.left(words.text, asked.leftS) };
 }
 
 function ownOf({ people }: PageState): MenuFacts['own'] {
   const own = people.own.value;
   if (own === null) return null;
-  return { id: own.id, text: texts().headsetMenu.left(waitingWords(own), own.leftS) };
+  return { id: own.id, text: laterTexts().headsetMenu.left(waitingWords(own), own.leftS) };
 }
 
 function cameraOf(view: CameraView, { staged, enlarged }: PageState): MenuCamera {

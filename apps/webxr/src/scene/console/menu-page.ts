@@ -2,7 +2,7 @@
 import type { LeaseState, RobotListing } from '@farpoint/operator';
 import { HEADSET_VIEWS, type HeadsetView } from '../../ground/headset-settings.ts';
 import { viewName } from '../../words/headset-words.ts';
-import { texts } from '../../words/language.ts';
+import { laterTexts } from '../../words/language.ts';
 import type { Words } from '../../words/words.ts';
 import type { ConsoleActions } from './console-actions.ts';
 
@@ -84,7 +84,7 @@ export interface MenuPage {
 const LISTED = 6;
 
 export function menuPage(facts: MenuFacts, { page, first }: MenuPlace): MenuPage {
-  const said = texts().headsetMenu;
+  const said = laterTexts().headsetMenu;
   switch (page) {
     case 'main':
       return { title: said.title, items: mainItems(facts) };
@@ -117,7 +117,7 @@ function open(text: string, page: MenuPageName, first = 0): MenuItem {
 }
 
 function back(to: MenuPageName = 'main'): MenuItem {
-  return { text: `‹ ${texts().headsetMenu.back}`, choice: { page: to, first: 0 } };
+  return { text: `‹ ${laterTexts().headsetMenu.back}`, choice: { page: to, first: 0 } };
 }
 
 function line({ text, tone }: Words): MenuItem {
@@ -129,11 +129,11 @@ function paged(all: readonly MenuItem[], page: MenuPageName, first: number): Men
   const from = first < all.length ? first : 0;
   const shown = all.slice(from, from + LISTED);
   if (all.length <= LISTED) return shown;
-  return [...shown, open(texts().headsetMenu.more, page, from + LISTED)];
+  return [...shown, open(laterTexts().headsetMenu.more, page, from + LISTED)];
 }
 
 function mainItems(facts: MenuFacts): MenuItem[] {
-  const said = texts().headsetMenu;
+  const said = laterTexts().headsetMenu;
   const { chosenRobotId, live, view, cameras, passthrough } = facts;
   return [
     ...(live ? [stopItem(facts)] : []),
@@ -151,7 +151,7 @@ function mainItems(facts: MenuFacts): MenuItem[] {
 }
 
 function stopItem({ latched }: MenuFacts): MenuItem {
-  const said = texts().headsetMenu;
+  const said = laterTexts().headsetMenu;
   return { ...act(latched ? said.stopAgain : said.stop, (actions) => actions.stop()), tone: 'bad' };
 }
 
@@ -169,13 +169,13 @@ function requestItems({ asked, own, heard }: MenuFacts): MenuItem[] {
   }
   if (own !== null) {
     items.push({ text: own.text, choice: null });
-    if (heard) items.push(act(texts().headsetMenu.takeBack, (actions) => actions.withdraw(own.id)));
+    if (heard) items.push(act(laterTexts().headsetMenu.takeBack, (actions) => actions.withdraw(own.id)));
   }
   return items;
 }
 
 function driveItems({ holder, mayTake, mayAsk, hasHeirs }: MenuFacts): MenuItem[] {
-  const said = texts().headsetMenu;
+  const said = laterTexts().headsetMenu;
   if (holder === 'you')
     return hasHeirs ? [open(said.handOver, 'people')] : [act(said.giveUp, (actions) => actions.giveUp())];
   return [
@@ -185,7 +185,7 @@ function driveItems({ holder, mayTake, mayAsk, hasHeirs }: MenuFacts): MenuItem[
 }
 
 function heirItems({ heirs }: MenuFacts, first: number): MenuItem[] {
-  const said = texts().headsetMenu;
+  const said = laterTexts().headsetMenu;
   const offers = heirs.map(({ number, text }) =>
     act(said.offerTo(text), (actions) => actions.offerDrive(number)),
   );
@@ -193,7 +193,7 @@ function heirItems({ heirs }: MenuFacts, first: number): MenuItem[] {
 }
 
 function robotItems({ robots, chosenRobotId, noRobots }: MenuFacts, first: number): MenuItem[] {
-  const said = texts().headsetMenu;
+  const said = laterTexts().headsetMenu;
   const away: MenuItem[] =
     chosenRobotId === null || robots.some(({ id }) => id === chosenRobotId)
       ? []
@@ -208,7 +208,7 @@ function robotItems({ robots, chosenRobotId, noRobots }: MenuFacts, first: numbe
 }
 
 function cloudTimes({ live, times }: MenuFacts): MenuItem[] {
-  const said = texts().headsetMenu;
+  const said = laterTexts().headsetMenu;
   const test = live ? [act(said.latency, (actions) => actions.testLatency())] : [];
   return [...test, ...times.clouds.map(line), open(said.commands, 'times', 1), back()];
 }
@@ -225,7 +225,7 @@ function viewItems({ view }: MenuFacts): MenuItem[] {
 }
 
 function cameraList({ cameras }: MenuFacts, first: number): MenuItem[] {
-  const said = texts().headsetMenu;
+  const said = laterTexts().headsetMenu;
   return paged(
     cameras.map(({ name, shown }, camera) => open(said.camera[shown](name), 'camera', camera)),
     'cameras',
@@ -235,7 +235,7 @@ function cameraList({ cameras }: MenuFacts, first: number): MenuItem[] {
 
 /** The entries of a camera stay open: one sees what they do beside the menu. */
 function cameraPage({ cameras }: MenuFacts, camera: number): MenuPage {
-  const said = texts().headsetMenu;
+  const said = laterTexts().headsetMenu;
   const found = cameras[camera];
   if (found === undefined) return { title: said.cameras, items: [back('cameras')] };
   const { name, shown } = found;

@@ -1,7 +1,7 @@
 /** STOP and the menu below the panel on the wrist, for a hand that points: bare, or with a controller. */
 import { effect } from '@preact/signals-core';
 import type { Mesh } from 'three';
-import { texts } from '../../words/language.ts';
+import { laterTexts } from '../../words/language.ts';
 import { PLATE_ORDER, TextPlate } from '../headset/text-plate.ts';
 
 /** As wide as the panel, m; pixels. Chosen: each half is 4 cm high, which a ray from a hand hits without aiming. */
@@ -38,7 +38,7 @@ export class WristTab {
   }
 
   #draw(): void {
-    const { stop, menu } = texts().headsetMenu.tab;
+    const { stop, menu } = laterTexts().headsetMenu.tab;
     const half = (WIDTH - GAP) / 2;
     this.#plate.draw(HEIGHT, (context) => {
       context.font = `700 ${SIZE}px system-ui, sans-serif`;

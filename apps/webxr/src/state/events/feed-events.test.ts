@@ -4,7 +4,7 @@ import { type Signal, signal } from '@preact/signals-core';
 import { beforeEach, expect, test } from 'vitest';
 import { EventLog } from '../../ground/events/event-log.ts';
 import { Switches } from '../../ground/switches.ts';
-import { english } from '../../words/en/catalogue.ts';
+import { laterEnglish } from '../../words/en/later-catalogue.ts';
 import { eventText } from '../../words/event-words.ts';
 import { StopNews } from '../stop-news.ts';
 import { type EventSources, feedEvents } from './feed-events.ts';
@@ -52,7 +52,7 @@ function setUp() {
     const { events } = log.kept;
     const said = events
       .slice(seen)
-      .map(({ robot: about, detail }) => `${about}: ${eventText(detail, english)}`);
+      .map(({ robot: about, detail }) => `${about}: ${eventText(detail, laterEnglish)}`);
     seen = events.length;
     return said;
   };

@@ -31,6 +31,15 @@ export const KEY_ROLES = [
 ] as const;
 export type KeyRole = (typeof KEY_ROLES)[number];
 
+/** What a key does while it is held. */
+const HELD_ROLES = ['grip', 'forward', 'back', 'left', 'right', 'release', 'talk'] as const;
+/** What a key does at once. */
+export type Action = Exclude<KeyRole, (typeof HELD_ROLES)[number]>;
+
+export function isAction(role: KeyRole): role is Action {
+  return !(HELD_ROLES as readonly KeyRole[]).includes(role);
+}
+
 export type KeyMap = Readonly<Record<KeyRole, readonly string[]>>;
 
 /** Stops the robot wherever the focus is, whatever else is chosen: it writes nothing, and browsers leave it to the page. */

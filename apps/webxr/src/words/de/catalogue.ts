@@ -4,17 +4,12 @@ import { access } from './access.ts';
 import { capture } from './capture.ts';
 import { clouds } from './clouds.ts';
 import { commands } from './commands.ts';
-import { controllerLabels } from './controller-labels.ts';
-import { dashboard } from './dashboard.ts';
 import { dialogs } from './dialogs.ts';
 import { driving } from './driving.ts';
-import { events } from './events.ts';
 import { failures } from './failures.ts';
 import { figures } from './figures.ts';
 import { fleet } from './fleet.ts';
 import { headset } from './headset.ts';
-import { headsetMenu } from './headset-menu.ts';
-import { help } from './help.ts';
 import { inputs } from './inputs.ts';
 import { link } from './link.ts';
 import { measures } from './measures.ts';
@@ -22,7 +17,6 @@ import { media } from './media.ts';
 import { motion } from './motion.ts';
 import { page } from './page.ts';
 import { people } from './people.ts';
-import { report } from './report.ts';
 import { settings } from './settings.ts';
 import { stop } from './stop.ts';
 import { timing } from './timing.ts';
@@ -34,17 +28,12 @@ export const german: Texts = {
   capture,
   clouds,
   commands,
-  controllerLabels,
-  dashboard,
   dialogs,
   driving,
-  events,
   failures,
   figures,
   fleet,
   headset,
-  headsetMenu,
-  help,
   inputs,
   link,
   measures,
@@ -52,7 +41,6 @@ export const german: Texts = {
   motion,
   page,
   people,
-  report,
   settings,
   stop,
   timing,

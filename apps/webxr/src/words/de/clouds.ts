@@ -54,6 +54,7 @@ export const clouds: Texts['clouds'] = {
   loadTitle: 'Eine Punktwolke (PLY oder PCD) zum Gemerkten hinzufügen',
   loadLabel: 'Punktwolke, die gemerkt wird',
   loaded: (points, file) => `${points} Punkte aus ${file} geladen`,
+  cannotSave: (why) => `Das Gemerkte lässt sich nicht speichern: ${why}`,
   cannotLoad: (file, why) => `${file} lässt sich nicht laden: ${why}`,
   saveAs: 'Speichern als',
   format: 'Dateiformat',

@@ -1,6 +1,6 @@
-import type { Texts } from '../en/catalogue.ts';
+import type { LaterTexts } from '../en/later-catalogue.ts';
 
-export const controllerLabels: Texts['controllerLabels'] = {
+export const controllerLabels: LaterTexts['controllerLabels'] = {
   stop: (letter) => `${letter}: STOP`,
   stopIsOn: (letter) => `${letter}: STOP ist aktiv`,
   menu: (letter) => `${letter}: Menü`,

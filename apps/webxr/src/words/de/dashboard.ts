@@ -1,8 +1,7 @@
-import type { Texts } from '../en/catalogue.ts';
+import type { LaterTexts } from '../en/later-catalogue.ts';
 
-export const dashboard: Texts['dashboard'] = {
+export const dashboard: LaterTexts['dashboard'] = {
   title: 'Dashboard',
-  cannotLoad: 'Das Dashboard ließ sich nicht laden. Versuchen Sie es noch einmal.',
   close: 'Dashboard schließen',
   closeTitle: 'Dashboard schließen',
   span: 'Wie weit Kurven zurückreichen',

@@ -1,5 +1,5 @@
 import type { DetailOf } from '../../ground/events/page-event.ts';
-import type { Texts } from '../en/catalogue.ts';
+import type { LaterTexts } from '../en/later-catalogue.ts';
 
 const losses: Readonly<Record<DetailOf<'session-lost'>['reason'], string>> = {
   'not-connected': 'Verbindung kam nicht rechtzeitig zustande',
@@ -117,7 +117,7 @@ function alarmWords({ text, value, limit, unit, recorded }: Omit<DetailOf<'alarm
   return `${recorded ? 'Aufgezeichnet: ' : ''}${text} (${figures})`;
 }
 
-export const events: Texts['events'] = {
+export const events: LaterTexts['events'] = {
   kinds: {
     'page-opened': () => 'Die Seite wurde geöffnet.',
     signaling: ({ state }) =>
@@ -208,8 +208,6 @@ export const events: Texts['events'] = {
   dropped: (count) => `${count} ältere Ereignisse wurden verworfen.`,
   all: 'alle Ereignisse',
   title: 'Ereignisse',
-  open: 'Ereignisse',
-  openTitle: 'Ereignisprotokoll und Sitzungsbericht',
   close: 'Schließen',
   clear: 'Leeren',
   clearTitle: 'Alle Ereignisse aus dieser Liste entfernen',
@@ -228,5 +226,4 @@ export const events: Texts['events'] = {
     `${shown} von ${kept} Ereignissen${dropped === 0 ? '' : `; ${dropped} ältere wurden verworfen`}`,
   newer: (count) => `${count} neuere: anzeigen`,
   again: (times, last) => `${times} ×, zuletzt um ${last}`,
-  loadFailed: 'Das Ereignisprotokoll konnte nicht geladen werden. Versuchen Sie es noch einmal.',
 };

@@ -1,6 +1,6 @@
-import type { Texts } from '../en/catalogue.ts';
+import type { LaterTexts } from '../en/later-catalogue.ts';
 
-export const headsetMenu: Texts['headsetMenu'] = {
+export const headsetMenu: LaterTexts['headsetMenu'] = {
   title: 'Menü',
   tab: { stop: 'STOP', menu: 'Menü' },
   stop: 'Roboter anhalten (STOP)',
@@ -43,11 +43,4 @@ export const headsetMenu: Texts['headsetMenu'] = {
   close: 'Menü schließen',
   back: 'Zurück',
   more: 'Mehr',
-  answer: (asked) => `${asked}. Antworten Sie im Menü.`,
-  otherRobots: 'Das Menü führt alle Roboter auf.',
-  releaseInMenu:
-    'Zum Lösen schließen Sie das Menü, öffnen beide Hände und halten dann eine Sekunde lang einen Abzug.',
-  settingsOutside: 'Die Einstellungen stehen auf der Seite: Verlassen Sie dafür VR.',
-  notLoaded:
-    'Das Menü konnte nicht geladen werden. Prüfen Sie das Netz, verlassen Sie VR und laden Sie die Seite neu.',
 };

@@ -39,4 +39,11 @@ export const headset: Texts['headset'] = {
   needsHttps: 'VR braucht https: Öffnen Sie die Seite unter ihrer https-Adresse.',
   noWebXr: 'Dieser Browser hat kein WebXR. Öffnen Sie die Seite für VR im Browser eines Headsets.',
   noHeadset: 'Kein Headset gefunden.',
+  answer: (asked) => `${asked}. Antworten Sie im Menü.`,
+  otherRobots: 'Das Menü führt alle Roboter auf.',
+  releaseInMenu:
+    'Zum Lösen schließen Sie das Menü, öffnen beide Hände und halten dann eine Sekunde lang einen Abzug.',
+  settingsOutside: 'Die Einstellungen stehen auf der Seite: Verlassen Sie dafür VR.',
+  notLoaded:
+    'Das Menü konnte nicht geladen werden. Prüfen Sie das Netz, verlassen Sie VR und laden Sie die Seite neu.',
 };

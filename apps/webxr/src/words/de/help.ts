@@ -1,8 +1,6 @@
-import type { Texts } from '../en/catalogue.ts';
+import type { LaterTexts } from '../en/later-catalogue.ts';
 
-export const help: Texts['help'] = {
-  title: 'Hilfe',
-  openTitle: 'Tasten, Knöpfe und Gesten (?)',
+export const help: LaterTexts['help'] = {
   lead: 'Tasten und Geräte, wie sie jetzt belegt sind. Der Roboter fährt nur, solange der Griff gehalten wird. Solange diese Hilfe offen ist, fährt er nicht; STOP wirkt.',
   noController:
     'Kein Gerät ist angeschlossen. Ein Gamepad tut, was hier steht, solange Sie nichts anderes festlegen.',
@@ -11,9 +9,6 @@ export const help: Texts['help'] = {
     'Im Headset: Drücken Sie den Griff der fahrenden Hand und fahren Sie mit deren Stick. B oder Y stoppt. Um STOP zu lösen, öffnen Sie beide Hände und halten Sie einen Trigger eine Sekunde lang.',
   none: 'nicht belegt',
   close: 'Schließen',
-  letGoFirst: 'Lassen Sie zuerst den Griff los, dann öffnen Sie die Hilfe.',
-  leaveVr: 'Verlassen Sie VR, um die Hilfe zu lesen.',
-  cannotLoad: 'Die Hilfe konnte nicht geladen werden. Versuchen Sie es noch einmal.',
   groups: {
     drive: 'Fahren',
     stop: 'Anhalten',
@@ -66,7 +61,6 @@ export const help: Texts['help'] = {
     skip: 'Überspringen',
     end: 'Beenden',
     close: 'Schließen',
-    cannotLoad: 'Die erste Fahrt konnte nicht geladen werden. Starten Sie sie noch einmal aus der Hilfe.',
     step: (number, of, text) => `Schritt ${number} von ${of}: ${text}`,
     done: 'Das war alles: Griff halten, fahren, STOP drücken, STOP lösen. Das Fragezeichen in der Leiste nennt alle Tasten.',
     why: 'Der Roboter stoppt, sobald Sie loslassen.',

@@ -1,6 +1,6 @@
-import type { Texts } from '../en/catalogue.ts';
+import type { LaterTexts } from '../en/later-catalogue.ts';
 
-export const report: Texts['report'] = {
+export const report: LaterTexts['report'] = {
   title: 'Sitzungsbericht',
   robot: 'Roboter',
   operator: 'Bedienperson',
@@ -75,11 +75,8 @@ export const report: Texts['report'] = {
   samples: 'Werte',
   times: (count) => `${count} ×`,
   sessionOf: (robot, time, duration) => `${robot}, ${time}, ${duration}`,
-  lastSession: (robot, duration) => `Letzte Sitzung: ${robot}, ${duration}.`,
   choose: 'Sitzung',
   none: 'Noch keine Sitzung',
-  savePage: 'Bericht',
-  savePageTitle: 'Den Bericht dieser Sitzung als Seite speichern',
   saveJson: 'Bericht als JSON',
   saveJsonTitle: 'Den Bericht dieser Sitzung als JSON speichern',
 };

@@ -6,17 +6,12 @@ import { access } from './access.ts';
 import { capture } from './capture.ts';
 import { clouds } from './clouds.ts';
 import { commands } from './commands.ts';
-import { controllerLabels } from './controller-labels.ts';
-import { dashboard } from './dashboard.ts';
 import { dialogs } from './dialogs.ts';
 import { driving } from './driving.ts';
-import { events } from './events.ts';
 import { failures } from './failures.ts';
 import { figures } from './figures.ts';
 import { fleet } from './fleet.ts';
 import { headset } from './headset.ts';
-import { headsetMenu } from './headset-menu.ts';
-import { help } from './help.ts';
 import { inputs } from './inputs.ts';
 import { link } from './link.ts';
 import { measures } from './measures.ts';
@@ -24,7 +19,6 @@ import { media } from './media.ts';
 import { motion } from './motion.ts';
 import { page } from './page.ts';
 import { people } from './people.ts';
-import { report } from './report.ts';
 import { settings } from './settings.ts';
 import { stop } from './stop.ts';
 import { timing } from './timing.ts';
@@ -36,17 +30,12 @@ export const english = {
   capture,
   clouds,
   commands,
-  controllerLabels,
-  dashboard,
   dialogs,
   driving,
-  events,
   failures,
   figures,
   fleet,
   headset,
-  headsetMenu,
-  help,
   inputs,
   link,
   measures,
@@ -54,7 +43,6 @@ export const english = {
   motion,
   page,
   people,
-  report,
   settings,
   stop,
   timing,

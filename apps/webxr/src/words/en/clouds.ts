@@ -58,6 +58,7 @@ export const clouds = {
   loadTitle: 'Add a point cloud (PLY or PCD) to what is remembered',
   loadLabel: 'Point cloud to remember',
   loaded: (points: string, file: string) => `${points} points loaded from ${file}`,
+  cannotSave: (why: string) => `What is remembered cannot be saved: ${why}`,
   cannotLoad: (file: string, why: string) => `${file} cannot be loaded: ${why}`,
   saveAs: 'Save as',
   format: 'Format of the file',

@@ -4,7 +4,6 @@ import type { OwnSeries } from '../../ground/telemetry/recorder.ts';
 
 export const dashboard = {
   title: 'Dashboard',
-  cannotLoad: 'The dashboard could not be loaded. Try again.',
   close: 'Close the dashboard',
   closeTitle: 'Close the dashboard',
   span: 'How far back curves reach',

@@ -222,8 +222,6 @@ export const events = {
   dropped: (count: number) => `${count} older events were dropped.`,
   all: 'all events',
   title: 'Events',
-  open: 'Events',
-  openTitle: 'Event log and session report',
   close: 'Close',
   clear: 'Clear',
   clearTitle: 'Remove all events from this list',
@@ -244,5 +242,4 @@ export const events = {
   newer: (count: number) => `${count} newer: show`,
   /** @param last time of day */
   again: (times: number, last: string) => `${times} ×, last at ${last}`,
-  loadFailed: 'The event log could not be loaded. Try again.',
 };

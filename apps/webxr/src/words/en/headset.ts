@@ -44,4 +44,11 @@ export const headset = {
   needsHttps: 'VR needs https: open the page at its https address.',
   noWebXr: 'This browser has no WebXR. To use VR, open the page in a headset’s browser.',
   noHeadset: 'No headset found.',
+  /** On the sign before the eyes. @param asked what another operator wants */
+  answer: (asked: string) => `${asked}. Answer in the menu.`,
+  /** After the words on which press connects to a robot. */
+  otherRobots: 'The menu lists all robots.',
+  releaseInMenu: 'To release it, close the menu, open both hands, then hold a trigger for one second.',
+  settingsOutside: 'The settings are on the page: leave VR for them.',
+  notLoaded: 'The menu could not be loaded. Check the network, then leave VR and reload the page.',
 };

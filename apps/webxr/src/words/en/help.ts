@@ -1,8 +1,6 @@
 /** The help, and the first drive. */
 
 export const help = {
-  title: 'Help',
-  openTitle: 'Keys, buttons and gestures (?)',
   lead: 'Keys and controllers as they are set now. The robot moves only while the grip is held. It does not move while this help is open; STOP works.',
   noController: 'No controller is connected. A gamepad does what stands here unless you change it.',
   gamepad: 'Gamepad',
@@ -10,9 +8,6 @@ export const help = {
     'In a headset: squeeze the grip of the driving hand and drive with its stick. B or Y stops. To release STOP, open both hands and hold a trigger for one second.',
   none: 'not set',
   close: 'Close',
-  letGoFirst: 'Let go of the grip first, then open the help.',
-  leaveVr: 'Leave VR to read the help.',
-  cannotLoad: 'The help could not be loaded. Try again.',
   groups: {
     drive: 'Drive',
     stop: 'Stop',
@@ -68,7 +63,6 @@ export const help = {
     skip: 'Skip',
     end: 'End',
     close: 'Close',
-    cannotLoad: 'The first drive could not be loaded. Start it again from the help.',
     step: (number: number, of: number, text: string) => `Step ${number} of ${of}: ${text}`,
     done: 'That was all: hold the grip, drive, press STOP, release it. The question mark in the bar lists every key and button.',
     why: 'The robot stops when you let go.',

@@ -78,11 +78,8 @@ export const report = {
   times: (count: number) => `${count} ×`,
   /** @param time of day */
   sessionOf: (robot: string, time: string, duration: string) => `${robot}, ${time}, ${duration}`,
-  lastSession: (robot: string, duration: string) => `Last session: ${robot}, ${duration}.`,
   choose: 'Session',
   none: 'No session yet',
-  savePage: 'Report',
-  savePageTitle: 'Save the report of this session as a page',
   saveJson: 'Report as JSON',
   saveJsonTitle: 'Save the report of this session as JSON',
 };
