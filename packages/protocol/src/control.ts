@@ -30,7 +30,10 @@ export interface Command {
    * whatever the twist. Unlike a zero twist, it does not say that the hand has let go. Left out otherwise.
    */
   unread?: true | undefined;
-  /** linear.x in m/s and angular.z in rad/s of base_link; every other component is 0. */
+  /**
+   * linear.x in m/s and angular.z in rad/s of base_link, and linear.y in m/s where the robot's limits have `maxLateral`; every
+   * other component is 0.
+   */
   twist: Twist;
   /**
    * Capture time of the newest picture or cloud that is on the operator's screen: the robot's monotonic clock, µs, modulo

@@ -65,6 +65,8 @@ const latencyMsSchema = z.number().check(z.minimum(0), z.maximum(MAX_LATENCY_MS)
 const [LEAST_DISPLAYED_FPS, MOST_DISPLAYED_FPS] = [1, 240];
 const [LEAST_DISPLAYED_POINTS, MOST_DISPLAYED_POINTS] = [1000, 1e8];
 
+/** A robot that claims to go sideways faster than the fastest that may be configured (limits.ts) is not believed, m/s. */
+const MOST_LATERAL_MPS = 10;
 /** Corners farther from base_link are no robot's, m. */
 const MOST_REACH_M = 10;
 const reachSchema = z.number().check(z.minimum(-MOST_REACH_M), z.maximum(MOST_REACH_M));
@@ -97,6 +99,7 @@ export const robotSessionCodec: JsonCodec<RobotSessionMessage> = {
       name: displayNameSchema,
       limits: z.strictObject({
         maxLinear: positive,
+        maxLateral: z.optional(z.number().check(z.minimum(0), z.maximum(MOST_LATERAL_MPS))),
         maxAngular: positive,
         watchdogMs: positive,
         maxCommandsPerSecond: positive,

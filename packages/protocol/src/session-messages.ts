@@ -21,6 +21,11 @@ import type { Videos } from './video-media.ts';
 export interface DriveLimits {
   /** m/s, forward and backward. */
   maxLinear: number;
+  /**
+   * m/s, to the left and to the right; left out: 0, the base cannot go sideways. The whole planar velocity is never above the
+   * greater of this and `maxLinear`.
+   */
+  maxLateral?: number | undefined;
   /** rad/s. */
   maxAngular: number;
   /** Without a fresh command for this long, the robot brakes to zero. */

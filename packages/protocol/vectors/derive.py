@@ -505,6 +505,7 @@ command = control.good({"type": "command", "sequence": 17, "timeMs": 52311.5, "l
 control.good({**command, "latencyTest": 4, "sequence": 2 ** 32 - 1, "timeMs": 0}, "command with a latency test, largest sequence")
 control.good({**command, "seenUs": 2 ** 32 - 1}, "command that says what is seen")
 control.good({**command, "unread": True}, "command of a hand that is not read")
+control.good({**command, "twist": {"linear": vector3(0.3, -0.4), "angular": vector3()}}, "command to the right")
 control.good({**command, "lease": "A-Za-z0-9_-" + "x" * 53, "deadMan": False}, "command with the longest lease")
 probe = control.good({"type": "clockProbe", "id": 3, "sentMs": 1000.25})
 report = control.good({"type": "receiverReport", "sequence": 9, "packetsReceived": 60000, "packetsLost": 12, "bytesReceived": 74640000})
@@ -600,6 +601,9 @@ for after_gap in ["let-go", "resume"]:
     robot_session.good(changed(welcome, "limits.afterGap", after_gap), "welcome, after a gap: " + after_gap)
 robot_session.good(changed(welcome, "limits.resumeWithinMs", 400), "welcome: moves on after a gap of less than 400 ms")
 robot_session.good(changed(welcome, "limits.resumeWithinMs", 0), "welcome: never moves on after a gap")
+for lateral in [0, 0.5, 10]:
+    robot_session.good(changed(welcome, "limits.maxLateral", lateral), "welcome from a robot whose limit sideways is %s m/s" % lateral)
+robot_session.spoil(welcome, ("limits.maxLateral", -0.1), ("limits.maxLateral", 10.5), ("limits.maxLateral", "0.5"), ("limits.maxLateral", None))
 robot_session.spoil(welcome, ("limits.afterGap", "go"), ("limits.afterGap", True))
 robot_session.spoil(welcome, ("limits.resumeWithinMs", -1), ("limits.resumeWithinMs", 1001), ("limits.resumeWithinMs", "400"))
 robot_session.spoil(pressed, ("latch", -1), ("latch", 0.5), ("press", 2 ** 32), ("press", "2"))

@@ -34,3 +34,11 @@ describe('velocities', () => {
     );
   });
 });
+
+it('a velocity to the left is in linear.y', () => {
+  const aside: Twist = { linear: { x: 0, y: 0.5, z: 0 }, angular: { x: 0, y: 0, z: 0 } };
+  // The second of six little-endian doubles.
+  const doubles = `${'00'.repeat(8)}000000000000e03f${'00'.repeat(32)}`;
+  expect(hex(velocityWriter(1, 'geometry_msgs/msg/Twist')(aside, 0n, ''))).toBe(doubles);
+  expect(hex(velocityWriter(2, 'geometry_msgs/msg/Twist')(aside, 0n, ''))).toBe(`00010000${doubles}`);
+});

@@ -8,7 +8,7 @@ import {
   zeroTwist,
 } from '@farpoint/protocol';
 import { TokenBucket } from '@farpoint/timing';
-import { cutTo, outOfRange, type RejectedCommand, rejected } from './command-range.ts';
+import { cutToLimits, outOfRange, type RejectedCommand, rejected } from './command-range.ts';
 import type { EstopAnswer } from './estop.ts';
 import { QueueingDelay } from './queueing-delay.ts';
 
@@ -141,16 +141,7 @@ export class CommandGate {
       if (refusal !== null) return refusal;
       operator.movedMs = nowMs - spentMs;
     }
-    const { maxLinear, maxAngular } = this.#limits;
-    return {
-      accepted: true,
-      spentMs,
-      unread: false,
-      twist: {
-        linear: { x: cutTo(maxLinear, command.twist.linear.x), y: 0, z: 0 },
-        angular: { x: 0, y: 0, z: cutTo(maxAngular, command.twist.angular.z) },
-      },
-    };
+    return { accepted: true, spentMs, unread: false, twist: cutToLimits(command.twist, this.#limits) };
   }
 
   /** Counts an undecodable message against its sender's rate. */

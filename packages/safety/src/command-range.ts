@@ -11,14 +11,16 @@ export interface RejectedCommand {
 /** Relative tolerance: what a float32 or a decimal round trip may add to a limit. The excess is cut off. */
 const TOLERANCE = 1e-6;
 
+type VelocityLimits = Pick<DriveLimits, 'maxLinear' | 'maxLateral' | 'maxAngular'>;
+
 /** Why a velocity is refused; `null` if it is within the limits. */
 export function outOfRange(
   twist: Twist,
-  { maxLinear, maxAngular }: Pick<DriveLimits, 'maxLinear' | 'maxAngular'>,
+  { maxLinear, maxLateral = 0, maxAngular }: VelocityLimits,
 ): RejectedCommand | null {
   const axes: [name: string, value: number, limit: number, unit: string][] = [
     ['linear.x', twist.linear.x, maxLinear, 'm/s'],
-    ['linear.y', twist.linear.y, 0, 'm/s'],
+    ['linear.y', twist.linear.y, maxLateral, 'm/s'],
     ['linear.z', twist.linear.z, 0, 'm/s'],
     ['angular.x', twist.angular.x, 0, 'rad/s'],
     ['angular.y', twist.angular.y, 0, 'rad/s'],
@@ -38,8 +40,22 @@ export function outOfRange(
   return null;
 }
 
+/**
+ * What the robot makes of a velocity that is not {@link outOfRange}: every component within its limit, and the planar velocity
+ * within the greater of its two limits, on the same arc.
+ */
+export function cutToLimits({ linear, angular }: Twist, limits: VelocityLimits): Twist {
+  const { maxLinear, maxLateral = 0, maxAngular } = limits;
+  const [x, y] = [cutTo(maxLinear, linear.x), cutTo(maxLateral, linear.y)];
+  const share = Math.min(1, Math.max(maxLinear, maxLateral) / Math.hypot(x, y));
+  return {
+    linear: { x: x * share + 0, y: y * share + 0, z: 0 },
+    angular: { x: 0, y: 0, z: cutTo(maxAngular, angular.z) * share + 0 },
+  };
+}
+
 /** −limit … limit; never −0. */
-export function cutTo(limit: number, value: number): number {
+function cutTo(limit: number, value: number): number {
   return Math.min(Math.max(value, -limit), limit) + 0;
 }
 

@@ -8,6 +8,8 @@ import * as z from 'zod';
 export const driveLimitsSchema = z.strictObject({
   /** m/s */
   maxLinear: z.number().positive().max(10).default(1),
+  /** m/s; left out: 0, the base cannot go sideways */
+  maxLateral: z.number().min(0).max(10).optional(),
   /** rad/s */
   maxAngular: z.number().positive().max(10).default(1.5),
   /** ms */

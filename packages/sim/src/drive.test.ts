@@ -1,7 +1,7 @@
 import { zeroTwist } from '@farpoint/protocol';
 import fc from 'fast-check';
-import { expect, test } from 'vitest';
-import { approach, DEFAULT_LIMITS, DifferentialDrive } from './drive.ts';
+import { describe, expect, test } from 'vitest';
+import { approach, BaseDrive, DEFAULT_LIMITS } from './drive.ts';
 import { SimulationError } from './errors.ts';
 
 function twist(linear: number, angular: number) {
@@ -17,7 +17,7 @@ test('speeds and accelerations stay within the limits, whatever is commanded', (
     fc.property(
       fc.array(fc.tuple(any, any, fc.integer({ min: 1, max: 300 })), { maxLength: 20 }),
       (commands) => {
-        const drive = new DifferentialDrive();
+        const drive = new BaseDrive();
         const dt = 0.002;
         for (const [linear, angular, steps] of commands) {
           drive.command(twist(linear, angular));
@@ -39,7 +39,7 @@ test('speeds and accelerations stay within the limits, whatever is commanded', (
 });
 
 test('reaches the command and keeps it', () => {
-  const drive = new DifferentialDrive();
+  const drive = new BaseDrive();
   drive.command(twist(0.4, -0.7));
   for (let i = 0; i < 1000; i++) drive.step(0.002, true);
   expect(drive.linear).toBe(0.4);
@@ -48,7 +48,7 @@ test('reaches the command and keeps it', () => {
 });
 
 test('brakes without power', () => {
-  const drive = new DifferentialDrive();
+  const drive = new BaseDrive();
   drive.command(twist(1, 0));
   for (let i = 0; i < 1000; i++) drive.step(0.002, true);
   for (let i = 0; i < 250; i++) drive.step(0.002, false);
@@ -62,7 +62,7 @@ test('a reversal passes through zero at the braking limit', () => {
 });
 
 test('wheels turn at the speeds that give the motion', () => {
-  const drive = new DifferentialDrive({ trackWidth: 0.5, wheelRadius: 0.1 });
+  const drive = new BaseDrive({ trackWidth: 0.5, wheelRadius: 0.1 });
   drive.linear = 0.6;
   drive.angular = 0.8;
   expect(drive.wheelSpeeds.left).toBeCloseTo(4, 9);
@@ -72,7 +72,7 @@ test('wheels turn at the speeds that give the motion', () => {
 test.each(['linear', 'angular'] as const)('refuses a command whose %s part is not finite', (part) => {
   for (const axis of ['x', 'y', 'z'] as const) {
     for (const value of [Number.NaN, Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY]) {
-      const drive = new DifferentialDrive();
+      const drive = new BaseDrive();
       drive.command(twist(0.5, 0));
       const command = zeroTwist();
       command[part][axis] = value;
@@ -86,6 +86,37 @@ test.each(['linear', 'angular'] as const)('refuses a command whose %s part is no
 });
 
 test('refuses invalid limits', () => {
-  expect(() => new DifferentialDrive({ radius: 0 })).toThrow(SimulationError);
-  expect(() => new DifferentialDrive({ maxLinearSpeed: Number.NaN })).toThrow(SimulationError);
+  expect(() => new BaseDrive({ radius: 0 })).toThrow(SimulationError);
+  expect(() => new BaseDrive({ maxLinearSpeed: Number.NaN })).toThrow(SimulationError);
+});
+
+describe('sideways', () => {
+  const aside = (x: number, y: number) => ({ ...zeroTwist(), linear: { x, y, z: 0 } });
+
+  test('a base that cannot stays as it is, whatever is commanded', () => {
+    const drive = new BaseDrive();
+    drive.command(aside(0.4, 0.5));
+    for (let i = 0; i < 1000; i++) drive.step(0.002, true);
+    expect(drive.twist).toEqual(aside(0.4, 0));
+    expect(drive.speed).toBe(0.4);
+  });
+
+  test('one that can speeds up and brakes as forwards, within its limit', () => {
+    const drive = new BaseDrive({ maxLateralSpeed: 0.5 });
+    drive.command(aside(0, -2));
+    for (let i = 0; i < 100; i++) drive.step(0.002, true);
+    expect(drive.lateral).toBeCloseTo(-0.2);
+    for (let i = 0; i < 1000; i++) drive.step(0.002, true);
+    expect(drive.twist).toEqual(aside(0, -0.5));
+    expect(drive.speed).toBe(0.5);
+    for (let i = 0; i < 100; i++) drive.step(0.002, false);
+    expect(drive.lateral).toBeCloseTo(-0.1);
+    drive.halt();
+    expect(drive.twist).toEqual(zeroTwist());
+  });
+
+  test('the limit is not negative', () => {
+    expect(() => new BaseDrive({ maxLateralSpeed: -0.1 })).toThrow(SimulationError);
+    expect(() => new BaseDrive({ maxLateralSpeed: Number.NaN })).toThrow(SimulationError);
+  });
 });

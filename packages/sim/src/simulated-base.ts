@@ -1,7 +1,7 @@
 import type { Pose, Twist } from '@farpoint/protocol';
 import { Battery, type BatteryState } from './battery.ts';
 import { CollisionWorld, staticObstacles } from './collision.ts';
-import { DifferentialDrive, type RobotLimits } from './drive.ts';
+import { BaseDrive, type RobotLimits } from './drive.ts';
 import { requireFinite, SimulationError } from './errors.ts';
 import { Motor } from './motor.ts';
 import { MovingBody } from './movers.ts';
@@ -31,7 +31,7 @@ export interface BaseState {
   battery: BatteryState;
   /** Whether the robot touched something during the last `step`. */
   collision: boolean;
-  /** Metres driven, forwards and backwards. */
+  /** Metres driven, in whatever direction. */
   odometryDistance: number;
 }
 
@@ -41,7 +41,7 @@ export interface BaseState {
  */
 export class SimulatedBase {
   readonly world: WorldDescription;
-  readonly #drive: DifferentialDrive;
+  readonly #drive: BaseDrive;
   readonly #battery: Battery;
   readonly #motors = { left: new Motor(), right: new Motor() };
   readonly #collisions: CollisionWorld;
@@ -60,7 +60,7 @@ export class SimulatedBase {
     if (!(charge >= 0 && charge <= 1))
       throw new SimulationError('out-of-range', 'charge', `${charge} is not between 0 and 1`);
     this.#battery = new Battery(charge);
-    this.#drive = new DifferentialDrive(limits);
+    this.#drive = new BaseDrive(limits);
     this.#movers = world.movers.map((mover) => new MovingBody(mover));
     this.#collisions = new CollisionWorld(
       staticObstacles(world),
@@ -74,7 +74,7 @@ export class SimulatedBase {
   }
 
   /**
-   * Sets the commanded velocity, kept until the next call: linear.x and angular.z, clamped to the limits.
+   * Sets the commanded velocity, kept until the next call: linear.x, linear.y and angular.z, clamped to the limits.
    *
    * @throws SimulationError `not-finite`; the old command stays
    */
@@ -106,39 +106,40 @@ export class SimulatedBase {
 
   #advance(): void {
     const drive = this.#drive;
-    const before = drive.linear;
+    const before = drive.speed;
     for (const mover of this.#movers) mover.step(TIME_STEP, this.#position, drive.limits.radius);
     drive.step(TIME_STEP, !this.#battery.empty);
 
     // Along the chord of the arc: exact to third order in the step.
     const heading = this.#yaw + (drive.angular * TIME_STEP) / 2;
     const [c, s] = [cos(heading), sin(heading)];
-    const travel = drive.linear * TIME_STEP;
+    const [travel, aside] = [drive.linear * TIME_STEP, drive.lateral * TIME_STEP];
     const from = this.#position;
-    const to = { x: from.x + travel * c, y: from.y + travel * s };
+    const to = { x: from.x + travel * c - aside * s, y: from.y + travel * s + aside * c };
     const { x, y, contact } = this.#collisions.move(from, to, drive.limits.radius);
     if (contact) {
       this.#collision = true;
       // The remaining speed is the distance actually driven; contact never pushes.
-      const driven = ((x - from.x) * c + (y - from.y) * s) / TIME_STEP;
-      drive.linear = drive.linear > 0 ? clamp(driven, 0, drive.linear) : clamp(driven, drive.linear, 0);
+      const [dx, dy] = [x - from.x, y - from.y];
+      drive.linear = slowed(drive.linear, (dx * c + dy * s) / TIME_STEP);
+      drive.lateral = slowed(drive.lateral, (dy * c - dx * s) / TIME_STEP);
     }
     this.#position = { x, y };
     this.#yaw = wrapAngle(this.#yaw + drive.angular * TIME_STEP);
     const wheels = drive.wheelSpeeds;
     this.#wheelAngles.left += wheels.left * TIME_STEP;
     this.#wheelAngles.right += wheels.right * TIME_STEP;
-    this.#distance += Math.abs(drive.linear) * TIME_STEP;
-    const acceleration = (drive.linear - before) / TIME_STEP;
+    this.#distance += Math.abs(drive.speed) * TIME_STEP;
+    const acceleration = (drive.speed - before) / TIME_STEP;
     this.#motors.left.step(TIME_STEP, wheels.left * drive.limits.wheelRadius, acceleration);
     this.#motors.right.step(TIME_STEP, wheels.right * drive.limits.wheelRadius, acceleration);
-    this.#battery.step(TIME_STEP, drive.linear, drive.angular, acceleration, this.#docked);
+    this.#battery.step(TIME_STEP, drive.speed, drive.angular, acceleration, this.#docked);
     this.#steps++;
   }
 
   get #docked(): boolean {
     const { dock } = this.world;
-    if (!dock || Math.abs(this.#drive.linear) > 0.05) return false;
+    if (!dock || Math.abs(this.#drive.speed) > 0.05) return false;
     const [dx, dy] = [dock.x - this.#position.x, dock.y - this.#position.y];
     return dx * dx + dy * dy < DOCK_REACH * DOCK_REACH;
   }
@@ -200,8 +201,7 @@ export class SimulatedBase {
     }
     this.#position = { x, y };
     this.#yaw = wrapAngle(yaw);
-    this.#drive.linear = 0;
-    this.#drive.angular = 0;
+    this.#drive.halt();
   }
 
   /** Positions of people and carts. */
@@ -213,6 +213,11 @@ export class SimulatedBase {
       walking: body.moving && body.mover.speed > 0,
     }));
   }
+}
+
+/** What is left of a speed of which only a part was driven. */
+function slowed(speed: number, driven: number): number {
+  return speed > 0 ? clamp(driven, 0, speed) : clamp(driven, speed, 0);
 }
 
 function clamp(value: number, low: number, high: number): number {

@@ -116,8 +116,11 @@ export function openDrive(options: DriveOptions, parts: DriveParts): Drive {
   const { limits, motion } = options;
   const { base, sink, recording, audit, obstacles, heard, count, log } = parts;
   const odometry = new BaseOdometry(limits, base !== null);
+  const movesSideways = (limits.maxLateral ?? 0) > 0;
   const fence =
-    options.fence == null ? null : openGeofence(options.fence, () => odometry.believed, base !== null);
+    options.fence == null
+      ? null
+      : openGeofence(options.fence, () => odometry.believed, base !== null, movesSideways);
   const guard = openGuard(options);
   const { view, ramps } = motion;
   const blindTravel = view === null ? null : new BlindTravel(guard.view, view);

@@ -1,4 +1,4 @@
-import type { Twist } from '@farpoint/protocol';
+import { shortestTurn, type Twist } from '@farpoint/protocol';
 import { FREE, type MotionBound, type MotionGuard } from '../motion/motion-guard.ts';
 import { depthIn } from './area.ts';
 import { clearance, type Fence } from './fence.ts';
@@ -13,6 +13,8 @@ export interface FencePose {
   yaw: number | null;
   /** Measured velocity of base_link, m/s and rad/s. */
   linear: number;
+  /** To the left; left out: 0, the base cannot go sideways. */
+  lateral?: number | undefined;
   angular: number;
   /** How far off the position may be, m. */
   errorM: number;
@@ -65,6 +67,11 @@ const RETURN_MPS = 0.3;
 const RETURN_SHARE = 0.2;
 /** The way is looked at in so many places: it must come nearer all along. */
 const RETURN_STEPS = 8;
+/**
+ * A robot whose motion is farther than this from its way back in is not on it, rad. Chosen: half of its motion then leads there;
+ * forwards and backwards differ by more in any case. geofence-sideways.property.test.ts holds it.
+ */
+const MOST_ASTRAY_RAD = Math.PI / 3;
 /** Slower counts as standing, m/s. */
 const STANDS_MPS = 0.01;
 
@@ -87,55 +94,62 @@ export class Geofence implements MotionGuard {
   }
 
   bound(wish: Readonly<Twist>, nowMs: number): Readonly<MotionBound> {
-    const [linear, angular] = [wish.linear.x, wish.angular.z];
-    const asksNothing = linear === 0 && angular === 0;
+    const [course, angular] = [courseOf(wish.linear.x, wish.linear.y), wish.angular.z];
+    const asksNothing = course.speed === 0 && angular === 0;
     const pose = this.#pose();
     if (pose === null || !this.#isUsable(pose, nowMs)) return asksNothing ? FREE : STOP;
     const ageS = Math.max(0, nowMs - pose.atMs) / 1000;
     const delayS = this.#options.reactionMs / 1000 + ageS;
     const keepOff = this.#options.radiusM + pose.errorM;
     const room = clearance(this.#fence, pose.x, pose.y) - keepOff;
-    if (room < EDGE_M) return this.#nearEdge(pose, linear, angular, delayS);
-    if (!this.#canStop(pose, angular, delayS, keepOff)) return STOP;
-    if (Math.abs(linear) < STANDS_MPS) return FREE;
-    const speed = this.#speedAlong(pose, linear, angular, delayS, keepOff);
-    if (speed >= Math.abs(linear)) return FREE;
+    if (room < EDGE_M) return this.#nearEdge(pose, course, angular, delayS);
+    if (!this.#canStop(pose, course, angular, delayS, keepOff)) return STOP;
+    if (course.speed < STANDS_MPS) return FREE;
+    const speed = this.#speedAlong(pose, course, angular, delayS, keepOff);
+    if (speed >= course.speed) return FREE;
     if (speed < STANDS_MPS) return STOP;
-    return { factor: speed / Math.abs(linear), reason: 'fence-near', urgent: false };
+    return { factor: speed / course.speed, reason: 'fence-near', urgent: false };
   }
 
-  #isUsable({ x, y, yaw, linear, angular, errorM, atMs }: FencePose, nowMs: number): boolean {
-    const known = Number.isFinite(x + y + (yaw ?? 0) + linear + angular + errorM);
+  #isUsable({ x, y, yaw, linear, lateral = 0, angular, errorM, atMs }: FencePose, nowMs: number): boolean {
+    const known = Number.isFinite(x + y + (yaw ?? 0) + linear + lateral + angular + errorM);
     return known && errorM >= 0 && nowMs - atMs <= this.#options.maxAgeMs;
   }
 
   /** Whether the robot, as it moves now, comes to a stand before the edge, even if it turns as it was told to. */
-  #canStop(pose: FencePose, angular: number, delayS: number, keepOff: number): boolean {
+  #canStop(pose: FencePose, wish: Course, angular: number, delayS: number, keepOff: number): boolean {
     const { brakeMps2, turnBrakeRadps2 } = this.#options;
-    const speed = Math.abs(pose.linear);
+    const rolls = courseOfPose(pose);
+    const { speed } = rolls;
     if (speed < STANDS_MPS) return true;
     const stopS = delayS + speed / brakeMps2;
     const turn = Math.abs(angular - pose.angular);
     const veer =
-      Math.min(turn * stopS, (turnBrakeRadps2 * stopS * stopS) / 2) + this.#brakeVeer(speed, pose.angular);
+      Math.min(turn * stopS, (turnBrakeRadps2 * stopS * stopS) / 2) +
+      this.#brakeVeer(speed, pose.angular) +
+      swerve(rolls, wish);
     const needed = speed * delayS + (speed * speed) / (2 * brakeMps2);
-    return this.#free(pose, pose.linear, pose.angular, veer, keepOff, needed) >= needed;
+    return this.#free(pose, rolls, pose.angular, veer, keepOff, needed) >= needed;
   }
 
   /** The highest speed on the way on which the robot was told to go, m/s: what was asked, or less. */
-  #speedAlong(pose: FencePose, linear: number, angular: number, delayS: number, keepOff: number): number {
+  #speedAlong(pose: FencePose, wish: Course, angular: number, delayS: number, keepOff: number): number {
     const { brakeMps2, turnBrakeRadps2 } = this.#options;
-    const asked = Math.abs(linear);
+    const asked = wish.speed;
     const brake = brakeMps2 * COMFORT;
     const turn = Math.abs(angular - pose.angular);
-    const veer = turn * delayS + (turn * turn) / (2 * turnBrakeRadps2) + this.#brakeVeer(asked, angular);
+    const veer =
+      turn * delayS +
+      (turn * turn) / (2 * turnBrakeRadps2) +
+      this.#brakeVeer(asked, angular) +
+      swerve(courseOfPose(pose), wish);
     const most = asked * delayS + (asked * asked) / (2 * brake);
-    const free = this.#free(pose, linear, angular, veer, keepOff, most);
+    const free = this.#free(pose, wish, angular, veer, keepOff, most);
     let speed = free >= most ? asked : speedOver(free, delayS, brake);
     for (const { area, maxMps } of this.#fence.slow) {
       if (maxMps >= Math.min(speed, asked)) continue;
       const distance = (x: number, y: number) => -depthIn(area, x, y) - keepOff;
-      const before = freeFrom(pose, linear, angular, distance, veer, most);
+      const before = freeFrom(pose, wish, angular, distance, veer, most);
       const braking = Math.max(0, before - asked * delayS);
       speed = Math.min(speed, Math.sqrt(maxMps * maxMps + 2 * brake * braking));
     }
@@ -144,14 +158,14 @@ export class Geofence implements MotionGuard {
 
   #free(
     pose: FencePose,
-    linear: number,
+    course: Course,
     angular: number,
     veer: number,
     keepOff: number,
     most: number,
   ): number {
     const distance = (x: number, y: number) => clearance(this.#fence, x, y) - keepOff;
-    return freeFrom(pose, linear, angular, distance, veer, most);
+    return freeFrom(pose, course, angular, distance, veer, most);
   }
 
   /** The direction that a braking robot may lose against its arc, because it brakes its turning by itself, rad. */
@@ -162,13 +176,14 @@ export class Geofence implements MotionGuard {
   }
 
   /** At the edge, or outside: turning, and what leads back in. */
-  #nearEdge(pose: FencePose, linear: number, angular: number, delayS: number): Readonly<MotionBound> {
+  #nearEdge(pose: FencePose, wish: Course, angular: number, delayS: number): Readonly<MotionBound> {
+    const rolls = courseOfPose(pose);
     // However slow a way out is, it leads out.
-    if (linear === 0) return angular === 0 || Math.abs(pose.linear) < STANDS_MPS ? FREE : STOP;
+    if (wish.speed === 0) return angular === 0 || rolls.speed < STANDS_MPS ? FREE : STOP;
     if (pose.yaw === null) return STOP;
-    const speed = Math.min(Math.abs(linear), RETURN_MPS);
+    const speed = Math.min(wish.speed, RETURN_MPS);
     const length = speed * delayS + (speed * speed) / (2 * this.#options.brakeMps2);
-    const arc = arcOf(pose, linear, angular);
+    const arc = arcOf(pose, wish, angular);
     const step = length / RETURN_STEPS;
     let before = clearance(this.#fence, pose.x, pose.y);
     for (let i = 1; i <= RETURN_STEPS; i++) {
@@ -177,20 +192,64 @@ export class Geofence implements MotionGuard {
       before = there;
     }
     // A robot that still rolls the other way is not on its way back.
-    if (pose.linear * linear < 0 && Math.abs(pose.linear) > STANDS_MPS) return STOP;
-    return { factor: speed / Math.abs(linear), reason: 'fence-near', urgent: false };
+    if (rolls.speed > STANDS_MPS && between(rolls, wish) > MOST_ASTRAY_RAD) return STOP;
+    return { factor: speed / wish.speed, reason: 'fence-near', urgent: false };
   }
 }
 
-function arcOf({ x, y, yaw }: FencePose, linear: number, angular: number): Arc {
-  const direction = (yaw ?? 0) + (linear < 0 ? Math.PI : 0);
-  return { x, y, direction, bend: angular / Math.abs(linear) };
+/** A planar velocity. */
+interface Course {
+  /** m/s. */
+  speed: number;
+  /** From base_link's x axis, rad. */
+  direction: number;
+  /** How far the direction is from the nearest axis of the base, rad. */
+  aslant: number;
+}
+
+function courseOf(linear: number, lateral: number): Course {
+  if (lateral === 0) return { speed: Math.abs(linear), direction: linear < 0 ? Math.PI : 0, aslant: 0 };
+  const [most, least] = [Math.abs(linear), Math.abs(lateral)].sort((a, b) => b - a) as [number, number];
+  return {
+    speed: Math.hypot(linear, lateral),
+    direction: Math.atan2(lateral, linear),
+    aslant: Math.atan2(least, most),
+  };
+}
+
+function courseOfPose({ linear, lateral = 0 }: FencePose): Course {
+  return courseOf(linear, lateral);
+}
+
+/** The angle between two directions, rad. */
+function between(a: Course, b: Course): number {
+  return Math.abs(shortestTurn(a.direction - b.direction));
+}
+
+/**
+ * By what else the direction may be off, where the robot moves sideways: a base whose axes brake by themselves loses the slower
+ * one first, and on its way from one direction to another it takes those between, rad.
+ */
+function swerve(rolls: Course, wish: Course): number {
+  const aslant = Math.max(rolls.aslant, wish.aslant);
+  const moves = rolls.speed >= STANDS_MPS && wish.speed >= STANDS_MPS;
+  const turn = moves ? between(rolls, wish) : 0;
+  // Forwards and backwards there is nothing between: a robot that reverses stands in the meantime.
+  return aslant + (isAlong(rolls) && isAlong(wish) ? 0 : turn);
+}
+
+function isAlong({ direction }: Course): boolean {
+  return direction === 0 || direction === Math.PI;
+}
+
+function arcOf({ x, y, yaw }: FencePose, { speed, direction }: Course, angular: number): Arc {
+  return { x, y, direction: (yaw ?? 0) + direction, bend: angular / speed };
 }
 
 /** How far the robot can go before a distance is used up, m. @param veer what its direction may be off its arc, rad */
 function freeFrom(
   pose: FencePose,
-  linear: number,
+  course: Course,
   angular: number,
   distance: (x: number, y: number) => number,
   veer: number,
@@ -199,7 +258,7 @@ function freeFrom(
   // In any direction.
   if (pose.yaw === null) return Math.min(most, Math.max(0, distance(pose.x, pose.y)));
   // A way of this length that is off by no more than this angle ends no farther off than their product.
-  return freeLength(arcOf(pose, linear, angular), distance, Math.min(2, veer), most);
+  return freeLength(arcOf(pose, course, angular), distance, Math.min(2, veer), most);
 }
 
 /** The speed from which the robot stands after `length`, m/s, if it brakes after a delay. */

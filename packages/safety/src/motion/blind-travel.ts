@@ -43,7 +43,7 @@ export class BlindTravel implements MotionGuard {
     const mostMps = this.mostMps(nowMs);
     // What is not known at all is for ViewAge to judge.
     if (mostMps === null) return FREE;
-    const fastest = Math.abs(linear.x) + Math.abs(angular.z) * this.#limits.radiusM;
+    const fastest = Math.hypot(linear.x, linear.y) + Math.abs(angular.z) * this.#limits.radiusM;
     if (fastest <= mostMps) return FREE;
     this.#bound.factor = mostMps / fastest;
     return this.#bound;

@@ -16,7 +16,7 @@ export const FREE: Readonly<MotionBound> = Object.freeze({ factor: 1, reason: nu
 /** Bounds the robot's motion by one kind of knowledge. Pure: what it knows and the time are given to it. */
 export interface MotionGuard {
   /**
-   * @param wish the requested velocity of base_link: linear.x in m/s, angular.z in rad/s
+   * @param wish the requested velocity of base_link: linear.x and linear.y in m/s, angular.z in rad/s
    * @param nowMs the robot's monotonic clock, ms
    */
   bound(wish: Readonly<Twist>, nowMs: number): Readonly<MotionBound>;

@@ -56,7 +56,8 @@ const NONE: readonly Intervention[] = Object.freeze([]);
  * - no component of the velocity exceeds that of the wish, except while the ramp leads it there;
  * - the velocity changes no faster than the ramps allow, and goes towards zero from the moment that anything demands a
  *   stop, however the wish changes;
- * - linear and angular velocity are bounded alike: the robot leaves its arc only while it ramps.
+ * - linear and angular velocity, forwards and sideways, are bounded alike: the robot leaves its arc only while it ramps;
+ * - the planar velocity never exceeds both what it was and the wish's, and a robot that brakes to stand keeps its direction.
  */
 export class MotionSupervisor {
   readonly guard: DriveGuard;
@@ -203,6 +204,7 @@ export class MotionSupervisor {
 function scaled({ linear, angular }: Twist, factor: number): Twist {
   const twist = zeroTwist();
   twist.linear.x = linear.x * factor + 0;
+  twist.linear.y = linear.y * factor + 0;
   twist.angular.z = angular.z * factor + 0;
   return twist;
 }

@@ -58,3 +58,15 @@ test('the way while blind and the way to brake stay within the length', () => {
   const turning = { ...forward, angular: { x: 0, y: 0, z: 4 } };
   expect(guard.bound(turning, 0).factor).toBeCloseTo(factor / 2);
 });
+
+test('a way to the side while blind counts as one ahead, and a slanting one as the whole of it', () => {
+  const view = new OperatorView(150);
+  view.note(400, 1000);
+  const blind = new BlindTravel(view, { mostM: 0.5, decelerationMps2: 2, radiusM: 0.25 });
+  const share = (x: number, y: number) =>
+    blind.bound({ ...zeroTwist(), linear: { x, y, z: 0 } }, 1000).factor;
+  expect(share(1, 0)).toBeLessThan(1);
+  expect(share(0, -1)).toBe(share(1, 0));
+  expect(share(0.6, 0.8)).toBeCloseTo(share(1, 0));
+  expect(share(0.6, 0.8)).toBeLessThan(share(0.6, 0));
+});

@@ -156,3 +156,36 @@ test('a velocity that nobody measures is estimated from the poses', () => {
   );
   expect(begun(null).newest?.twist).toBeNull();
 });
+
+describe('of a base that goes sideways', () => {
+  const aside = (y: number): Twist => ({ ...zeroTwist(), linear: { x: 0, y, z: 0 } });
+
+  test('a pose jumps only where the greater of its limits does not explain it', () => {
+    const poseAfter = (limits: { maxLinear: number; maxLateral?: number; maxAngular: number }) => {
+      const odometry = new Odometry(limits);
+      odometry.measured({ x: 0, y: 0, yaw: 0 }, aside(1), 0);
+      odometry.measured({ x: 0, y: 1.4, yaw: 0 }, aside(1), 1000);
+      return odometry.jumps.count;
+    };
+    expect(poseAfter(LIMITS)).toBe(1);
+    expect(poseAfter({ ...LIMITS, maxLateral: 1 })).toBe(0);
+    expect(poseAfter({ ...LIMITS, maxLateral: 0.2 })).toBe(1);
+  });
+
+  test('a pose that does not move although the robot is told to go sideways is not believed', () => {
+    const odometry = new Odometry({ ...LIMITS, maxLateral: 0.5 });
+    odometry.measured({ x: 0, y: 0, yaw: 0 }, aside(0), 0);
+    for (let ms = 0; ms <= 2000; ms += STEP_MS) {
+      odometry.told(aside(0.5), ms);
+      odometry.measured({ x: 0, y: 0, yaw: 0 }, aside(0), ms + 1);
+    }
+    expect(odometry.isStuck).toBe(true);
+  });
+
+  test('a velocity that nobody measures is estimated to the side, too', () => {
+    const odometry = new Odometry({ ...LIMITS, maxLateral: 0.5 });
+    for (let ms = 0; ms <= 200; ms += STEP_MS)
+      odometry.measured({ x: (-0.4 * ms) / 1000, y: 0, yaw: Math.PI / 2 }, null, ms);
+    expect(odometry.newest?.twist?.linear).toMatchObject({ x: expect.closeTo(0), y: expect.closeTo(0.4) });
+  });
+});

@@ -4,6 +4,8 @@ import type { FloorPose } from '../obstacles/sensor-grid.ts';
 /** What the robot can do: m/s and rad/s. */
 export interface OdometryLimits {
   maxLinear: number;
+  /** Sideways; left out: 0. */
+  maxLateral?: number | undefined;
   maxAngular: number;
 }
 
@@ -160,11 +162,11 @@ export class Odometry {
   #hasJumped({ pose, measuredMs }: MeasuredMotion, to: Readonly<FloorPose>, atMs: number): boolean {
     const seconds = (atMs - measuredMs) / 1000;
     if (seconds * 1000 > MOST_GAP_MS) return hasMoved(pose, to);
-    const { maxLinear, maxAngular } = this.#limits;
+    const { maxLinear, maxLateral = 0, maxAngular } = this.#limits;
     const gone = Math.hypot(to.x - pose.x, to.y - pose.y);
     const turned = Math.abs(shortestTurn(to.yaw - pose.yaw));
     return (
-      gone > maxLinear * ODOMETRY_OVERSPEED * seconds + JUMP_M ||
+      gone > Math.max(maxLinear, maxLateral) * ODOMETRY_OVERSPEED * seconds + JUMP_M ||
       turned > maxAngular * ODOMETRY_OVERSPEED * seconds + JUMP_RAD
     );
   }

@@ -45,6 +45,16 @@ describe('by odometry', () => {
   });
 });
 
+test.each([
+  [true, 0],
+  [false, 1],
+])('a base that moves sideways (%s) is judged by its velocity to the side', (movesSideways, factor) => {
+  const twist: Twist = { ...zeroTwist(), linear: { x: 0, y: 1, z: 0 } };
+  const pose = { ...state(0).pose, position: { x: 0, y: 1.9, z: 0 } };
+  const { geofence } = openGeofence(options, () => state(0, { pose, twist }), true, movesSideways);
+  expect(geofence.bound(zeroTwist(), 1010).factor).toBe(factor);
+});
+
 describe('by satellites', () => {
   const earth = new EarthFrame({ latitude: 48, longitude: 11, turnDeg: 0 });
   const open = () => openGeofence({ ...options, fix: { topic: '/fix', earth } }, () => state(99), true);

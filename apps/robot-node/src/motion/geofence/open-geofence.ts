@@ -30,18 +30,20 @@ export interface OpenedGeofence {
  * @param state gives the newest of the base, as far as it is believed; `null` if nobody can tell where the robot is
  * @param isSimulated whether the base is simulated: then its state was measured at its time. Others say when, or their
  *   position is unknown
+ * @param movesSideways whether the base can: one that cannot has no velocity to the side, whatever its odometry says
  */
 export function openGeofence(
   { fence, fix: receiver, errorM, limits }: FenceOptions,
   state: () => TimedBaseState | null,
   isSimulated: boolean,
+  movesSideways = false,
 ): OpenedGeofence {
   const fix = receiver === null ? null : new FixPosition(receiver.earth, receiver.topic);
   const frozen = new FrozenPosition(errorM);
   const pose = (): FencePose | null => {
     const known = state();
     if (known === null) return null;
-    const odometry = poseOf(known, errorM, isSimulated);
+    const odometry = poseOf(known, errorM, isSimulated, movesSideways);
     if (fix === null || odometry === null) return odometry;
     const { place } = fix;
     if (place === null || frozen.judge(place, odometry, odometry.atMs)) return null;
@@ -55,6 +57,7 @@ function poseOf(
   { pose, twist, timeMs, measuredMs }: TimedBaseState,
   errorM: number,
   isSimulated: boolean,
+  movesSideways: boolean,
 ): FencePose | null {
   const atMs = measuredMs === undefined && isSimulated ? timeMs : (measuredMs ?? null);
   if (atMs === null) return null;
@@ -63,6 +66,7 @@ function poseOf(
     y: pose.position.y,
     yaw: bodyYaw(pose.orientation),
     linear: twist?.linear.x ?? 0,
+    ...(movesSideways ? { lateral: twist?.linear.y ?? 0 } : {}),
     angular: twist?.angular.z ?? 0,
     errorM,
     atMs,

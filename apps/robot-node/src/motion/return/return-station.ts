@@ -14,7 +14,7 @@ export interface ReturnAudit {
 
 export interface ReturnStationParts {
   /** Of the robot. */
-  limits: Pick<DriveLimits, 'maxLinear' | 'maxAngular'>;
+  limits: Pick<DriveLimits, 'maxLinear' | 'maxLateral' | 'maxAngular'>;
   lookout: Lookout;
   audit: ReturnAudit;
   log: Pick<Logger, 'info' | 'warn'>;
@@ -34,10 +34,11 @@ export class ReturnStation {
   #metres = 0;
 
   constructor(configuration: ReturnConfiguration, parts: ReturnStationParts) {
-    const { maxLinear, maxAngular } = parts.limits;
+    const { maxLinear, maxLateral = 0, maxAngular } = parts.limits;
     this.#configuration = configuration;
     this.#parts = parts;
-    const most = { mostMps: maxLinear * ODOMETRY_OVERSPEED, mostRadps: maxAngular * ODOMETRY_OVERSPEED };
+    const mostMps = Math.max(maxLinear, maxLateral) * ODOMETRY_OVERSPEED;
+    const most = { mostMps, mostRadps: maxAngular * ODOMETRY_OVERSPEED };
     this.drive = new ReturnDrive(configuration.options, most, parts.lookout);
     const { topic } = configuration;
     this.#announcer = topic === null ? null : new ReturnAnnouncer(topic, parts.log);

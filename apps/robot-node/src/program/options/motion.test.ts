@@ -32,3 +32,19 @@ describe('how the motion is bounded', () => {
     expect(refusals({ decelerationMps2: 5 })).toEqual(['emergencyMps2']);
   });
 });
+
+describe('how a base ramps sideways', () => {
+  test('as forwards, unless told otherwise', () => {
+    const { ramps } = toMotion(defaults, () => undefined);
+    expect(Object.keys(ramps).filter((key) => key.startsWith('lateral'))).toEqual([]);
+    const values = { ...defaults, lateralAccelerationMps2: 0.5, lateralDecelerationMps2: 3 };
+    expect(toMotion(values, () => undefined).ramps).toMatchObject({
+      ...{ lateralAccelerationMps2: 0.5, lateralDecelerationMps2: 3 },
+    });
+  });
+
+  test('a weaker brake than that with which stopping distances are computed is refused', () => {
+    expect(refusals({ lateralDecelerationMps2: 1.9 })).toEqual(['lateralDecelerationMps2']);
+    expect(refusals({ lateralDecelerationMps2: 2 })).toEqual([]);
+  });
+});

@@ -14,6 +14,12 @@ export const limitsOptions = optionGroup('limits', {
     argument: 'M/S',
     help: 'maximum speed, m/s',
   }),
+  maxLateral: defineOption({
+    schema: schema.number({ min: 0, max: 10 }),
+    default: 0,
+    argument: 'M/S',
+    help: 'maximum speed sideways, m/s, for a base that can (mecanum or omnidirectional wheels, legs); 0: it refuses to; for the simulated robot it also says whether its base can',
+  }),
   maxAngular: defineOption({
     schema: schema.number({ min: 0.01, max: 10 }),
     default: defaultDriveLimits.maxAngular,
@@ -107,11 +113,23 @@ export const motionOptions = optionGroup('motion', {
     argument: 'M/S2',
     help: 'acceleration',
   }),
+  lateralAccelerationMps2: defineOption({
+    schema: schema.optional(schema.number({ min: 0.1, max: 20 })),
+    default: null,
+    argument: 'M/S2',
+    help: 'acceleration sideways; without it, as forwards',
+  }),
   decelerationMps2: defineOption({
     schema: schema.number({ min: 0.1, max: 20 }),
     default: 2,
     argument: 'M/S2',
     help: 'deceleration that the base reaches on its floor: all stopping distances are computed with it',
+  }),
+  lateralDecelerationMps2: defineOption({
+    schema: schema.optional(schema.number({ min: 0.1, max: 20 })),
+    default: null,
+    argument: 'M/S2',
+    help: 'deceleration sideways, at least the other one; without it, as forwards. If the base brakes less hard sideways, set decelerationMps2 to what it reaches in every direction',
   }),
   emergencyMps2: defineOption({
     schema: schema.number({ min: 0.1, max: 100 }),
@@ -139,8 +157,13 @@ export function toMotion(
     refuse('viewBrakeMs', `must be above the age at which the robot is slower, ${viewSlowMs} ms`);
   if (emergencyMps2 < decelerationMps2)
     refuse('emergencyMps2', `must be at least the ordinary deceleration, ${decelerationMps2} m/s²`);
+  const { lateralAccelerationMps2, lateralDecelerationMps2 } = values;
+  if (lateralDecelerationMps2 !== null && lateralDecelerationMps2 < decelerationMps2)
+    refuse('lateralDecelerationMps2', `must be at least the deceleration forwards, ${decelerationMps2} m/s²`);
   return {
     ramps: {
+      ...(lateralAccelerationMps2 === null ? {} : { lateralAccelerationMps2 }),
+      ...(lateralDecelerationMps2 === null ? {} : { lateralDecelerationMps2 }),
       accelerationMps2: values.accelerationMps2,
       decelerationMps2,
       emergencyMps2,

@@ -21,6 +21,19 @@ describe('robot options', () => {
     expect(options.signaling.key).not.toBe(robot().signaling.key);
   });
 
+  it('let a robot go sideways only where its limit says so, and the simulated one with it', () => {
+    const options = robot();
+    // Operators from before it read the limits.
+    expect(Object.keys(options.limits)).not.toContain('maxLateral');
+    expect(options.base?.maxLateral).toBe(0);
+    expect(robot('--max-lateral', '0.4')).toMatchObject({
+      limits: { maxLinear: 1, maxLateral: 0.4 },
+      base: { maxLateral: 0.4 },
+    });
+    expect(() => robot('--max-lateral', '11')).toThrow('--max-lateral');
+    expect(() => robot('--max-lateral', '-1')).toThrow('--max-lateral');
+  });
+
   it('let the driver release STOP and demand an open hand after gaps, unless told otherwise', () => {
     expect(robot()).toMatchObject({ estopRelease: 'driver', afterGap: 'let-go' });
     expect(robot('--estop-release', 'latcher', '--after-gap', 'resume')).toMatchObject({

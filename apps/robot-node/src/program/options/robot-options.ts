@@ -156,6 +156,7 @@ function toBase(values: RobotOptionValues): RobotOptions['base'] {
   if (values.source !== 'sim') return null;
   return {
     watchdogMs: values.watchdogMs,
+    maxLateral: values.maxLateral,
     charge: values.simCharge / 100,
     origin: values.simOrigin,
     things: values.simThings ?? [],
@@ -168,6 +169,8 @@ function toLimits(values: RobotOptionValues) {
   return {
     limits: {
       maxLinear: values.maxLinear,
+      // Operators from before it refuse limits that have it: it is left out where it says nothing.
+      ...(values.maxLateral === 0 ? {} : { maxLateral: values.maxLateral }),
       maxAngular: values.maxAngular,
       watchdogMs: values.watchdogMs,
       maxCommandsPerSecond: defaultDriveLimits.maxCommandsPerSecond,

@@ -9,6 +9,8 @@ import type { SimNavigationOptions } from './sim-navigation.ts';
 export interface BaseOptions {
   /** The base stops after this long without a velocity, ms. */
   watchdogMs: number;
+  /** How fast it goes sideways, m/s; left out: 0, it cannot. */
+  maxLateral?: number | undefined;
   /** Charge of the battery at the start, 0 to 1. */
   charge: number;
   /** Where the world is on the earth; without it, the robot has no satellite receiver. */

@@ -42,9 +42,9 @@ const GNSS = {
 
 const port = parentPort;
 if (port === null) throw new Error('base-worker.ts runs as a worker only');
-const { watchdogMs, charge, origin, things = [], navigation, snapshot } = workerData as BaseWorkerData;
-const world = withThings(officeWorld(), things);
-const base = new RealTimeBase(new SimulatedBase(world, {}, charge));
+const { watchdogMs, maxLateral, charge, origin, things, navigation, snapshot } = workerData as BaseWorkerData;
+const world = withThings(officeWorld(), things ?? []);
+const base = new RealTimeBase(new SimulatedBase(world, { maxLateralSpeed: maxLateral ?? 0 }, charge));
 const navigator = navigation === undefined ? null : new SimNavigation(world, navigation);
 const wheels = new Wheels(base, watchdogMs);
 const writer = new SnapshotWriter(snapshot);
