@@ -7,7 +7,7 @@
       "target_name": "farpoint_dds",
       "sources": [
         "addon.c", "values.c", "handle.c", "js_graph.c", "js_reader.c", "js_writer.c",
-        "raw_type.c", "domain.c", "log.c", "graph.c", "reader.c", "writer.c"
+        "raw_type.c", "domain.c", "log.c", "graph.c", "matched.c", "reader.c", "writer.c"
       ],
       "include_dirs": ["<!(node -p \"require('node:path').dirname(require.resolve('@farpoint/native-addon/include/farpoint_addon.h'))\")"],
       "defines": ["NAPI_VERSION=8", "_GNU_SOURCE", "DDS_NDEBUG"],

@@ -85,6 +85,9 @@ static dds_qos_t *quality_of(struct topic_quality quality, bool writer) {
   /* Samples for late subscribers are limited by this, not by the history. */
   dds_qset_durability_service(qos, 0, DDS_HISTORY_KEEP_LAST, quality.depth, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED,
                               DDS_LENGTH_UNLIMITED);
+  if (quality.user_data != NULL && quality.user_data[0] != '\0') {
+    dds_qset_userdata(qos, quality.user_data, strlen(quality.user_data));
+  }
   /* ROS 2 writes the first version of CDR; we do the same, and read both. */
   dds_qset_data_representation(qos, writer ? 1 : 2, both);
   return qos;

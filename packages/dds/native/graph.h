@@ -20,6 +20,8 @@ struct topic_quality {
   bool reliable;
   bool transient_local;
   int32_t depth;
+  /* Told to all that match; empty: none. Must outlive the call only. */
+  const char *user_data;
 };
 
 /* Common part of readers and writers; the type is referenced. */
@@ -44,5 +46,12 @@ void endpoint_delete(struct endpoint *endpoint);
 dds_return_t graph_others(struct graph *graph, bool publishers,
                           void (*visit)(void *, const char *topic, const char *type, bool reliable, bool transient_local),
                           void *context);
+
+/*
+ * Calls `visit` for each endpoint that is matched now with a writer (then they are readers) or a reader, up to a limit:
+ * with its identity on the network, and its user data up to the first zero, empty if it has none.
+ */
+dds_return_t endpoint_matched(const struct endpoint *endpoint, bool is_writer,
+                              void (*visit)(void *, const dds_guid_t *guid, const char *user_data), void *context);
 
 #endif

@@ -1,6 +1,8 @@
 /* Graphs for JavaScript: participants, and discovery data. */
 #include "js_graph.h"
 
+#include <stdio.h>
+
 #include "handle.h"
 #include "js_exports.h"
 #include "log.h"
@@ -78,16 +80,38 @@ static napi_value js_others(napi_env env, napi_callback_info info) {
   return result < 0 ? fail_dds(env, result) : listing.list;
 }
 
+static void add_matched(void *context, const dds_guid_t *guid, const char *user_data) {
+  struct listing *listing = context;
+  napi_value values[2];
+  char hex[2 * sizeof guid->v + 1];
+  for (size_t i = 0; i < sizeof guid->v; i++) snprintf(hex + 2 * i, 3, "%02x", guid->v[i]);
+  if (napi_create_string_utf8(listing->env, hex, NAPI_AUTO_LENGTH, &values[0]) != napi_ok ||
+      napi_create_string_utf8(listing->env, user_data, NAPI_AUTO_LENGTH, &values[1]) != napi_ok) {
+    return;
+  }
+  append(listing, values[0]);
+  append(listing, values[1]);
+}
+
+napi_value list_matched(napi_env env, const struct endpoint *endpoint, bool is_writer) {
+  struct listing listing = {.env = env};
+  napi_create_array(env, &listing.list);
+  const dds_return_t result = endpoint_matched(endpoint, is_writer, add_matched, &listing);
+  return result < 0 ? fail_dds(env, result) : listing.list;
+}
+
 bool take_request(napi_env env, napi_value *values, struct request *to) {
   void *graph;
   uint32_t depth;
   if (!take_thing(env, values[0], &GRAPH_TAG, &graph) || !take_text(env, values[1], to->topic, sizeof to->topic) ||
       !take_text(env, values[2], to->type, sizeof to->type) || !take_bool(env, values[3], &to->quality.reliable) ||
-      !take_bool(env, values[4], &to->quality.transient_local) || !take_word(env, values[5], 1, MOST_DEPTH, &depth)) {
+      !take_bool(env, values[4], &to->quality.transient_local) || !take_word(env, values[5], 1, MOST_DEPTH, &depth) ||
+      !take_text(env, values[6], to->user_data, sizeof to->user_data)) {
     return false;
   }
   to->graph = graph;
   to->quality.depth = (int32_t)depth;
+  to->quality.user_data = to->user_data;
   return true;
 }
 

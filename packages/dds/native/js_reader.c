@@ -11,16 +11,16 @@ enum { MOST_QUEUE = 4096 };
 
 static void close_reader(void *reader) { reader_close(reader); }
 
-/* subscribe(graph, topic, type, reliable, transientLocal, depth, queue, onMessages) */
+/* subscribe(graph, topic, type, reliable, transientLocal, depth, userData, queue, onMessages) */
 static napi_value js_subscribe(napi_env env, napi_callback_info info) {
   napi_value values[MOST_ARGUMENTS];
   struct request request;
   uint32_t queue;
-  if (!take_arguments(env, info, 8, values) || !take_request(env, values, &request) ||
-      !take_word(env, values[6], 1, MOST_QUEUE, &queue)) {
+  if (!take_arguments(env, info, 9, values) || !take_request(env, values, &request) ||
+      !take_word(env, values[7], 1, MOST_QUEUE, &queue)) {
     return NULL;
   }
-  struct handle *handle = new_handle(env, values[7], close_reader);
+  struct handle *handle = new_handle(env, values[8], close_reader);
   if (handle == NULL) return NULL;
   struct reader *reader = NULL;
   const dds_return_t result = reader_open(request.graph, request.topic, request.type, request.quality, queue, wake,
@@ -76,6 +76,14 @@ static napi_value js_reader_counts(napi_env env, napi_callback_info info) {
   return NULL;
 }
 
+/* matchedWriters(reader): [guid, userData, …] */
+static napi_value js_matched_writers(napi_env env, napi_callback_info info) {
+  napi_value values[MOST_ARGUMENTS];
+  void *reader;
+  if (!take_arguments(env, info, 1, values) || !take_thing(env, values[0], &READER_TAG, &reader)) return NULL;
+  return list_matched(env, reader_endpoint(reader), false);
+}
+
 bool export_reader(napi_env env, napi_value exports) {
   static const struct addon_function functions[] = {
       {"subscribe", js_subscribe},
@@ -83,6 +91,7 @@ bool export_reader(napi_env env, napi_value exports) {
       {"rest", js_rest},
       {"take", js_take},
       {"readerCounts", js_reader_counts},
+      {"matchedWriters", js_matched_writers},
   };
   return EXPORT_FUNCTIONS(env, exports, functions);
 }

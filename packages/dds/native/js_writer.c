@@ -9,11 +9,11 @@ static const napi_type_tag WRITER_TAG = {0x7e209d4bb5c183f6, 0xa84c6f03e91d57b2}
 
 static void close_writer(void *writer) { writer_close(writer); }
 
-/* advertise(graph, topic, type, reliable, transientLocal, depth) */
+/* advertise(graph, topic, type, reliable, transientLocal, depth, userData) */
 static napi_value js_advertise(napi_env env, napi_callback_info info) {
   napi_value values[MOST_ARGUMENTS];
   struct request request;
-  if (!take_arguments(env, info, 6, values) || !take_request(env, values, &request)) return NULL;
+  if (!take_arguments(env, info, 7, values) || !take_request(env, values, &request)) return NULL;
   struct handle *handle = new_handle(env, NULL, close_writer);
   if (handle == NULL) return NULL;
   struct writer *writer = NULL;
@@ -51,12 +51,21 @@ static napi_value js_subscribers(napi_env env, napi_callback_info info) {
   return result;
 }
 
+/* matchedReaders(writer): [guid, userData, …] */
+static napi_value js_matched_readers(napi_env env, napi_callback_info info) {
+  napi_value values[MOST_ARGUMENTS];
+  void *writer;
+  if (!take_arguments(env, info, 1, values) || !take_thing(env, values[0], &WRITER_TAG, &writer)) return NULL;
+  return list_matched(env, writer_endpoint(writer), true);
+}
+
 bool export_writer(napi_env env, napi_value exports) {
   static const struct addon_function functions[] = {
       {"advertise", js_advertise},
       {"closeWriter", js_close_writer},
       {"write", js_write},
       {"subscribers", js_subscribers},
+      {"matchedReaders", js_matched_readers},
   };
   return EXPORT_FUNCTIONS(env, exports, functions);
 }

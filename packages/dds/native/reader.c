@@ -131,6 +131,8 @@ int64_t reader_take(struct reader *reader, uint8_t *to, size_t room, int64_t *re
   return (int64_t)bytes.count;
 }
 
+const struct endpoint *reader_endpoint(const struct reader *reader) { return &reader->endpoint; }
+
 struct reader_counts reader_counts(struct reader *reader) {
   struct reader_counts counts = {0};
   dds_sample_lost_status_t lost = {0};

@@ -35,5 +35,6 @@ struct reader_counts {
 };
 
 struct reader_counts reader_counts(struct reader *reader);
+const struct endpoint *reader_endpoint(const struct reader *reader);
 
 #endif

@@ -31,6 +31,8 @@ dds_return_t writer_write(struct writer *writer, const uint8_t *bytes, size_t co
   return dds_writecdr(writer->endpoint.entity, sample);
 }
 
+const struct endpoint *writer_endpoint(const struct writer *writer) { return &writer->endpoint; }
+
 uint32_t writer_subscribers(struct writer *writer) {
   dds_publication_matched_status_t matched = {0};
   dds_get_publication_matched_status(writer->endpoint.entity, &matched);

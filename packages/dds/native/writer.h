@@ -17,5 +17,6 @@ void writer_close(struct writer *writer);
 dds_return_t writer_write(struct writer *writer, const uint8_t *bytes, size_t count);
 
 uint32_t writer_subscribers(struct writer *writer);
+const struct endpoint *writer_endpoint(const struct writer *writer);
 
 #endif

@@ -26,7 +26,10 @@ export interface Addon {
   closeGraph(graph: GraphHandle): void;
   /** Endpoints of other participants, four values each: topic, type, reliable, transient-local. */
   others(graph: GraphHandle, publishers: boolean): (string | boolean)[];
-  /** @param onMessages called when messages wait, then not again until {@link rest} */
+  /**
+   * @param userData told to all that match; may be empty
+   * @param onMessages called when messages wait, then not again until {@link rest}
+   */
   subscribe(
     graph: GraphHandle,
     topic: string,
@@ -34,6 +37,7 @@ export interface Addon {
     reliable: boolean,
     transientLocal: boolean,
     depth: number,
+    userData: string,
     queue: number,
     onMessages: () => void,
   ): ReaderHandle;
@@ -55,11 +59,16 @@ export interface Addon {
     reliable: boolean,
     transientLocal: boolean,
     depth: number,
+    userData: string,
   ): WriterHandle;
   closeWriter(writer: WriterHandle): void;
   /** Returns whether DDS accepted the message: not if a reliable subscriber acknowledges too slowly. Never blocks. */
   write(writer: WriterHandle, bytes: Uint8Array): boolean;
   subscribers(writer: WriterHandle): number;
+  /** Readers that are matched with it now, two values each: GUID in hexadecimal digits, user data. */
+  matchedReaders(writer: WriterHandle): string[];
+  /** The same of writers. */
+  matchedWriters(reader: ReaderHandle): string[];
 }
 
 /** Converts a QoS to the arguments of the addon's calls: reliable, transient-local, depth. */

@@ -7,14 +7,17 @@ import {
   type Qos,
   RELIABLE_QOS,
   RosFault,
-  type RosGraph,
   SENSOR_QOS,
+  type ServiceAs,
+  type ServiceClient,
+  type ServiceGraph,
   type SubscribeTo,
   type Subscription,
 } from '@farpoint/ros';
 import { type Addon, type GraphHandle, loadAddon } from './addon.ts';
 import { cycloneConfiguration, type DdsOptions, ddsOptionsFrom } from './configuration.ts';
 import { DdsPublisher } from './dds-publisher.ts';
+import { DdsServiceClient } from './dds-service-client.ts';
 import { DdsSubscription } from './dds-subscription.ts';
 import {
   type OtherEndpoint,
@@ -23,6 +26,7 @@ import {
   readOthers,
   subscriptionFaults,
   topicsOf,
+  typesOn,
 } from './discovery.ts';
 import { toDdsTopic, toDdsType } from './ros-names.ts';
 
@@ -36,7 +40,7 @@ export interface DdsGraphOptions extends DdsOptions {
   env?: Readonly<Record<string, string | undefined>>;
 }
 
-export class DdsGraph implements RosGraph {
+export class DdsGraph implements ServiceGraph {
   readonly version = 2;
   onFault: ((fault: RosFault) => void) | null = null;
   readonly #addon: Addon;
@@ -44,6 +48,7 @@ export class DdsGraph implements RosGraph {
   readonly #now: () => number;
   readonly #subscriptions = new Map<DdsSubscription, OwnEndpoint>();
   readonly #publishers = new Map<DdsPublisher, OwnEndpoint>();
+  readonly #clients = new Set<DdsServiceClient>();
   /**
    * Mismatches that discovery shows now, by their text. Each is reported once, and again after it has disappeared and
    * returned.
@@ -97,6 +102,17 @@ export class DdsGraph implements RosGraph {
     return publisher;
   }
 
+  serviceClient(as: ServiceAs): ServiceClient {
+    const client = new DdsServiceClient(this.#addon, this.#handle, as, {
+      typesOf: (ddsTopic) => typesOn(this.#addon.others(this.#handle, false), ddsTopic),
+      onFault: (fault) => this.onFault?.(fault),
+      onClose: (closed) => this.#clients.delete(closed),
+      now: this.#now,
+    });
+    this.#clients.add(client);
+    return client;
+  }
+
   /** Of other participants: our own publishers and subscriptions do not count. */
   topics(): readonly GraphTopic[] {
     return this.#closed ? [] : topicsOf(this.#others('publishers'), this.#others('subscribers'));
@@ -106,7 +122,8 @@ export class DdsGraph implements RosGraph {
     if (this.#closed) return Promise.resolve();
     this.#closed = true;
     if (this.#looking !== null) clearTimeout(this.#looking);
-    for (const each of [...this.#subscriptions.keys(), ...this.#publishers.keys()]) each.close();
+    const own = [...this.#clients, ...this.#subscriptions.keys(), ...this.#publishers.keys()];
+    for (const each of own) each.close();
     this.#addon.closeGraph(this.#handle);
     return Promise.resolve();
   }
@@ -125,7 +142,9 @@ export class DdsGraph implements RosGraph {
 
   /** Reports mismatches in what discovery shows that have not been reported. */
   #look(): void {
-    if (this.#closed || this.#subscriptions.size + this.#publishers.size === 0) return;
+    if (this.#closed) return;
+    for (const client of this.#clients) client.look();
+    if (this.#subscriptions.size + this.#publishers.size === 0) return;
     const [publishers, subscribers] = [this.#others('publishers'), this.#others('subscribers')];
     const faults = [
       ...[...this.#subscriptions.values()].flatMap((own) => subscriptionFaults(own, publishers)),

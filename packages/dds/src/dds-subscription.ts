@@ -1,6 +1,7 @@
 import type { OnMessage, Qos, RosFault, Subscription } from '@farpoint/ros';
 import { type Addon, type GraphHandle, qosArguments, type ReaderHandle } from './addon.ts';
 import { encapsulationFault } from './encapsulation.ts';
+import { type MatchedEndpoint, readMatched } from './service-servers.ts';
 
 /** Buffer size for small messages; grows to the largest that arrives. */
 const FIRST_ROOM_BYTES = 4096;
@@ -11,6 +12,8 @@ export interface ReaderOptions {
   ddsType: string;
   qos: Qos;
   queue: number;
+  /** Told to all that match. */
+  userData?: string;
 }
 
 export interface SubscriptionEvents {
@@ -35,12 +38,13 @@ export class DdsSubscription implements Subscription {
   #closed = false;
 
   constructor(addon: Addon, graph: GraphHandle, options: ReaderOptions, events: SubscriptionEvents) {
-    const { topic, ddsTopic, ddsType, qos, queue } = options;
+    const { topic, ddsTopic, ddsType, qos, queue, userData = '' } = options;
     this.topic = topic;
     this.#addon = addon;
     this.#events = events;
-    const onMessages = () => this.#drain();
-    this.#reader = addon.subscribe(graph, ddsTopic, ddsType, ...qosArguments(qos), queue, onMessages);
+    const onMessages = () => this.drain();
+    const offered = qosArguments(qos);
+    this.#reader = addon.subscribe(graph, ddsTopic, ddsType, ...offered, userData, queue, onMessages);
   }
 
   get received(): number {
@@ -60,6 +64,11 @@ export class DdsSubscription implements Subscription {
     return this.#closed ? 0 : this.#count(3);
   }
 
+  /** Who publishes it now. */
+  get matched(): MatchedEndpoint[] {
+    return this.#closed ? [] : readMatched(this.#addon.matchedWriters(this.#reader));
+  }
+
   close(): void {
     if (this.#closed) return;
     this.#count(0);
@@ -69,7 +78,7 @@ export class DdsSubscription implements Subscription {
   }
 
   /** Delivers what waits now; later messages trigger another call, so that nothing else starves. */
-  #drain(): void {
+  drain(): void {
     if (this.#closed) return;
     for (let left = this.#addon.rest(this.#reader); left > 0 && !this.#closed; left--) {
       const bytes = this.#take();

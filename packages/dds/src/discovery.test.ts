@@ -6,6 +6,7 @@ import {
   readOthers,
   subscriptionFaults,
   topicsOf,
+  typesOn,
 } from './discovery.ts';
 
 const POINTS = 'sensor_msgs/msg/PointCloud2';
@@ -26,6 +27,16 @@ describe('discovery data', () => {
       other(),
       { topic: '/strange', type: 'Strange', reliable: false, transientLocal: true },
     ]);
+  });
+
+  it('has the types of a service’s requests', () => {
+    const values = [
+      ...['rq/aRequest', 'Other', true, false],
+      ...['rq/a', 'rq/aRequest', true, false],
+      ...['rq/aRequest', 'Third', false, true],
+    ];
+    expect(typesOn(values, 'rq/aRequest')).toEqual(['Other', 'Third']);
+    expect(typesOn(values, 'rq/b')).toEqual([]);
   });
 
   it('is counted by topic and type', () => {

@@ -37,6 +37,11 @@ export function readOthers(values: readonly (string | boolean)[]): OtherEndpoint
   return others;
 }
 
+/** @param values see {@link readOthers} @returns the types of the endpoints of one DDS topic, in DDS notation */
+export function typesOn(values: readonly (string | boolean)[], ddsTopic: string): string[] {
+  return values.flatMap((name, i) => (i % 4 === 0 && name === ddsTopic ? [String(values[i + 1])] : []));
+}
+
 export function topicsOf(
   publishers: readonly OtherEndpoint[],
   subscribers: readonly OtherEndpoint[],

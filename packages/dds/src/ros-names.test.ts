@@ -1,7 +1,7 @@
 import { longProperty } from '@farpoint/network-sim/cases';
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { fromDdsTopic, fromDdsType, toDdsTopic, toDdsType } from './ros-names.ts';
+import { fromDdsTopic, fromDdsType, toDdsService, toDdsTopic, toDdsType } from './ros-names.ts';
 
 /** Any code points. `fc.string` with the unit `binary` takes seconds to begin. */
 const anyText = fc
@@ -80,4 +80,21 @@ it('any name either survives a round trip or is refused', () => {
     }),
     longProperty(1, 100),
   );
+});
+
+describe('services', () => {
+  it('are two topics, also below an action', () => {
+    expect(toDdsService('/charge')).toEqual({ request: 'rq/chargeRequest', reply: 'rr/chargeReply' });
+    expect(toDdsService('/dock/_action/send_goal')).toEqual({
+      request: 'rq/dock/_action/send_goalRequest',
+      reply: 'rr/dock/_action/send_goalReply',
+    });
+    expect(toDdsType('robot_msgs/action/Dock_SendGoal_Request')).toBe(
+      'robot_msgs::action::dds_::Dock_SendGoal_Request_',
+    );
+  });
+
+  it.each(['charge', '/', '/charge/', '/a//b', '/1', `/${'a'.repeat(250)}`])('%s is none', (name) => {
+    expect(toDdsService(name)).toBeNull();
+  });
 });

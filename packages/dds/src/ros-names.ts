@@ -17,6 +17,12 @@ export function toDdsTopic(topic: string): string | null {
   return TOPIC.test(topic) && name.length <= LONGEST ? name : null;
 }
 
+/** @returns the topics of a service’s requests and replies; `null` if it is not a fully qualified name */
+export function toDdsService(service: string): { request: string; reply: string } | null {
+  const [request, reply] = [`rq${service}Request`, `rr${service}Reply`];
+  return TOPIC.test(service) && request.length <= LONGEST ? { request, reply } : null;
+}
+
 /** @returns `null` if it is no ROS topic but a service's, or that of a program without ROS */
 export function fromDdsTopic(name: string): string | null {
   if (!name.startsWith(`${TOPIC_PREFIX}/`)) return null;

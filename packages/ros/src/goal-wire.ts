@@ -74,24 +74,45 @@ export function goalDefinitions(
   };
 }
 
-function fieldsOf(text: string): MessageDefinition['definitions'] {
+/**
+ * The same in ROS 2, of the goal alone: what carries it is the same for all actions. Constants are left out.
+ *
+ * @throws {RosFault} `unsupported`: it cannot be read, or has other types
+ */
+export function ros2GoalDefinitions(type: string, text: string): MessageDefinition[] {
+  const fields = fieldsOf(text, 2).filter((field) => field.isConstant !== true);
+  if (fields.some((field) => field.type === 'wstring'))
+    throw new RosFault('unsupported', 'wstring is not supported');
+  const definitions = fields.map((field) =>
+    field.isComplex === true ? { ...field, type: ros1TypeOf(field.type) } : field,
+  );
+  return withParts({ name: `${ros1TypeOf(type)}_Goal`, definitions }, [], 2);
+}
+
+function fieldsOf(text: string, version: 1 | 2 = 1): MessageDefinition['definitions'] {
   let parsed: MessageDefinition[];
   try {
-    parsed = parse(text, { skipTypeFixup: true });
+    parsed = parse(text, { skipTypeFixup: true, ros2: version === 2 });
   } catch (error) {
     throw new RosFault('unsupported', `cannot be read: ${(error as Error).message}`, { cause: error });
   }
   return (parsed[0]?.definitions ?? []).map((field) =>
-    field.isComplex === true && field.type === 'Header' ? { ...field, type: 'std_msgs/Header' } : field,
+    version === 1 && field.isComplex === true && field.type === 'Header'
+      ? { ...field, type: 'std_msgs/Header' }
+      : field,
   );
 }
 
 /** @throws {RosFault} */
-function withParts(whole: MessageDefinition, known: readonly MessageDefinition[] = []): MessageDefinition[] {
+function withParts(
+  whole: MessageDefinition,
+  known: readonly MessageDefinition[] = [],
+  version: 1 | 2 = 1,
+): MessageDefinition[] {
   const found = new Map([[whole.name ?? '', whole]]);
   for (const { type, isComplex } of whole.definitions) {
     if (isComplex !== true) continue;
-    const parts = known.some(({ name }) => name === type) ? known : definitionsOf(1, type);
+    const parts = known.some(({ name }) => name === type) ? known : definitionsOf(version, type);
     if (parts === null) throw new RosFault('unsupported', `${type} is not one of ROS’s own types`);
     for (const part of parts) found.set(part.name ?? type, part);
   }

@@ -75,6 +75,26 @@ export interface GraphTopic {
   subscribers: number;
 }
 
+/** A service by its full name, and the types of its messages in ROS 2 notation, `std_srvs/srv/Trigger_Request`. */
+export interface ServiceAs {
+  service: string;
+  request: string;
+  reply: string;
+}
+
+export interface ServiceClient {
+  readonly service: string;
+  /**
+   * @param request a serialised message, copied before the call returns
+   * @param withinMs the time that it has
+   * @returns the serialised reply, of which a long one is cut
+   * @throws {RosFault} (the promise rejects) `unavailable`: there is no such service; `wrong-type`; `unsupported`: its server
+   *   speaks in another way; `refused`: too many calls are open; `lost`: the server has gone, or the time is over
+   */
+  call(request: Uint8Array, withinMs: number): Promise<Uint8Array>;
+  close(): void;
+}
+
 export interface RosGraph {
   readonly version: 1 | 2;
   /** The only way to subscribe: the graph never subscribes to anything by itself. */
@@ -88,4 +108,14 @@ export interface RosGraph {
    */
   onFault: ((fault: RosFault) => void) | null;
   close(): Promise<void>;
+}
+
+/** A graph in which services are called by clients that are there before the first call. */
+export interface ServiceGraph extends RosGraph {
+  /** @throws {RosFault} for names that are not valid */
+  serviceClient(as: ServiceAs): ServiceClient;
+}
+
+export function callsServices(graph: RosGraph): graph is ServiceGraph {
+  return 'serviceClient' in graph;
 }

@@ -1,3 +1,15 @@
+export {
+  type ActionStep,
+  actionServices,
+  cancelRequest,
+  feedbackGoal,
+  goalRequest,
+  readCancelReply,
+  readGoalReply,
+  readGoalSteps,
+  readResultStep,
+  resultRequest,
+} from './action-wire.ts';
 export { BatteryGauge, type GaugeReading } from './battery-gauge.ts';
 export { compressedPicture } from './compressed-picture.ts';
 export { definitionsOf } from './definitions.ts';
@@ -11,9 +23,11 @@ export {
   goalMessage,
   isLastStatus,
   readGoalStatus,
+  ros2GoalDefinitions,
 } from './goal-wire.ts';
 export {
   type AdvertiseAs,
+  callsServices,
   type GraphTopic,
   LATCHED_QOS,
   type OnMessage,
@@ -22,6 +36,9 @@ export {
   RELIABLE_QOS,
   type RosGraph,
   SENSOR_QOS,
+  type ServiceAs,
+  type ServiceClient,
+  type ServiceGraph,
   type SubscribeTo,
   type Subscription,
   VELOCITY_QOS,
@@ -69,6 +86,14 @@ export { FLOAT32 } from './point-field.ts';
 export type { CloudAxes } from './point-words.ts';
 export { RateLimit } from './rate-limit.ts';
 export { fixStampNs, readingOf, shortened, type TopicReading } from './reading.ts';
+export {
+  readStdServiceReply,
+  SERVICE_TYPES,
+  type ServiceReply,
+  type ServiceType,
+  stdServiceRequest,
+  stdServiceTypes,
+} from './std-services.ts';
 export { numbersOf, quantitiesOf, type TopicQuantity } from './topic-quantities.ts';
 export {
   MOST_TOPICS,

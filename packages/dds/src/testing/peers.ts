@@ -30,11 +30,15 @@ export interface PeerOptions {
   /** Fast DDS only: DDS topic and type of what {@link Peer.send} sends. */
   raw?: string;
   rawType?: string;
+  /** Fast DDS only: DDS topic and type of what it counts in {@link Peer.heard}. */
+  heard?: string;
+  heardType?: string;
 }
 
 const event = z.discriminatedUnion('event', [
   z.object({ event: z.literal('ready') }),
   z.object({ event: z.literal('bad') }),
+  z.object({ event: z.literal('heard') }),
   /** Its raw messages have a subscriber. */
   z.object({ event: z.literal('matched') }),
   /** All that it has sent so far has been acknowledged. */
@@ -59,6 +63,7 @@ export const PEER_REMEDY: Record<PeerKind, string> = {
 export class Peer {
   readonly pid: number;
   readonly twists: HeardTwist[] = [];
+  heard = 0;
   /** Whether what {@link send} sends has a subscriber. */
   matched = false;
   onTwist: ((twist: HeardTwist) => void) | null = null;
@@ -69,9 +74,8 @@ export class Peer {
   /** Resolves once it has joined the domain. */
   static async start(command: readonly string[], options: PeerOptions): Promise<Peer> {
     const [program, ...first] = command as [string, ...string[]];
-    const { rawType, ...rest } = options;
-    const named = rawType === undefined ? rest : { ...rest, 'raw-type': rawType };
-    const args = Object.entries(named).flatMap(([name, value]) => [`--${name}`, String(value)]);
+    const flagOf = (name: string) => `--${name.replace('Type', '-type')}`;
+    const args = Object.entries(options).flatMap(([name, value]) => [flagOf(name), String(value)]);
     const child = spawn(program, [...first, ...args], { stdio: ['pipe', 'pipe', 'inherit'] });
     const peer = new Peer(child);
     await peer.#ready;
@@ -93,6 +97,7 @@ export class Peer {
         const told = event.parse(JSON.parse(line));
         if (told.event === 'ready') resolve();
         if (told.event === 'matched') this.matched = true;
+        if (told.event === 'heard') this.heard++;
         if (told.event === 'acknowledged') this.#waiting.shift()?.();
         if (told.event !== 'twist') return;
         this.twists.push(told);

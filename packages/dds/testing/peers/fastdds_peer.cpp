@@ -167,6 +167,16 @@ class Echo : public DataReaderListener {
   }
 };
 
+class Heard : public DataReaderListener {
+  void on_data_available(DataReader *reader) override {
+    Bytes bytes;
+    SampleInfo info;
+    while (reader->take_next_sample(&bytes, &info) == ReturnCode_t::RETCODE_OK) {
+      if (info.valid_data) say(R"({"event":"heard"})");
+    }
+  }
+};
+
 class Matched : public DataWriterListener {
   void on_publication_matched(DataWriter *, const PublicationMatchedStatus &status) override {
     if (status.current_count_change > 0) say(R"({"event":"matched"})");
@@ -231,6 +241,8 @@ int main(int count, char **words) {
       }
     });
   }
+  Heard heard;
+  if (asked.count("--heard")) peer.reader(asked["--heard"], text("--heard-type", ""), &heard);
   Matched matched;
   DataWriter *raw = nullptr;
   if (asked.count("--raw")) raw = peer.writer(asked["--raw"], text("--raw-type", ""), true, 1000, &matched);

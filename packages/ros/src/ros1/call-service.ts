@@ -2,15 +2,10 @@
 import { Socket } from 'node:net';
 import { RosMasterClient } from '@foxglove/ros1';
 import { RosFault } from '../fault.ts';
+import type { ServiceReply, ServiceType } from '../std-services.ts';
 import type { Ros1Options } from './graph.ts';
 import { Master } from './master.ts';
-import {
-  readServiceReply,
-  SERVICE_SUMS,
-  type ServiceReply,
-  type ServiceType,
-  serviceRequest,
-} from './service-types.ts';
+import { readServiceReply, SERVICE_SUMS, serviceRequest } from './service-types.ts';
 import {
   connectionHeader,
   framed,

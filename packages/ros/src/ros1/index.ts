@@ -1,3 +1,2 @@
 export { callService, type ServiceCall } from './call-service.ts';
 export { openRos1Graph, type Ros1Options } from './graph.ts';
-export type { ServiceReply, ServiceType } from './service-types.ts';

@@ -1,8 +1,6 @@
 /** The services that a robot calls: those of std_srvs, which ask for no more than a yes or no. */
 import { RosFault } from '../fault.ts';
-
-export const SERVICE_TYPES = ['std_srvs/Empty', 'std_srvs/Trigger', 'std_srvs/SetBool'] as const;
-export type ServiceType = (typeof SERVICE_TYPES)[number];
+import type { ServiceReply, ServiceType } from '../std-services.ts';
 
 /** MD5 of the service’s definition, by which both sides know that they mean the same. */
 export const SERVICE_SUMS: Readonly<Record<ServiceType, string>> = {
@@ -10,13 +8,6 @@ export const SERVICE_SUMS: Readonly<Record<ServiceType, string>> = {
   'std_srvs/Trigger': '937c9679a518e3a18d831e57125ea522',
   'std_srvs/SetBool': '09fb03525b03e7ea1fd3992bafd87e16',
 };
-
-/** What a service has answered. */
-export interface ServiceReply {
-  success: boolean;
-  /** For people; may be empty. */
-  message: string;
-}
 
 /** @param data of SetBool */
 export function serviceRequest(type: ServiceType, data: boolean): Uint8Array {

@@ -2,7 +2,8 @@ import { createHash } from 'node:crypto';
 import fc from 'fast-check';
 import { expect, it, test } from 'vitest';
 import { RosFault } from '../fault.ts';
-import { readServiceReply, SERVICE_SUMS, SERVICE_TYPES, serviceRequest } from './service-types.ts';
+import { SERVICE_TYPES } from '../std-services.ts';
+import { readServiceReply, SERVICE_SUMS, serviceRequest } from './service-types.ts';
 import {
   connectionHeader,
   framed,

@@ -9,6 +9,9 @@ import type {
   OnMessage,
   Publisher,
   RosGraph,
+  ServiceAs,
+  ServiceClient,
+  ServiceGraph,
   SubscribeTo,
   Subscription,
 } from '../graph.ts';
@@ -74,6 +77,36 @@ export class MemoryGraph implements RosGraph {
   /** The same with bytes that need not be a message. */
   sayBytes(topic: string, bytes: Uint8Array): void {
     this.#receivers.get(topic)?.(bytes, this.#now());
+  }
+}
+
+/** A call that waits for the test to answer it. */
+export interface MemoryCall {
+  service: string;
+  request: Uint8Array;
+  withinMs: number;
+  reply(bytes: Uint8Array): void;
+  fail(fault: RosFault): void;
+}
+
+/** The same with services, which do nothing by themselves. */
+export class MemoryServiceGraph extends MemoryGraph implements ServiceGraph {
+  readonly clients: ServiceAs[] = [];
+  /** All calls, in order. */
+  readonly calls: MemoryCall[] = [];
+
+  constructor(now: () => number) {
+    super(2, now);
+  }
+
+  serviceClient(as: ServiceAs): ServiceClient {
+    this.clients.push(as);
+    const { service } = as;
+    const call = (request: Uint8Array, withinMs: number) =>
+      new Promise<Uint8Array>((reply, fail) =>
+        this.calls.push({ service, request: request.slice(), withinMs, reply, fail }),
+      );
+    return { service, call, close: () => {} };
   }
 }
 
