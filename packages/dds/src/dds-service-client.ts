@@ -76,6 +76,10 @@ export class DdsServiceClient implements ServiceClient {
     this.#calls = new ServiceCalls(service, randomBytes(8).readBigUInt64LE(), endpoints, events.now);
   }
 
+  get isReady(): boolean {
+    return this.#calls.isReady;
+  }
+
   call(request: Uint8Array, withinMs: number): Promise<Uint8Array> {
     const reply = this.#calls.call(request, withinMs);
     this.#watch();

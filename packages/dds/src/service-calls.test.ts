@@ -67,11 +67,13 @@ describe('calls of a service', () => {
   it('are not sent before the server both hears and can reply', async () => {
     const { service, said, call, reply, calls } = bench();
     service.writers = [];
+    expect(calls.isReady).toBe(false);
     const done = call('a');
     reply(1n, cdr(9));
     calls.update();
     expect(service.sent).toEqual([]);
     service.writers = [mine];
+    expect(calls.isReady).toBe(true);
     calls.update();
     calls.update();
     expect(service.sent).toHaveLength(1);
@@ -94,8 +96,9 @@ describe('calls of a service', () => {
   });
 
   it('send nothing that another vendor’s server would misread, and say what helps', async () => {
-    const { service, said, call } = bench();
+    const { service, said, call, calls } = bench();
     service.readers = [mine, fast];
+    expect(calls.isReady).toBe(false);
     await call('a');
     expect(service.sent).toEqual([]);
     expect(said).toEqual([

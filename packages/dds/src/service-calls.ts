@@ -50,6 +50,12 @@ export class ServiceCalls {
     return this.#open.size;
   }
 
+  /** Whether a call would be sent at once. */
+  get isReady(): boolean {
+    const { whole, foreign } = serversOf(this.#endpoints.readers, this.#endpoints.writers);
+    return !this.#isClosed && foreign === null && whole.size > 0;
+  }
+
   /** See `ServiceClient.call`. */
   call(request: Uint8Array, withinMs: number): Promise<Uint8Array> {
     return new Promise((resolve, reject) => {

@@ -84,6 +84,8 @@ export interface ServiceAs {
 
 export interface ServiceClient {
   readonly service: string;
+  /** Whether a call would be sent at once. */
+  readonly isReady: boolean;
   /**
    * @param request a serialised message, copied before the call returns
    * @param withinMs the time that it has

@@ -94,6 +94,8 @@ export class MemoryServiceGraph extends MemoryGraph implements ServiceGraph {
   readonly clients: ServiceAs[] = [];
   /** All calls, in order. */
   readonly calls: MemoryCall[] = [];
+  /** Services without a server. */
+  readonly absent = new Set<string>();
 
   constructor(now: () => number) {
     super(2, now);
@@ -106,7 +108,15 @@ export class MemoryServiceGraph extends MemoryGraph implements ServiceGraph {
       new Promise<Uint8Array>((reply, fail) =>
         this.calls.push({ service, request: request.slice(), withinMs, reply, fail }),
       );
-    return { service, call, close: () => {} };
+    const { absent } = this;
+    return {
+      service,
+      get isReady() {
+        return !absent.has(service);
+      },
+      call,
+      close: () => {},
+    };
   }
 }
 

@@ -22,6 +22,7 @@ const graph = (kind: 'ros1' | 'ros2', ...commands: object[]) => ({
     { topic: '/odom', as: 'pose' },
     { topic: '/cmd_vel', as: 'velocity' },
     { topic: '/wheels/goal', as: 'battery', type: 'sensor_msgs/BatteryState' },
+    { topic: '/arm/_action/status', as: 'diagnostics' },
   ],
   commands,
 });
@@ -64,9 +65,11 @@ describe('robot commands', () => {
         },
       }),
     ]);
-    expect(robot([], graph('ros2', on))?.commands[0]?.action).toMatchObject({
-      bytes: Uint8Array.of(0, 1, 0, 0, 1),
-    });
+    expect(robot([], graph('ros2', on, trigger, dock))?.commands.map(({ action }) => action)).toMatchObject([
+      { kind: 'publish', bytes: Uint8Array.of(0, 1, 0, 0, 1) },
+      { kind: 'call', service: '/charge', type: 'std_srvs/Trigger', data: false },
+      { kind: 'goal', action: '/dock', bytes: Uint8Array.of(0, 1, 0, 0, 3) },
+    ]);
   });
 
   test('are there to try out at the simulator', () => {
@@ -126,11 +129,45 @@ describe('robot commands', () => {
       /another type/,
     ],
     [
-      'a service in ROS 2',
-      graph('ros2', trigger),
-      /charge: services and actions can be called in a ROS 1 graph only/,
+      'a service beside rclnodejs',
+      { ...graph('ros2', trigger), ros: { graph: 'rclnodejs' } },
+      /charge: services and actions of ROS 2 are called over DDS/,
     ],
-    ['an action in ROS 2', graph('ros2', dock), /dock: services and actions/],
+    [
+      'a service of a topic in use',
+      graph('ros2', { ...trigger, call: { service: '/stop', type: 'std_srvs/Trigger' } }),
+      /must not call \/stop: it stops the robot/,
+    ],
+    [
+      'an action of a topic in use',
+      graph('ros2', withGoal({ action: '/cmd_vel' })),
+      /must not call \/cmd_vel/,
+    ],
+    [
+      'an action’s topic in use',
+      graph('ros2', withGoal({ action: '/arm' })),
+      /must not call \/arm\/_action\/status: the robot reads it/,
+    ],
+    [
+      'two types of a service',
+      graph('ros2', trigger, { ...trigger, id: 'b', call: { service: '/charge', type: 'std_srvs/Empty' } }),
+      /\/charge has another type/,
+    ],
+    [
+      'two types of an action',
+      graph('ros2', dock, { ...withGoal({ type: 'robot_msgs/Land' }), id: 'b' }),
+      /\/dock has another type/,
+    ],
+    ...(['ros1', 'ros2'] as const).map((kind): [string, object, RegExp] => [
+      `a goal with velocities in ${kind}`,
+      graph(kind, withGoal({ definition: 'geometry_msgs/Twist speed', fields: {} })),
+      /goal.definition: has geometry_msgs\/Twist: no command moves the robot/,
+    ]),
+    [
+      'a goal that is none in ROS 2',
+      graph('ros2', withGoal({ fields: { station: 256 } })),
+      /goal.fields: station must be a whole number from 0 to 255/,
+    ],
     [
       'a goal’s topic in use',
       graph('ros1', withGoal({ action: '/wheels' })),

@@ -1,6 +1,6 @@
 /** What operators may make the robot do besides driving. Commands can be set only in the configuration file. */
 import { COMMAND_ID, MAX_ROBOT_COMMANDS } from '@farpoint/protocol';
-import { ros2TypeOf } from '@farpoint/ros';
+import { ros2TypeOf, SERVICE_TYPES } from '@farpoint/ros';
 import { defineOption } from '@farpoint/service';
 import * as z from 'zod';
 import { commandGivers, recordActions, simActions } from '../../serve/commands/command-configuration.ts';
@@ -37,10 +37,7 @@ const call = z
   .strictObject(
     {
       service: name,
-      type: z.enum(
-        ['std_srvs/Empty', 'std_srvs/Trigger', 'std_srvs/SetBool'],
-        'must be std_srvs/Empty, std_srvs/Trigger or std_srvs/SetBool',
-      ),
+      type: z.enum(SERVICE_TYPES, 'must be std_srvs/Empty, std_srvs/Trigger or std_srvs/SetBool'),
       data: flag.optional(),
     },
     'must be a mapping with service and type',
@@ -107,6 +104,6 @@ export const commandsOptions = {
     default: [],
     flag: false,
     env: false,
-    help: 'what operators may make the robot do by a button, and nothing else: id, label, group, confirm, who, standing, onStop, perSecond, timeoutS, and publish (a fixed message on a topic of the robot’s ROS graph), call (a service) or goal (an action) of a ROS 1 graph, record (start, stop, bookmark) or sim (docs/commands.md)',
+    help: 'what operators may make the robot do by a button, and nothing else: id, label, group, confirm, who, standing, onStop, perSecond, timeoutS, and publish (a fixed message on a topic), call (a service) or goal (an action) in the robot’s ROS graph, record (start, stop, bookmark) or sim (docs/commands.md)',
   }),
 };

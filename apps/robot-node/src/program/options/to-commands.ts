@@ -1,6 +1,14 @@
 /** Checks commands against the rest of the configuration, and encodes what they send. */
 import { MAX_ROBOT_COMMANDS } from '@farpoint/protocol';
-import { actionTypes, fixedMessage, goalDefinitions, RosFault } from '@farpoint/ros';
+import {
+  actionServices,
+  actionTypes,
+  fixedMessage,
+  goalDefinitions,
+  RosFault,
+  ros2GoalDefinitions,
+  ros2TypeOf,
+} from '@farpoint/ros';
 import type { GraphOptions } from '../../ground/ros/open-graph.ts';
 import type {
   CommandAction,
@@ -105,7 +113,7 @@ interface Surroundings {
   kind: GraphOptions['kind'] | null;
   /** What each topic is used for already. */
   used: ReadonlyMap<string, string>;
-  /** Of the topics of the commands before. */
+  /** Of the topics, services and actions of the commands before. */
   types: Map<string, string>;
 }
 
@@ -127,12 +135,13 @@ function toAction(command: CommandValues, around: Surroundings, refuse: Refuse):
     return null;
   }
   if (publish !== undefined) return toPublish(publish, kind, around, refuse);
-  if (kind === 'ros2') {
-    refuse('services and actions can be called in a ROS 1 graph only; publish on a topic instead');
-    return null;
+  if (kind === 'ros2' && values.rosGraph === 'rclnodejs')
+    refuse('services and actions of ROS 2 are called over DDS: set ros.graph to dds');
+  if (call !== undefined) {
+    if (kind === 'ros2') takeName(call.service, call.type, around, refuse);
+    return { kind: 'call', ...call, data: call.data ?? false };
   }
-  if (call !== undefined) return { kind: 'call', ...call, data: call.data ?? false };
-  return goal === undefined ? null : toGoal(goal, around, refuse);
+  return goal === undefined ? null : toGoal(goal, kind, around, refuse);
 }
 
 function toPublish(
@@ -149,19 +158,41 @@ function toPublish(
 
 function toGoal(
   { action, type, definition, fields }: NonNullable<CommandValues['goal']>,
+  kind: GraphOptions['kind'],
   around: Surroundings,
   refuse: Refuse,
 ): CommandAction | null {
-  takeTopic(`${action}/goal`, `${type} ${definition}`, around, refuse);
-  takeTopic(`${action}/cancel`, 'actionlib_msgs/msg/GoalID', around, refuse);
-  const definitions = encoded(() => goalDefinitions(type, definition).goal, 'goal.definition', refuse);
+  if (kind === 'ros1') {
+    takeTopic(`${action}/goal`, `${type} ${definition}`, around, refuse);
+    takeTopic(`${action}/cancel`, 'actionlib_msgs/msg/GoalID', around, refuse);
+  } else {
+    const { feedback, status } = actionServices(action, type);
+    for (const name of [action, feedback.topic, status.topic])
+      takeName(name, `${type} ${definition}`, around, refuse);
+  }
+  const definitions = encoded(
+    () => (kind === 'ros1' ? goalDefinitions(type, definition).goal : ros2GoalDefinitions(type, definition)),
+    'goal.definition',
+    refuse,
+  );
   if (definitions === null) return null;
+  const velocity = definitions.find(({ name = '' }) => VELOCITIES.has(ros2TypeOf(name)));
+  if (velocity !== undefined) refuse(`goal.definition: has ${velocity.name}: no command moves the robot`);
   const bytes = encoded(
-    () => fixedMessage(1, actionTypes(type).goal, fields, definitions),
+    () => fixedMessage(kind === 'ros1' ? 1 : 2, actionTypes(type).goal, fields, definitions),
     'goal.fields',
     refuse,
   );
   return bytes === null ? null : { kind: 'goal', action, type, definition, bytes };
+}
+
+/** Services and actions of ROS 2 are not topics; one with the name of a topic that the robot uses is of the same program. */
+function takeName(name: string, type: string, { used, types }: Surroundings, refuse: Refuse): void {
+  const use = used.get(name);
+  if (use !== undefined) refuse(`must not call ${name}: ${use}`);
+  const key = `service ${name}`;
+  if ((types.get(key) ?? type) !== type) refuse(`${name} has another type in a command before`);
+  types.set(key, type);
 }
 
 /** No command touches what the robot uses otherwise, and each topic has one type. */

@@ -1,4 +1,5 @@
 /** The commands that operators may give, as configured. */
+import type { ServiceType } from '@farpoint/ros';
 import type { GraphOptions } from '../../ground/ros/open-graph.ts';
 
 /** What the simulated robot does by itself. */
@@ -28,25 +29,25 @@ export interface PublishAction {
   bytes: Uint8Array;
 }
 
-/** Calls a service of a ROS 1 graph. */
+/** Calls a service of the robot's ROS graph. */
 export interface CallAction {
   kind: 'call';
   service: string;
-  type: 'std_srvs/Empty' | 'std_srvs/Trigger' | 'std_srvs/SetBool';
+  type: ServiceType;
   /** Of std_srvs/SetBool. */
   data: boolean;
 }
 
-/** Sends a goal, which never changes, to an action server of a ROS 1 graph. */
+/** Sends a goal, which never changes, to an action server of the robot's ROS graph. */
 export interface GoalAction {
   kind: 'goal';
-  /** The action's name, under which its topics are. */
+  /** The action's name, under which its topics and services are. */
   action: string;
   /** Such as `move_base_msgs/MoveBase`. */
   type: string;
   /** The definition of the goal, as in the .action file above its first line of dashes. */
   definition: string;
-  /** The goal, serialised. */
+  /** The goal, serialised for the robot's graph. */
   bytes: Uint8Array;
 }
 
