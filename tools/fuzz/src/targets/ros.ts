@@ -7,10 +7,16 @@ import {
   compressedPicture,
   decoderOf,
   depthOf,
+  feedbackGoal,
   type Image,
   lazyDecoder,
   type PointCloud2,
   PointCloud2Decoder,
+  readCancelReply,
+  readGoalReply,
+  readGoalSteps,
+  readResultStep,
+  readStdServiceReply,
   readUrdf,
 } from '@farpoint/ros';
 import type { FuzzTarget } from '../fuzz-target.ts';
@@ -163,6 +169,30 @@ export const rosTargets: readonly FuzzTarget[] = [
     run: (input) => void encapsulationFault('/topic', input),
     refusals: [],
   },
+  {
+    name: 'ros2-service-reply',
+    seeds: () => [new Cdr().u8(1).text('charging').done(), new Cdr().u8(0).text('').done()],
+    run: (input) => void readStdServiceReply('std_srvs/Trigger', input),
+    refusals: ['RosFault'],
+  },
+  ...[readGoalReply, readCancelReply, readResultStep, feedbackGoal, readGoalSteps].map((read): FuzzTarget => {
+    const id = new Array<number>(16).fill(7);
+    return {
+      name: `ros2-action-${read.name}`,
+      // A list of one, and what has one byte first.
+      seeds: () => [
+        id
+          .reduce((cdr, byte) => cdr.u8(byte), new Cdr().u32(1))
+          .u32(5)
+          .u32(6)
+          .u8(2)
+          .done(),
+        new Cdr().u8(1).u32(5).u32(6).done(),
+      ],
+      run: (input) => void read(input),
+      refusals: ['RosFault'],
+    };
+  }),
   {
     name: 'lz4',
     seeds: () => [Buffer.from('04224d186040820500008068656c6c6f00000000', 'hex')],
