@@ -82,6 +82,21 @@ describe('a wish to the side', () => {
     expect(ask({ y: 1.4, lateral: 1 }, go(0, 0, 1))).toMatchObject({ factor: 0, reason: 'fence' });
   });
 
+  test('that slants across the base is slower than one along an axis in the same direction', () => {
+    const [near, diagonal] = [1.2, Math.SQRT1_2];
+    const along = ask({ x: near, yaw: Math.PI / 4 }, go(diagonal, -diagonal));
+    const ahead = ask({ x: near }, go(1, 0));
+    // Both go along the world's x axis.
+    expect(ahead.factor).toBeGreaterThan(0);
+    expect(along.factor).toBeLessThan(ahead.factor - 0.05);
+  });
+
+  test('of a robot that still moves in another direction is slower than one of a robot that moves in that', () => {
+    const turns = ask({ x: 0.5, y: 0.5, linear: 0.4 }, go(0, 1));
+    const keeps = ask({ x: 0.5, y: 0.5, lateral: 0.4 }, go(0, 1));
+    expect(turns.factor).toBeLessThan(keeps.factor - 0.05);
+  });
+
   test('leads a robot back in that stands outside, and only in', () => {
     expect(ask({ y: 2.5 }, go(0, -1))).toMatchObject({ factor: expect.closeTo(0.3), reason: 'fence-near' });
     expect(ask({ y: 2.5 }, go(0, 1)).factor).toBe(0);

@@ -72,6 +72,18 @@ describe('the ramp sideways', () => {
     });
   });
 
+  test('what rises faster than the other axis falls makes the robot no faster than it was or is to be', () => {
+    const ramp = at(1, 0, { lateralAccelerationMps2: 20 });
+    const { linear } = ramp.step(go(0, 1), false, 5100);
+    expect(linear.x).toBeCloseTo(0.8);
+    expect(linear.y).toBeCloseTo(0.6);
+    const other = at(0, 1, { accelerationMps2: 20 });
+    expect(other.step(go(1, 0), false, 5100).linear).toMatchObject({
+      x: expect.closeTo(Math.sqrt(1 - 0.75 ** 2)),
+      y: expect.closeTo(0.75),
+    });
+  });
+
   test('the other direction begins at zero', () => {
     const ramp = at(0, 0.1);
     expect(ramp.step(go(0, -1), false, 5100).linear.y).toBe(0);

@@ -60,6 +60,12 @@ describe('the obstacle guard beside the robot', () => {
     expect(factor).toBeLessThan(0.7);
   });
 
+  test('looks with the whole side that leads, also with what lies behind its middle', () => {
+    const post = floor().paint('occupied', -0.15, -0.1, 0.68, 0.73);
+    expect(standing(post).bound(go(0.2, 0.95), 1010)).toMatchObject({ reason: 'obstacle-near' });
+    expect(standing(post).bound(go(0.7, 0.7), 1010).factor).toBe(1);
+  });
+
   test('sweeps the outline in the direction of the motion', () => {
     // Beside the long nose, behind which a narrower robot would pass.
     const beside = floor().paint('occupied', 0.5, 0.6, 0.3, 0.4);
