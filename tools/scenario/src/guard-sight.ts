@@ -28,11 +28,17 @@ export class GuardSight implements Disposable {
     [this.#camera, this.#clouds, this.reader] = [camera, clouds, reader];
   }
 
-  static async open(world: WorldDescription, seed = 1): Promise<GuardSight> {
+  /** @param turned by how much the camera looks to the left of where it usually does, rad */
+  static async open(world: WorldDescription, seed = 1, turned = 0): Promise<GuardSight> {
     const codec = await loadCodecFromDisk();
-    const camera = await SimulatedCamera.create({ world, seed, camera: { width: SIZE, height: SIZE } });
+    const looks = { yaw: DEFAULT_CAMERA.yaw + turned };
+    const camera = await SimulatedCamera.create({
+      world,
+      seed,
+      camera: { width: SIZE, height: SIZE, ...looks },
+    });
     const { fx, fy, cx, cy } = camera.intrinsics;
-    const { forward: x, left: y, up: z, pitch, yaw } = DEFAULT_CAMERA;
+    const { forward: x, left: y, up: z, pitch, yaw } = { ...DEFAULT_CAMERA, ...looks };
     const memory = makeSharedGrid(GRID_SHAPE);
     const description = { kind: 'sim', width: SIZE, height: SIZE, capacity: SIZE * SIZE } as const;
     const clouds = new CloudGuard(

@@ -19,8 +19,8 @@ export class Hand implements DriveInput {
   }
 
   /** Holds the grip, and pushes the stick: −1 to 1. */
-  push(forward: number, left = 0): void {
-    [this.held, this.wish.forward, this.wish.left] = [true, forward, left];
+  push(forward: number, left = 0, sideways = 0): void {
+    [this.held, this.wish.forward, this.wish.left, this.wish.sideways] = [true, forward, left, sideways];
   }
 
   letGo(): void {

@@ -66,7 +66,7 @@ export class ScenarioRobot {
   constructor(parts: RobotParts) {
     const { options, world, log } = parts;
     this.#parts = parts;
-    this.base = new SimulatedBase(world);
+    this.base = new SimulatedBase(world, { maxLateralSpeed: options.base?.maxLateral ?? 0 });
     const realTime = new RealTimeBase(this.base);
     const wheels = new Wheels(realTime, options.limits.watchdogMs);
     this.wheels = new WheelRecord(options.limits.watchdogMs, log);

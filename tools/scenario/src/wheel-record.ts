@@ -5,6 +5,8 @@ import type { EventLog } from './event-log.ts';
 interface Told {
   atMs: number;
   linear: number;
+  /** To the left. */
+  lateral: number;
   angular: number;
   /** Until when the newest command that was accepted by then moves the robot. */
   validUntilMs: number;
@@ -25,13 +27,13 @@ export class WheelRecord {
     this.#log = log;
   }
 
-  told({ linear: { x }, angular: { z } }: Twist): void {
+  told({ linear: { x, y }, angular: { z } }: Twist): void {
     const atMs = performance.now();
-    this.fastest = Math.max(this.fastest, Math.abs(x), Math.abs(z));
+    this.fastest = Math.max(this.fastest, Math.hypot(x, y), Math.abs(z));
     const before = this.#told.at(-1);
-    if (before?.linear === x && before.angular === z) return;
-    this.#told.push({ atMs, linear: x, angular: z, validUntilMs: this.validUntilMs });
-    this.#log.add('wheels', { linear: x, angular: z });
+    if (before?.linear === x && before.lateral === y && before.angular === z) return;
+    this.#told.push({ atMs, linear: x, lateral: y, angular: z, validUntilMs: this.validUntilMs });
+    this.#log.add('wheels', { linear: x, ...(y === 0 ? {} : { lateral: y }), angular: z });
   }
 
   judged(session: string, { sequence }: Command, verdict: CommandVerdict): void {
@@ -42,6 +44,11 @@ export class WheelRecord {
   /** Speed ahead that the wheels were told last, m/s. */
   get speed(): number {
     return this.#told.at(-1)?.linear ?? 0;
+  }
+
+  /** Speed to the left that they were told last, m/s. */
+  get lateral(): number {
+    return this.#told.at(-1)?.lateral ?? 0;
   }
 
   /** When the wheels were first told less than at this time, and what was valid then; `null` if they were not. */

@@ -140,7 +140,10 @@ export class PagePanels {
   /** Lets hands reach the controls. Call it before the client starts. */
   start(): void {
     const { stage, state, inputs } = this.#parts;
-    const { maxLinear } = state.robot;
+    const { maxLinear, goesSideways } = state.robot;
+    effect(() => {
+      inputSettings.goesSideways.value = goesSideways.value;
+    });
     this.#guide.start(startInputsDialog({ inputs, settings: inputSettings, maxLinear }, state.notices));
     showSpeedChoice(inputSettings.speed, maxLinear, state.driving.role);
     listenToCanvas(elements.stage, stage, state.notices);

@@ -75,6 +75,8 @@ export function robotState(client: RobotClient, samples: Sampler) {
     }),
     /** The most that it drives, m/s. */
     maxLinear: samples.of(() => link.session.welcome?.limits.maxLinear ?? 0),
+    /** Whether its base goes sideways. */
+    goesSideways: samples.of(() => (link.session.welcome?.limits.maxLateral ?? 0) > 0),
   };
 }
 

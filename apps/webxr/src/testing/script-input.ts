@@ -10,6 +10,7 @@ export class ScriptInput implements DriveInput {
   hold(wish: Readonly<DriveWish>): void {
     this.wish.forward = wish.forward;
     this.wish.left = wish.left;
+    this.wish.sideways = wish.sideways;
     this.held = true;
   }
 

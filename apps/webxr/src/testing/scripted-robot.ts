@@ -61,7 +61,7 @@ export class ScriptedRobot implements LinkScript {
   /** How long each message is on its way, in either direction, ms. */
   delayMs = 0;
   pose: { x: number; y: number; z: number; yaw: number } = { x: 0, y: 0, z: 0, yaw: 0 };
-  velocity = { linear: 0, angular: 0 };
+  velocity = { linear: 0, lateral: 0, angular: 0 };
   /** The other operators. */
   readonly people = new ScriptedPeople(this);
   #link: ScriptedLink | null = null;
@@ -208,23 +208,29 @@ export class ScriptedRobot implements LinkScript {
   #advance(): void {
     const fresh = performance.now() - this.#commandMs < this.limits.watchdogMs;
     const wish = fresh && !this.estop.latched && this.lease.holder === 'you' ? this.#wish : null;
-    this.velocity = { linear: wish?.linear.x ?? 0, angular: wish?.angular.z ?? 0 };
-    const { pose } = this;
+    this.velocity = {
+      linear: wish?.linear.x ?? 0,
+      lateral: wish?.linear.y ?? 0,
+      angular: wish?.angular.z ?? 0,
+    };
+    const { pose, velocity } = this;
     const seconds = TELEMETRY_MS / 1000;
-    pose.yaw += this.velocity.angular * seconds;
-    pose.x += Math.cos(pose.yaw) * this.velocity.linear * seconds;
-    pose.y += Math.sin(pose.yaw) * this.velocity.linear * seconds;
+    pose.yaw += velocity.angular * seconds;
+    const [cos, sin] = [Math.cos(pose.yaw), Math.sin(pose.yaw)];
+    pose.x += (cos * velocity.linear - sin * velocity.lateral) * seconds;
+    pose.y += (sin * velocity.linear + cos * velocity.lateral) * seconds;
     if (this.reports && this.#link?.phase === 'live') this.#report();
   }
 
   #report(): void {
     const none = { x: 0, y: 0, z: 0 };
-    const { linear, angular } = this.velocity;
+    const { linear, lateral, angular } = this.velocity;
+    const moves = linear !== 0 || lateral !== 0 || angular !== 0;
     this.tell({
       ...{ type: 'telemetry', sequence: ++this.#sequence, timeMs: this.nowMs, pose: this.placed },
-      twist: { linear: { ...none, x: linear }, angular: { ...none, z: angular } },
+      twist: { linear: { ...none, x: linear, y: lateral }, angular: { ...none, z: angular } },
       battery: { percentage: 0.8 },
-      drive: this.estop.latched ? 'estop' : linear !== 0 || angular !== 0 ? 'driving' : 'idle',
+      drive: this.estop.latched ? 'estop' : moves ? 'driving' : 'idle',
       stages: { captureMs: 1, sampleMs: 1, packMs: 1, sendMs: 1 },
       stream: {
         ...{ frameNumber: 0, framesPerSecond: 10, pointsPerFrame: 0, validPoints: 0 },

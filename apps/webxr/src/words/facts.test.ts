@@ -1,8 +1,11 @@
 import type { Telemetry } from '@farpoint/protocol';
-import { describe, expect, test } from 'vitest';
+import { afterEach, describe, expect, test } from 'vitest';
 import { sessionFacts } from './facts.ts';
+import { speak } from './language.ts';
 import type { PageStats } from './page-stats.ts';
 import { wristLines } from './wrist-lines.ts';
+
+afterEach(() => speak('en'));
 
 const figures = {
   ...{ pointsPerFrame: 12_345.6, framesPerSecond: 10, bitsPerSecond: 3_210_000, lossRate: 0 },
@@ -64,6 +67,19 @@ describe('the table of figures', () => {
     expect(of(7300)).toBe('up to 3 h old');
     expect(of(90_000)).toBe('a day old or more');
     expect('Remembered' in values(sessionFacts(session))).toBe(false);
+  });
+
+  test('a speed to the side is said where there is one, in both directions', async () => {
+    const at = (y: number) => {
+      const { telemetry } = session;
+      const twist = { ...telemetry.twist, linear: { x: 0.5, y, z: 0 } };
+      return values(sessionFacts({ ...session, telemetry: { ...telemetry, twist } }));
+    };
+    expect(at(0.2).Speed).toBe('0.50 m/s  0.20 m/s to the left  -0.25 rad/s');
+    expect(at(-0.3).Speed).toBe('0.50 m/s  0.30 m/s to the right  -0.25 rad/s');
+    expect(at(0.004).Speed).toBe('0.50 m/s  -0.25 rad/s');
+    await speak('de');
+    expect(at(0.2).Tempo).toBe('0,50 m/s  0,20 m/s nach links  -0,25 rad/s');
   });
 
   test('lists what is known, in order', () => {

@@ -105,12 +105,21 @@ function telemetryFacts(telemetry: Telemetry, estop: EstopState, maxLinear: numb
   const { linear, angular } = telemetry.twist;
   const facts: Fact[] = [
     { name: names.state, value: stoppedWords(drive.text, estop), tone: drive.tone },
-    { name: names.speed, value: `${fixed(linear.x, 2)} m/s  ${fixed(angular.z, 2)} rad/s` },
+    { name: names.speed, value: velocityWords(linear.x, linear.y, angular.z) },
   ];
   const limit = speedLimitWords(telemetry, maxLinear);
   if (limit !== null) facts.push({ name: names.speedLimit, value: limit.text, tone: limit.tone });
   if (telemetry.battery !== undefined) facts.push(batteryFact(telemetry.battery));
   return facts;
+}
+
+/** A speed to the side is a speed if it is shown as more than 0.00. */
+const LEAST_SHOWN_MPS = 0.005;
+
+function velocityWords(forward: number, aside: number, turn: number): string {
+  const sideways =
+    Math.abs(aside) < LEAST_SHOWN_MPS ? [] : [texts().figures.sideways(fixed(Math.abs(aside), 2), aside > 0)];
+  return [`${fixed(forward, 2)} m/s`, ...sideways, `${fixed(turn, 2)} rad/s`].join('  ');
 }
 
 /** With who has stopped it, and where that is released. */

@@ -66,3 +66,19 @@ describe('the help', () => {
     expect(row('Umsehen', DEFAULT_KEYS, [])?.hand).toBe('das Bild ziehen');
   });
 });
+
+test('what goes sideways is listed only with a robot that can', () => {
+  const aside = (goesSideways: boolean) =>
+    rows(DEFAULT_KEYS, [pad], goesSideways).filter(({ what }) => what.startsWith('Sideways'));
+  expect(aside(true).map(({ keys, controllers }) => [keys, controllers])).toEqual([
+    [[','], []],
+    [['.'], []],
+  ]);
+  expect(aside(false)).toEqual([]);
+  const axis = { axis: 2, centre: 0, least: -1, most: 1, inverted: true, deadZone: 0.1 };
+  const map = { ...EMPTY_MAP, sticks: [{ forward: null, back: null, left: null, sideways: axis }] };
+  const [left] = rows(DEFAULT_KEYS, [{ name: 'Pad', map, isStandard: true }]).filter(
+    ({ what }) => what === 'Sideways to the left',
+  );
+  expect(left?.controllers).toEqual([{ name: 'Pad', parts: ['right stick ↔'] }]);
+});

@@ -1,6 +1,12 @@
 /** The rows of the help: every key, button, axis and gesture with what it does, grouped, as they are mapped now. */
 import type { AxisRole, ButtonRole, ControllerMap } from '../take/drive/controller-map.ts';
-import { KEY_ROLES, type KeyMap, type KeyRole, STOP_KEY_ALWAYS } from '../take/drive/key-map.ts';
+import {
+  KEY_ROLES,
+  type KeyMap,
+  type KeyRole,
+  SIDEWAYS_ROLES,
+  STOP_KEY_ALWAYS,
+} from '../take/drive/key-map.ts';
 import type { LaterTexts } from './en/later-catalogue.ts';
 import { keyName } from './input-words.ts';
 import { buttonName } from './inputs-dialog-words.ts';
@@ -34,7 +40,7 @@ type Gesture = keyof LaterTexts['help']['gestures'];
 export const HELP_GROUPS: Readonly<
   Record<keyof LaterTexts['help']['groups'], readonly (KeyRole | Gesture)[]>
 > = {
-  drive: ['grip', 'forward', 'back', 'left', 'right', 'slower', 'faster'],
+  drive: ['grip', 'forward', 'back', 'left', 'right', ...SIDEWAYS_ROLES, 'slower', 'faster'],
   stop: ['estop', 'release'],
   views: ['look', 'zoom', 'recentre', 'view', 'from-above', 'hazards', 'predict'],
   cameras: ['enlarge', 'swap', 'movePanel', 'resizePanel'],
@@ -84,13 +90,23 @@ const AXES: Readonly<Partial<Record<KeyRole, AxisRole>>> = {
   back: 'back',
   left: 'left',
   right: 'left',
+  'sideways-left': 'sideways',
+  'sideways-right': 'sideways',
 };
 
-export function helpGroups(keys: KeyMap, controllers: readonly HelpController[]): readonly HelpGroup[] {
+/** @param goesSideways whether the robot can: otherwise what does that is left out */
+export function helpGroups(
+  keys: KeyMap,
+  controllers: readonly HelpController[],
+  goesSideways = true,
+): readonly HelpGroup[] {
   const { groups } = laterTexts().help;
+  const isSideways = new Set<KeyRole | Gesture>(SIDEWAYS_ROLES);
   return Object.entries(HELP_GROUPS).map(([name, roles]) => ({
     title: groups[name as keyof typeof HELP_GROUPS],
-    rows: roles.map((role) => (isKeyRole(role) ? keyRow(role, keys, controllers) : gestureRow(role))),
+    rows: roles
+      .filter((role) => goesSideways || !isSideways.has(role))
+      .map((role) => (isKeyRole(role) ? keyRow(role, keys, controllers) : gestureRow(role))),
   }));
 }
 
@@ -103,7 +119,7 @@ export function controllerParts(role: KeyRole, { map, isStandard }: HelpControll
   if (axis === undefined) return names;
   for (const stick of map.sticks) {
     // Without a pedal of its own, the axis for driving forward also drives backward.
-    const found = axis === 'back' ? (stick.back ?? stick.forward) : stick[axis];
+    const found = axis === 'back' ? (stick.back ?? stick.forward) : (stick[axis] ?? null);
     if (found !== null) names.push(axisName(found.axis, isStandard));
   }
   return [...new Set(names)];

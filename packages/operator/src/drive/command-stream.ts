@@ -88,6 +88,7 @@ export class CommandStream {
     this.#readMs = readMs;
     this.#wish.forward = wish.forward;
     this.#wish.left = wish.left;
+    this.#wish.sideways = wish.sideways;
     if (hand === this.#hand) return;
     this.#hand = hand;
     this.#stopsLeft = hand === 'held' ? 0 : STOP_REPEATS;

@@ -81,7 +81,10 @@ export function presentRobot(link: RobotLink, holder: LeaseState['holder']): Pre
   const speed =
     telemetry === null
       ? null
-      : Math.max(Math.abs(telemetry.twist.linear.x), Math.abs(telemetry.twist.angular.z));
+      : Math.max(
+          Math.hypot(telemetry.twist.linear.x, telemetry.twist.linear.y),
+          Math.abs(telemetry.twist.angular.z),
+        );
   return { robotId, live: phase === 'live', holder, speed };
 }
 

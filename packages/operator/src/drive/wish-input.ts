@@ -16,9 +16,10 @@ export class WishInput implements DriveInput {
   held = false;
   #renewedMs = 0;
 
-  renew({ forward, left }: DriveWish, nowMs: number): void {
+  renew({ forward, left, sideways }: DriveWish, nowMs: number): void {
     this.wish.forward = forward;
     this.wish.left = left;
+    this.wish.sideways = sideways;
     this.held = true;
     this.#renewedMs = nowMs;
   }
@@ -27,6 +28,7 @@ export class WishInput implements DriveInput {
     this.held = false;
     this.wish.forward = 0;
     this.wish.left = 0;
+    this.wish.sideways = undefined;
   }
 
   /** Call several times a second. */

@@ -63,3 +63,18 @@ test('coasting back undoes coasting on', () => {
   coast(motion, 0.7, -0.4, -0.1);
   expect([motion.x, motion.y, motion.yaw].map((value) => Math.round(value * 1e9) / 1e9)).toEqual([1, 2, 3]);
 });
+
+test('a base that goes sideways moves to its left, as fast as forwards it would', () => {
+  const [aside, ahead] = [standingAt(0, 0, Math.PI / 2), standingAt()];
+  const model = usualBase(0);
+  for (let i = 0; i < 200; i++) {
+    stepBase(aside, model, 0, 0, 0.01, 1);
+    stepBase(ahead, model, 1, 0, 0.01);
+  }
+  expect(aside.lateral).toBeCloseTo(ahead.linear, 9);
+  expect([aside.x, aside.y]).toEqual([expect.closeTo(-ahead.x, 9), expect.closeTo(0, 9)]);
+  const back = standingAt(1, 2, 3);
+  coast(back, 0.7, -0.4, 0.1, 0.5);
+  coast(back, 0.7, -0.4, -0.1, 0.5);
+  expect([back.x, back.y, back.yaw]).toEqual([expect.closeTo(1), expect.closeTo(2), expect.closeTo(3)]);
+});

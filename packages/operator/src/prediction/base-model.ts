@@ -1,6 +1,6 @@
 /**
- * How a wheeled base follows velocity commands: after a dead time each axis approaches gain · command with a first-order
- * lag, and no faster than its acceleration allows. Unicycle kinematics. SI units, REP-103. Allocates nothing.
+ * How a base follows velocity commands: after a dead time each axis approaches gain · command with a first-order
+ * lag, and no faster than its acceleration allows. Unicycle kinematics, and sideways where the base can. SI units, REP-103. Allocates nothing.
  */
 
 /** One axis: along the heading in m/s, or about the vertical in rad/s. */
@@ -31,6 +31,8 @@ export interface BaseMotion {
   yaw: number;
   /** m/s along the heading. */
   linear: number;
+  /** m/s to the left; 0 of a base that cannot go sideways. */
+  lateral: number;
   /** rad/s, positive to the left. */
   angular: number;
 }
@@ -88,27 +90,41 @@ export function lagShare(axis: Readonly<AxisModel>, dtS: number): number {
   return -Math.expm1(-dtS / axis.lagS);
 }
 
-/** Lets `dtS` seconds pass, along the chord of the arc. @param linear and angular: what the axes approach */
+/**
+ * Lets `dtS` seconds pass, along the chord of the arc. Sideways a base follows its commands as forwards.
+ *
+ * @param linear and angular, lateral: what the axes approach
+ */
 export function stepBase(
   motion: BaseMotion,
   model: Readonly<BaseModel>,
   linear: number,
   angular: number,
   dtS: number,
+  lateral = 0,
 ): void {
   const nextLinear = stepAxis(motion.linear, linear, model.linear, dtS);
   const nextAngular = stepAxis(motion.angular, angular, model.angular, dtS);
-  coast(motion, (motion.linear + nextLinear) / 2, (motion.angular + nextAngular) / 2, dtS);
+  const nextLateral = stepAxis(motion.lateral, lateral, model.linear, dtS);
+  coast(
+    motion,
+    (motion.linear + nextLinear) / 2,
+    (motion.angular + nextAngular) / 2,
+    dtS,
+    (motion.lateral + nextLateral) / 2,
+  );
   motion.linear = nextLinear;
   motion.angular = nextAngular;
+  motion.lateral = nextLateral;
 }
 
 /** Moves with a constant velocity for `dtS` seconds, which may be negative. */
-export function coast(motion: BaseMotion, linear: number, angular: number, dtS: number): void {
+export function coast(motion: BaseMotion, linear: number, angular: number, dtS: number, lateral = 0): void {
   const turn = angular * dtS;
   const heading = motion.yaw + turn / 2;
-  motion.x += linear * dtS * Math.cos(heading);
-  motion.y += linear * dtS * Math.sin(heading);
+  const [cos, sin] = [Math.cos(heading), Math.sin(heading)];
+  motion.x += linear * dtS * cos - lateral * dtS * sin;
+  motion.y += linear * dtS * sin + lateral * dtS * cos;
   motion.yaw += turn;
 }
 
@@ -117,9 +133,10 @@ export function copyMotion(from: Readonly<BaseMotion>, into: BaseMotion): void {
   into.y = from.y;
   into.yaw = from.yaw;
   into.linear = from.linear;
+  into.lateral = from.lateral;
   into.angular = from.angular;
 }
 
 export function standingAt(x = 0, y = 0, yaw = 0): BaseMotion {
-  return { x, y, yaw, linear: 0, angular: 0 };
+  return { x, y, yaw, linear: 0, lateral: 0, angular: 0 };
 }

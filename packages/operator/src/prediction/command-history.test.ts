@@ -48,3 +48,20 @@ test('memory is bounded, and says since when it knows', () => {
   commands.clear();
   expect([commands.length, commands.knownSinceMs]).toEqual([0, Number.NEGATIVE_INFINITY]);
 });
+
+test('a change to the side is a change, also of the wish', () => {
+  const commands = new CommandHistory(() => 150);
+  commands.add(0, 0, 0, 0.3);
+  commands.add(20, 0, 0, 0.3);
+  commands.add(40, 0, 0);
+  expect([commands.length, commands.lateral(0), commands.lateral(1), commands.lateral(-1)]).toEqual([
+    2, 0.3, 0, 0,
+  ]);
+  commands.wish(50, 0, 0, -0.3);
+  expect([commands.wishMs, commands.wishLateral]).toEqual([50, -0.3]);
+  commands.wish(60, 0, 0);
+  expect(commands.wishMs).toBe(Number.POSITIVE_INFINITY);
+  commands.add(70, 0, 0, 0.3);
+  commands.expire(220);
+  expect(commands.lateral(commands.length - 1)).toBe(0);
+});

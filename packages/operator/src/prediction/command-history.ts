@@ -7,6 +7,7 @@ export class CommandHistory {
   readonly #times = new Float64Array(CAPACITY);
   readonly #linear = new Float64Array(CAPACITY);
   readonly #angular = new Float64Array(CAPACITY);
+  readonly #lateral = new Float64Array(CAPACITY);
   readonly #watchdogMs: () => number;
   #first = 0;
   #length = 0;
@@ -16,6 +17,7 @@ export class CommandHistory {
   #wishMs = Number.POSITIVE_INFINITY;
   #wishLinear = 0;
   #wishAngular = 0;
+  #wishLateral = 0;
 
   /** @param watchdogMs without a command for this long, the robot brakes */
   constructor(watchdogMs: () => number) {
@@ -30,23 +32,24 @@ export class CommandHistory {
     this.#wishMs = Number.POSITIVE_INFINITY;
   }
 
-  /** A command leaves. @param linear m/s @param angular rad/s */
-  add(nowMs: number, linear: number, angular: number): void {
+  /** A command leaves. @param linear m/s @param angular rad/s @param lateral m/s, to the left */
+  add(nowMs: number, linear: number, angular: number, lateral = 0): void {
     this.expire(nowMs);
     this.#sentMs = nowMs;
     this.#wishMs = Number.POSITIVE_INFINITY;
-    this.#push(nowMs, linear, angular);
+    this.#push(nowMs, linear, angular, lateral);
   }
 
   /** What the hand wants now; the next command will carry it. */
-  wish(nowMs: number, linear: number, angular: number): void {
-    if (linear === this.linear(this.#length - 1) && angular === this.angular(this.#length - 1)) {
+  wish(nowMs: number, linear: number, angular: number, lateral = 0): void {
+    if (this.#isLast(linear, angular, lateral)) {
       this.#wishMs = Number.POSITIVE_INFINITY;
       return;
     }
     if (this.#wishMs === Number.POSITIVE_INFINITY) this.#wishMs = nowMs;
     this.#wishLinear = linear;
     this.#wishAngular = angular;
+    this.#wishLateral = lateral;
   }
 
   /** Nobody wants anything that was not sent. */
@@ -57,7 +60,7 @@ export class CommandHistory {
   /** Call it now and then: when no command has left for the watchdog's time, the robot stands. */
   expire(nowMs: number): void {
     const lapsesMs = this.#sentMs + this.#watchdogMs();
-    if (nowMs >= lapsesMs) this.#push(lapsesMs, 0, 0);
+    if (nowMs >= lapsesMs) this.#push(lapsesMs, 0, 0, 0);
   }
 
   /** Changes that are kept, the wish not among them. */
@@ -81,6 +84,10 @@ export class CommandHistory {
 
   angular(index: number): number {
     return index < 0 ? 0 : (this.#angular[this.#at(index)] as number);
+  }
+
+  lateral(index: number): number {
+    return index < 0 ? 0 : (this.#lateral[this.#at(index)] as number);
   }
 
   /** Index of what was valid at this time; −1 before the first. */
@@ -108,9 +115,18 @@ export class CommandHistory {
     return this.#wishAngular;
   }
 
-  #push(timeMs: number, linear: number, angular: number): void {
+  get wishLateral(): number {
+    return this.#wishLateral;
+  }
+
+  #isLast(linear: number, angular: number, lateral: number): boolean {
     const last = this.#length - 1;
-    if (linear === this.linear(last) && angular === this.angular(last)) return;
+    return linear === this.linear(last) && angular === this.angular(last) && lateral === this.lateral(last);
+  }
+
+  #push(timeMs: number, linear: number, angular: number, lateral: number): void {
+    if (this.#isLast(linear, angular, lateral)) return;
+    const last = this.#length - 1;
     // Clocks that step back would break the order.
     const ordered = Math.max(timeMs, this.timeMs(last));
     if (this.#length === CAPACITY) {
@@ -121,6 +137,7 @@ export class CommandHistory {
     this.#times[at] = ordered;
     this.#linear[at] = linear;
     this.#angular[at] = angular;
+    this.#lateral[at] = lateral;
   }
 
   #at(index: number): number {

@@ -2,7 +2,7 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { standingAt } from './base-model.ts';
 import { MotionPredictor } from './motion-predictor.ts';
-import type { ReportedMotion } from './reported-motion.ts';
+import type { PredictionLimits, ReportedMotion } from './reported-motion.ts';
 
 const LIMITS = { maxLinear: 1, maxAngular: 1.5, watchdogMs: 150 };
 const ROBOT_CLOCK_MS = 5_000_000;
@@ -189,4 +189,38 @@ test('standing still for long spoils nothing that was learnt', () => {
   for (let ms = 6500; ms < 600_000; ms += 50)
     predictor.onReport(reported(ms, stoodAt + 0.001 * Math.sin(ms)));
   expect(predictor.model).toEqual(learnt);
+});
+
+describe('sideways', () => {
+  const placeAt = (predictor: MotionPredictor, atMs: number) => {
+    const into = standingAt();
+    predictor.poseAt(atMs, into);
+    return into;
+  };
+  /** Goes to its left for two seconds, at once as fast as it was told. */
+  const slides = (limits: PredictionLimits) => {
+    const predictor = newPredictor();
+    predictor.setLimits(limits);
+    for (let ms = 0; ms <= 2000; ms += 25) {
+      predictor.onCommand(ms, 0, 0, 0.4);
+      const measuredMs = ms - WAY_MS;
+      const y = 0.4 * Math.max(0, (measuredMs - WAY_MS) / 1000);
+      if (ms % 50 === 0) predictor.onReport(reported(measuredMs, 0, { y }));
+    }
+    return placeAt(predictor, 2016);
+  };
+
+  test('the pose is where a robot is by now that goes to its left', () => {
+    const { x, y, lateral } = slides({ ...LIMITS, maxLateral: 0.5 });
+    expect(Math.abs(y - 0.4 * (2.016 - WAY_MS / 1000))).toBeLessThan(0.02);
+    expect(Math.abs(x)).toBeLessThan(1e-9);
+    expect(lateral).toBeGreaterThan(0.35);
+  });
+
+  test('of one that cannot, nothing is expected there', () => {
+    expect(slides(LIMITS)).toMatchObject({
+      y: expect.closeTo(0.4 * (1.925 - WAY_MS / 1000), 2),
+      lateral: expect.closeTo(0),
+    });
+  });
 });

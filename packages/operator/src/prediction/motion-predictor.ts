@@ -96,15 +96,15 @@ export class MotionPredictor {
     if (!this.#fit.excited) this.#fit = this.#newFit();
   }
 
-  /** A command leaves. @param linear m/s @param angular rad/s */
-  onCommand(nowMs: number, linear: number, angular: number): void {
-    this.#commands.add(nowMs, linear, angular);
+  /** A command leaves. @param linear m/s @param angular rad/s @param lateral m/s, to the left */
+  onCommand(nowMs: number, linear: number, angular: number, lateral = 0): void {
+    this.#commands.add(nowMs, linear, angular, lateral);
   }
 
   /** What the hand wants now, for each display frame: the command with it leaves within a few milliseconds. */
-  wish(nowMs: number, linear: number, angular: number): void {
+  wish(nowMs: number, linear: number, angular: number, lateral = 0): void {
     this.#commands.expire(nowMs);
-    this.#commands.wish(nowMs, linear, angular);
+    this.#commands.wish(nowMs, linear, angular, lateral);
   }
 
   /** In place of {@link wish} while the hand drives nothing. */
@@ -139,6 +139,7 @@ export class MotionPredictor {
     if (isJump || !this.#has) this.jumps++;
     if (!this.#has || isJump || sinceMs > GAP_MS) {
       anchor.linear = 0;
+      anchor.lateral = 0;
       anchor.angular = 0;
     } else this.#learn(x, y, yaw, robotMs, wasFree && !this.#held && this.#factor === 1);
     this.#has = true;
@@ -174,7 +175,7 @@ export class MotionPredictor {
     copyMotion(this.#anchor, into);
     if (this.stateAt(atMs) !== 'predicted') return;
     const robotMs = this.#robotAt(atMs);
-    if (robotMs < this.#robotMs) coast(into, into.linear, into.angular, (robotMs - this.#robotMs) / 1000);
+    if (robotMs < this.#robotMs) this.#comeBack(into, (this.#robotMs - robotMs) / 1000);
     else this.#lead(into, this.#robotMs, robotMs);
     const commanded = this.#commanded;
     copyMotion(into, commanded);
@@ -186,6 +187,10 @@ export class MotionPredictor {
     into.x += dx * share;
     into.y += dy * share;
     into.yaw += turn * softly(Math.abs(turn), LEAD_RAD);
+  }
+
+  #comeBack(motion: BaseMotion, seconds: number): void {
+    coast(motion, motion.linear, motion.angular, -seconds, motion.lateral);
   }
 
   /** Operator's clock when a command leaves → robot's clock when the wheels hear of it. */
@@ -221,6 +226,7 @@ export class MotionPredictor {
       const endMs = Math.min(toMs, edgeMs, wishes ? Number.POSITIVE_INFINITY : wishMs, nowMs + STEP_MS);
       const linear = model.linear.gain * (wishes ? commands.wishLinear : commands.linear(index));
       const angular = model.angular.gain * (wishes ? commands.wishAngular : commands.angular(index));
+      const lateral = model.linear.gain * (wishes ? commands.wishLateral : commands.lateral(index));
       const { maxAngular } = this.#limits;
       stepBase(
         motion,
@@ -228,9 +234,16 @@ export class MotionPredictor {
         within(linear * this.#factor, this.#mostLinear),
         within(angular * this.#factor, maxAngular),
         (endMs - nowMs) / 1000,
+        within(lateral * this.#factor, this.#mostLateral),
       );
       nowMs = endMs;
     }
+  }
+
+  /** What bounds the robot forwards bounds it sideways. */
+  get #mostLateral(): number {
+    const { maxLinear, maxLateral = 0 } = this.#limits;
+    return this.#mostLinear < maxLinear ? Math.min(this.#mostLinear, maxLateral) : maxLateral;
   }
 
   /** What a report tells of the velocity, and of the model. @param free the robot followed its commands all the while */
@@ -239,22 +252,26 @@ export class MotionPredictor {
     const seconds = (robotMs - this.#robotMs) / 1000;
     const heading = (anchor.yaw + yaw) / 2;
     const travel = (x - anchor.x) * Math.cos(heading) + (y - anchor.y) * Math.sin(heading);
+    const aside = (y - anchor.y) * Math.cos(heading) - (x - anchor.x) * Math.sin(heading);
     const turn = yaw - anchor.yaw;
-    const { maxLinear, maxAngular } = this.#limits;
+    const { maxLinear, maxLateral = 0, maxAngular } = this.#limits;
     if (free) {
       const model = this.#roll;
       copyMotion(anchor, model);
       this.#lead(model, this.#robotMs, robotMs);
       const [dx, dy] = [model.x - anchor.x, model.y - anchor.y];
-      const modelTravel =
-        dx * Math.cos((anchor.yaw + model.yaw) / 2) + dy * Math.sin((anchor.yaw + model.yaw) / 2);
+      const [cos, sin] = [Math.cos((anchor.yaw + model.yaw) / 2), Math.sin((anchor.yaw + model.yaw) / 2)];
+      const modelTravel = dx * cos + dy * sin;
+      anchor.lateral = model.lateral + (TRUST * (aside - (dy * cos - dx * sin))) / seconds;
       anchor.linear = model.linear + (TRUST * (travel - modelTravel)) / seconds;
       anchor.angular = model.angular + (TRUST * (turn - (model.yaw - anchor.yaw))) / seconds;
     } else {
       anchor.linear = travel / seconds;
+      anchor.lateral = aside / seconds;
       anchor.angular = turn / seconds;
     }
     anchor.linear = within(anchor.linear, maxLinear);
+    anchor.lateral = within(anchor.lateral, maxLateral);
     anchor.angular = within(anchor.angular, maxAngular);
     if (free && this.driving) this.#addToWindow(robotMs, travel, turn);
   }
@@ -272,8 +289,8 @@ export class MotionPredictor {
   }
 
   #jumps(dx: number, dy: number, turn: number, seconds: number): boolean {
-    const { maxLinear, maxAngular } = this.#limits;
-    const far = Math.hypot(dx, dy) > JUMP_M + 2 * maxLinear * seconds;
+    const { maxLinear, maxLateral = 0, maxAngular } = this.#limits;
+    const far = Math.hypot(dx, dy) > JUMP_M + 2 * Math.max(maxLinear, maxLateral) * seconds;
     return far || Math.abs(turn) > JUMP_RAD + 2 * maxAngular * seconds;
   }
 

@@ -22,6 +22,8 @@ export interface ReportedMotion {
 /** What the robot's welcome says: what no message loosens, and how it ramps. */
 export interface PredictionLimits extends BaseRamps {
   maxLinear: number;
+  /** Left out: 0, the base cannot go sideways. */
+  maxLateral?: number | undefined;
   maxAngular: number;
   watchdogMs: number;
 }

@@ -39,7 +39,8 @@ export function openHelp(dialog: HTMLDialogElement, parts: HelpDialogParts): voi
     noController.hidden = connected.length > 0;
     const usual = { name: words.gamepad, map: STANDARD_MAP, isStandard: true };
     const shown = connected.length === 0 ? [usual] : connected;
-    groups.replaceChildren(...helpGroups(parts.settings.keys.value, shown).map(sectionOf));
+    const { keys, goesSideways } = parts.settings;
+    groups.replaceChildren(...helpGroups(keys.value, shown, goesSideways.value).map(sectionOf));
   };
   const disposeKeys = effect(render);
   const events = ['gamepadconnected', 'gamepaddisconnected'] as const;

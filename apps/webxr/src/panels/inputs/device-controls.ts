@@ -39,7 +39,12 @@ export class DeviceControls {
     const { key, name, settings, say } = parts;
     this.#live.ariaHidden = 'true';
     this.element.className = 'device';
-    this.#setup = new DeviceSetup({ key, say, draft: this.#draft });
+    this.#setup = new DeviceSetup({
+      key,
+      say,
+      draft: this.#draft,
+      goesSideways: () => settings.goesSideways.value,
+    });
     this.element.append(headingOf(name), this.#state, this.#live, this.#body);
     this.#stop = effect(() => {
       const draft = this.#draft.value;

@@ -34,6 +34,8 @@ const DEAD_ZONE_STEP = 0.02;
 export interface DeviceSetupParts {
   readonly key: string;
   readonly draft: Signal<ControllerMap | null>;
+  /** Whether the robot can go sideways. */
+  goesSideways(): boolean;
   /** Tells what the hand is to do, and what has come of it. */
   say(text: string): void;
 }
@@ -76,10 +78,17 @@ export class DeviceSetup {
 
   rows(map: ControllerMap): HTMLElement[] {
     const axes = map.sticks.flatMap((stick, index) =>
-      AXIS_ROLES.flatMap((role) => this.#axisRows(role, index, map.sticks.length, stick[role])),
+      this.#axisRoles().flatMap((role) =>
+        this.#axisRows(role, index, map.sticks.length, stick[role] ?? null),
+      ),
     );
     const buttons = BUTTON_ROLES.flatMap((role) => this.#buttonRows(role, map));
     return [...axes, ...buttons, rowOf('', this.#measure())];
+  }
+
+  /** Those that the robot can follow. */
+  #axisRoles(): readonly AxisRole[] {
+    return AXIS_ROLES.filter((role) => role !== 'sideways' || this.#parts.goesSideways());
   }
 
   #axisRows(role: AxisRole, stick: number, sticks: number, axis: AxisMap | null): HTMLElement[] {

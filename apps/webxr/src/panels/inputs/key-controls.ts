@@ -11,6 +11,7 @@ import {
   type KeyRole,
   removeKey,
   roleOf,
+  SIDEWAYS_ROLES,
   STOP_KEY_ALWAYS,
 } from '../../take/drive/key-map.ts';
 import { keyName } from '../../words/input-words.ts';
@@ -45,7 +46,7 @@ export class KeyControls {
     this.#stop = effect(() => {
       const { value: keys } = settings.keys;
       keepingFocus(this.#list, () => {
-        this.#list.replaceChildren(...KEY_ROLES.map((role) => this.#row(role, keys[role])));
+        this.#list.replaceChildren(...this.#roles().map((role) => this.#row(role, keys[role])));
       });
       showPresets(preset, keys);
     });
@@ -57,6 +58,12 @@ export class KeyControls {
     this.#waiting = null;
     window.removeEventListener('keydown', this.#onKeyDown, true);
     this.#stop();
+  }
+
+  /** Those that the robot can follow. */
+  #roles(): readonly KeyRole[] {
+    const isSideways = new Set<KeyRole>(SIDEWAYS_ROLES);
+    return this.#settings.goesSideways.value ? KEY_ROLES : KEY_ROLES.filter((role) => !isSideways.has(role));
   }
 
   #row(role: KeyRole, codes: readonly string[]): HTMLElement {

@@ -71,6 +71,7 @@ export class OperatorInputs {
     const devices = [this.#headset, this.#touch, ...this.#gamepads.all, this.#keyboard];
     this.all = devices.map((device) => new ScaledInput(device, inputSettings.speed));
     effect(() => this.#keyboard.setKeys(inputSettings.keys.value));
+    effect(() => this.#keyboard.setSideways(inputSettings.goesSideways.value));
     window.addEventListener('keydown', (event) => this.#onKey(event, true));
     window.addEventListener('keyup', (event) => this.#onKey(event, false));
     window.addEventListener('blur', () => this.releaseAll());

@@ -251,6 +251,7 @@ export class RememberedWorld {
   #limit(): void {
     const limits = this.#parts.client.link.session.welcome?.limits;
     if (limits === undefined || this.#memory === null) return;
-    this.#memory.limits = { linear: limits.maxLinear, angular: limits.maxAngular };
+    const linear = Math.max(limits.maxLinear, limits.maxLateral ?? 0);
+    this.#memory.limits = { linear, angular: limits.maxAngular };
   }
 }

@@ -115,3 +115,35 @@ describe('what a robot takes of the floor', () => {
     expect(shownOf(path).ribbons).toBeNull();
   });
 });
+
+describe('the way of a robot that goes sideways', () => {
+  const ASIDE: DrivenPath = { linear: 0, lateral: 1, angular: 0, loopMs: 100, tone: 'free' };
+
+  test('leads to its left, as wide as the robot is long, and it stands there unturned', () => {
+    const path = pathWith(ASIDE);
+    expect(path.shown?.stopM).toBeCloseTo(STOP_M);
+    const [ribbons] = path.object.children as [Mesh<BufferGeometry>];
+    expect(ribbons.rotation.z).toBeCloseTo(Math.PI / 2);
+    const shown = shownOf(path);
+    // In the direction of the motion: from its left side on, 0.6 m wide.
+    expect(shown.ribbons?.slice(0, 2)).toEqual([
+      [0.2, 0.2],
+      [0.2, -0.4],
+    ]);
+    expect(shown.words.slice(4, 8)).toEqual([
+      '0.4 0.8 to -0.2 0.8',
+      '-0.2 0.8 to -0.2 0.4',
+      '-0.2 0.4 to 0.4 0.4',
+      '0.4 0.4 to 0.4 0.8',
+    ]);
+    expect(shown.words[8]).toBe('-0.2 0.8 to 0.4 0.8');
+  });
+
+  test('is drawn anew when only that changes, and forwards again', () => {
+    const path = pathWith({ ...ASIDE, lateral: -1 });
+    expect(shownOf(path).words[8]).toBe('0.4 -0.8 to -0.2 -0.8');
+    path.show(AHEAD);
+    expect(path.object.children[0]?.rotation.z).toBe(0);
+    expect(shownOf(path).words).toEqual(shownOf(pathWith(AHEAD)).words);
+  });
+});

@@ -40,6 +40,8 @@ const COLOURS: Readonly<Record<PathTone, number>> = { free: 0x35c9b5, slower: 0x
 export interface DrivenPath {
   /** Velocity that the driver asks for, m/s and rad/s. */
   linear: number;
+  /** To the left; left out: 0. */
+  lateral?: number;
   angular: number;
   /** Age of the driver's view when the robot takes a command; undefined while unknown. */
   loopMs: number | undefined;
@@ -184,9 +186,6 @@ export class DrivePath {
   /** What is shown: how far the robot goes before it stands, m, and its tone; `null` while it shows no way. */
   shown: { stopM: number; tone: PathTone } | null = null;
   #path: DrivenPath | null = null;
-  /** How far the footprint reaches ahead and behind, m. */
-  #front = 0;
-  #back = 0;
 
   constructor() {
     this.#ribbons.mesh.visible = false;
@@ -206,8 +205,6 @@ export class DrivePath {
     this.object.visible = body !== null;
     if (body === null) return;
     this.#outlines.corners = body.footprint;
-    this.#front = Math.max(...body.footprint.map(({ x }) => x));
-    this.#back = Math.min(...body.footprint.map(({ x }) => x));
     this.#draw();
   }
 
@@ -222,22 +219,40 @@ export class DrivePath {
     const path = this.#path;
     for (const material of this.#materials) material.color.setHex(COLOURS[path?.tone ?? 'free']);
     this.shown = null;
-    const shows = path !== null && path.linear !== 0 && this.#body !== null;
+    const shows = path !== null && (path.linear !== 0 || (path.lateral ?? 0) !== 0) && this.#body !== null;
     this.#ribbons.mesh.visible = shows;
     if (!shows || this.#body === null) {
       this.#outlines.hideWay();
       return;
     }
-    const { linear, angular, loopMs = USUAL_LOOP_MS, tone } = path;
-    const curvature = angular / linear;
-    const direction = Math.sign(linear);
-    const edge = linear > 0 ? this.#front : this.#back;
-    const stopM = stoppingDistance(linear, loopMs, this.#body.decelerationMps2);
+    const { loopMs = USUAL_LOOP_MS, tone } = path;
+    const { speed, heading, footprint } = this.#course(path, this.#body.footprint);
+    const curvature = path.angular / speed;
+    const direction = Math.sign(speed);
+    const along = footprint.map(({ x }) => x);
+    const edge = speed > 0 ? Math.max(...along) : Math.min(...along);
+    const stopM = stoppingDistance(speed, loopMs, this.#body.decelerationMps2);
     this.shown = { stopM, tone };
-    const aheadM = Math.max(stopM, LEAST_AHEAD_M, AHEAD_S * Math.abs(linear));
+    const aheadM = Math.max(stopM, LEAST_AHEAD_M, AHEAD_S * Math.abs(speed));
     const ends = [edge, edge + direction * stopM, edge + direction * aheadM] as const;
-    this.#ribbons.set(curvature, sweptWidth(this.#body.footprint, curvature), ends);
-    this.#outlines.showWay(poseOnArc(curvature, direction * stopM), this.#ribbons.end);
+    this.#ribbons.set(curvature, sweptWidth(footprint, curvature), ends);
+    this.#ribbons.mesh.rotation.z = heading;
+    const stands = poseOnArc(curvature, direction * stopM);
+    this.#outlines.showWay(
+      { ...stands, ...turned(stands, heading) },
+      turnedTriples(this.#ribbons.end, heading),
+    );
+  }
+
+  /** The way of a robot that goes sideways is drawn along its motion, and turned: a heading of 0 is that of its x axis. */
+  #course({ linear, lateral = 0 }: DrivenPath, footprint: RobotBody['footprint']) {
+    if (lateral === 0) return { speed: linear, heading: 0, footprint };
+    const heading = Math.atan2(lateral, linear);
+    return {
+      speed: Math.hypot(linear, lateral),
+      heading,
+      footprint: footprint.map((corner) => turned(corner, -heading)),
+    };
   }
 
   get #materials() {
@@ -245,7 +260,29 @@ export class DrivePath {
   }
 }
 
+function turned({ x, y }: { x: number; y: number }, by: number): { x: number; y: number } {
+  const [c, s] = [Math.cos(by), Math.sin(by)];
+  return { x: c * x - s * y, y: s * x + c * y };
+}
+
+/** @param triples x, y and z of each point */
+function turnedTriples(triples: Float32Array, by: number): Float32Array {
+  if (by === 0) return triples;
+  const into = triples.slice();
+  for (let at = 0; at + 2 < into.length; at += 3) {
+    const { x, y } = turned({ x: into[at] ?? 0, y: into[at + 1] ?? 0 }, by);
+    [into[at], into[at + 1]] = [x, y];
+  }
+  return into;
+}
+
 function isSame(a: DrivenPath | null, b: DrivenPath | null): boolean {
   if (a === null || b === null) return a === b;
-  return a.linear === b.linear && a.angular === b.angular && a.loopMs === b.loopMs && a.tone === b.tone;
+  return (
+    a.linear === b.linear &&
+    (a.lateral ?? 0) === (b.lateral ?? 0) &&
+    a.angular === b.angular &&
+    a.loopMs === b.loopMs &&
+    a.tone === b.tone
+  );
 }

@@ -40,7 +40,7 @@ export class PredictedView {
     this.#client = client;
     this.on.value = on;
     client.driver.onCommand = ({ twist }) =>
-      this.#predictor.onCommand(performance.now(), twist.linear.x, twist.angular.z);
+      this.#predictor.onCommand(performance.now(), twist.linear.x, twist.angular.z, twist.linear.y);
     client.on('session', () => this.#forget());
     client.on('welcome', ({ limits, body }) => this.#predictor.setLimits({ ...limits, ...body }));
     client.on('telemetry', (telemetry) => this.#onTelemetry(telemetry, performance.now()));
@@ -78,7 +78,7 @@ export class PredictedView {
     predictor.silent = link.interrupted;
     const { asked } = driver.stream;
     if (asked === null) predictor.noWish(nowMs);
-    else predictor.wish(nowMs, asked.linear.x, asked.angular.z);
+    else predictor.wish(nowMs, asked.linear.x, asked.angular.z, asked.linear.y);
     const shown = this.#shown;
     shown.follow(predictor, this.#atMs);
     const { body } = this;

@@ -36,7 +36,8 @@ function drivenPath({ driver, link }: RobotClient): DrivenPath | null {
   const { telemetry, estop } = link.session;
   const { factor = 1, viewAgeMs } = telemetry?.motion ?? {};
   const tone: PathTone = estop.latched || factor === 0 ? 'held' : factor < 1 ? 'slower' : 'free';
-  return { linear: asked.linear.x, angular: asked.angular.z, loopMs: viewAgeMs, tone };
+  const { x: linear, y: lateral } = asked.linear;
+  return { linear, lateral, angular: asked.angular.z, loopMs: viewAgeMs, tone };
 }
 
 /** Shows on the floor what the robot's navigator has planned, and its map. */

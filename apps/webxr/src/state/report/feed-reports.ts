@@ -49,7 +49,7 @@ export function feedReports(sources: ReportSources): void {
       operator: { name: access?.name ?? operator, role: access?.role ?? null },
       epochMs: epochMs(),
       nowMs: now(),
-      maxLinearMps: limits.maxLinear,
+      maxLinearMps: Math.max(limits.maxLinear, limits.maxLateral ?? 0),
     });
   });
   client.on('telemetry', (telemetry) => reports.current?.onTelemetry(telemetry));

@@ -97,10 +97,11 @@ export class Calibration {
       return { ...was, centre, least, most };
     };
     const sticks = map.sticks.map(
-      ({ forward, back, left }): StickMap => ({
+      ({ forward, back, left, sideways }): StickMap => ({
         forward: measured(forward),
         back: measured(back),
         left: measured(left),
+        ...(sideways == null ? {} : { sideways: measured(sideways) }),
       }),
     );
     const gripAxis = measured(map.gripAxis);

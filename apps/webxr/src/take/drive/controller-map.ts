@@ -9,9 +9,12 @@ export interface StickMap {
   readonly back: AxisMap | null;
   /** Turning, to the left positive. */
   readonly left: AxisMap | null;
+  /** Sideways, to the left positive: it counts beside whichever stick drives. Left out: none does. */
+  readonly sideways?: AxisMap | null | undefined;
 }
 
-export const AXIS_ROLES = ['forward', 'back', 'left'] as const;
+/** `sideways` exists only with a robot whose base can. */
+export const AXIS_ROLES = ['forward', 'back', 'left', 'sideways'] as const;
 export type AxisRole = (typeof AXIS_ROLES)[number];
 
 /** What a button can do. `grip` is the dead-man grip: nothing drives without it. */

@@ -396,3 +396,28 @@ test('lets one device drive at a time: the one that started', () => {
   a.held = false;
   expect(activeInput([a, b], a)).toBe(null);
 });
+
+describe('keys for sideways', () => {
+  const hold = (keys: KeyboardInput, ...codes: string[]) => codes.map((code) => keys.key(code, true, 0));
+
+  test('are none of the keyboard’s with a robot that cannot', () => {
+    const keys = new KeyboardInput();
+    expect(hold(keys, 'Space', 'Comma')).toEqual([true, false]);
+    expect(keys.wish).toEqual({ forward: 0, left: 0 });
+    expect(keys.pushed).toBe(false);
+  });
+
+  test('drive one that can, beside the others; with another robot they have let go', () => {
+    const keys = new KeyboardInput();
+    keys.setSideways(true);
+    hold(keys, 'Space', 'KeyW', 'Comma');
+    expect(keys.wish).toEqual({ forward: 1, left: 0, sideways: 1 });
+    hold(keys, 'Period');
+    expect(keys.wish).toEqual({ forward: 1, left: 0 });
+    keys.key('Comma', false, 0);
+    expect(keys.wish.sideways).toBe(-1);
+    expect(keys.pushed).toBe(true);
+    keys.setSideways(false);
+    expect([keys.held, keys.wish]).toEqual([false, { forward: 0, left: 0 }]);
+  });
+});

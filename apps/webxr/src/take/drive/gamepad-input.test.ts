@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { EMPTY_MAP } from './controller-map.ts';
+import { type ControllerMap, EMPTY_MAP } from './controller-map.ts';
 import { GamepadInput } from './gamepad-input.ts';
 
 const axis = { axis: 0, centre: 0, least: -1, most: 1, inverted: false, deadZone: 0.1 };
@@ -57,4 +57,25 @@ test('after a release the pedal must be let go of first', () => {
   expect(readAxes(input, 0, 1, 1, -1).held).toBe(false);
   readAxes(input, 0, 1, 1, 1);
   expect(readAxes(input, 0, 1, 1, -1).held).toBe(true);
+});
+
+test('sideways counts beside whichever stick drives, and only where an axis has been taught it', () => {
+  const stick = { axis: 0, centre: 0, least: -1, most: 1, inverted: true, deadZone: 0.1 };
+  const map: ControllerMap = {
+    ...wheel,
+    sticks: [
+      { forward: { ...stick, axis: 1 }, back: null, left: stick },
+      { forward: null, back: null, left: null, sideways: { ...stick, axis: 2 } },
+    ],
+  };
+  const input = new GamepadInput();
+  const read = (...axes: number[]) => {
+    input.read({ axes, buttons: [] }, 0, map);
+    return input.wish;
+  };
+  expect(read(0, -1, 1)).toEqual({ forward: 1, left: 0, sideways: -1 });
+  expect(read(0, -1, 0)).toEqual({ forward: 1, left: 0 });
+  expect(read(-1, 0, -1)).toEqual({ forward: 0, left: 1, sideways: 1 });
+  input.release();
+  expect(input.wish).toEqual({ forward: 0, left: 0 });
 });

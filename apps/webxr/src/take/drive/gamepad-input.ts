@@ -81,6 +81,7 @@ export class GamepadInput implements DriveInput {
     this.held = false;
     this.wish.forward = 0;
     this.wish.left = 0;
+    this.wish.sideways = undefined;
   }
 
   #readButtons(buttons: GamepadState['buttons'], map: ControllerMap): void {
@@ -105,11 +106,14 @@ export class GamepadInput implements DriveInput {
     return this.#pedal;
   }
 
-  /** The stick that is deflected the most drives. */
+  /** The stick that is deflected the most drives; sideways goes what is deflected the most for that. */
   #wishOf(axes: GamepadState['axes'], sticks: readonly StickMap[]): void {
     const { wish } = this;
     let most = -1;
-    for (const { forward, back, left } of sticks) {
+    let slide = 0;
+    for (const { forward, back, left, sideways } of sticks) {
+      const aslant = this.#axis(axes, sideways ?? null);
+      if (Math.abs(aslant) > Math.abs(slide)) slide = aslant;
       const ahead = this.#axis(axes, forward) - Math.max(this.#axis(axes, back), 0);
       const aside = this.#axis(axes, left);
       const far = Math.hypot(ahead, aside);
@@ -119,6 +123,7 @@ export class GamepadInput implements DriveInput {
       wish.forward = ahead + 0;
       wish.left = aside + 0;
     }
+    wish.sideways = slide || undefined;
   }
 
   #axis(axes: GamepadState['axes'], map: AxisMap | null): number {

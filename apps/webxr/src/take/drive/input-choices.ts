@@ -2,6 +2,7 @@
 import * as z from 'zod/mini';
 import { DEAD_ZONES } from './axis-map.ts';
 import {
+  AXIS_ROLES,
   assignButton,
   BUTTON_ROLES,
   type ButtonRole,
@@ -57,7 +58,12 @@ const axis = z
     deadZone: z.number().check(z.minimum(DEAD_ZONES.least), z.maximum(DEAD_ZONES.most)),
   })
   .check(z.refine(({ centre, least, most }) => least <= centre && centre <= most));
-const stick = z.object({ forward: z.nullable(axis), back: z.nullable(axis), left: z.nullable(axis) });
+const stick = z.object({
+  forward: z.nullable(axis),
+  back: z.nullable(axis),
+  left: z.nullable(axis),
+  sideways: z.optional(z.nullable(axis)),
+});
 const buttons = z.array(z.int().check(z.minimum(0), z.maximum(MOST_BUTTON))).check(z.maxLength(MOST_BUTTONS));
 const controller = z.object({
   key: z.string().check(z.maxLength(MOST_ID), z.regex(/^(standard|raw):/)),
@@ -109,7 +115,7 @@ function objectOf(text: string | null): object {
 /** No button has two roles: STOP comes first, and the button that stops on every standard gamepad does. No grip drives. */
 function usableMap({ sticks, buttons, gripAxis }: ControllerMap, isStandard: boolean): ControllerMap {
   const drives = sticks.some((each) =>
-    [each.forward, each.back, each.left].some((axis) => axis !== null && axis.axis === gripAxis?.axis),
+    AXIS_ROLES.some((role) => each[role] != null && each[role].axis === gripAxis?.axis),
   );
   let map: ControllerMap = { ...EMPTY_MAP, sticks, gripAxis: drives ? null : gripAxis };
   const give = (role: ButtonRole, index: number) => {

@@ -9,6 +9,8 @@ export class InputSettings {
   readonly keys: Signal<KeyMap>;
   readonly controllers: Signal<ReadonlyMap<string, ControllerMap>>;
   readonly speed: SpeedChoice;
+  /** Whether the present robot goes sideways: roles for that exist only then. Nobody chooses it, and it is not kept. */
+  readonly goesSideways = signal(false);
 
   /** @param keep keeps what is chosen for the next visit */
   constructor(choices: InputChoices, keep: (choices: InputChoices) => void) {

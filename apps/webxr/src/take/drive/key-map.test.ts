@@ -13,6 +13,7 @@ import {
   pressedRole,
   removeKey,
   roleOf,
+  SIDEWAYS_ROLES,
   STOP_KEY_ALWAYS,
   usableKeys,
 } from './key-map.ts';
@@ -30,8 +31,8 @@ function expectSafe(keys: KeyMap): void {
   for (const role of KEY_ROLES) expect(keys[role].length).toBeLessThanOrEqual(MOST_KEYS);
 }
 
-/** Needed too rarely for one hand to have a key for it: each of them has a button. */
-const RARE: readonly KeyRole[] = ['events', 'picture', 'clip'];
+/** Needed too rarely for one hand to have a key for it: each has a button, or few robots' bases can. */
+const RARE: readonly KeyRole[] = ['events', 'picture', 'clip', ...SIDEWAYS_ROLES];
 
 test('all presets are usable, and have a key for everything that is needed often', () => {
   for (const preset of Object.values(KEY_PRESETS)) {
@@ -46,7 +47,7 @@ test('all presets are usable, and have a key for everything that is needed often
 test('the keys of the left hand lie at the left, those of the right hand at the right; X stops in all of them', () => {
   const left = /^(Digit[1-6]|Key[QWERTASDFGZXCVB]|Backquote|Space|ShiftLeft)$/;
   const right =
-    /^(Digit[6-90]|Minus|Key[YUIOPHJKLNM]|Comma|Period|Equal|Bracket(Left|Right)|Semicolon|Quote|Slash|Space|ShiftRight|Numpad.+)$/;
+    /^(Digit[6-90]|Minus|Key[YUIOPHJKLNM]|Comma|Period|Equal|Bracket(Left|Right)|Semicolon|Quote|Slash|Space|ShiftRight|Arrow(Left|Right)|Numpad.+)$/;
   for (const role of KEY_ROLES) {
     for (const code of KEY_PRESETS.left[role]) expect(code).toMatch(left);
     for (const code of KEY_PRESETS.right[role]) if (code !== 'KeyX') expect(code).toMatch(right);

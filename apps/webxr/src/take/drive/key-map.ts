@@ -1,5 +1,8 @@
 /** What the keys of a keyboard do. Keys are named by `KeyboardEvent.code`: by their place, not by their letter. Pure. */
 
+/** Roles that exist only with a robot whose base goes sideways. */
+export const SIDEWAYS_ROLES = ['sideways-left', 'sideways-right'] as const;
+
 /** What a key can do. `grip` is the dead-man grip. */
 export const KEY_ROLES = [
   'estop',
@@ -8,6 +11,8 @@ export const KEY_ROLES = [
   'back',
   'left',
   'right',
+  'sideways-left',
+  'sideways-right',
   'slower',
   'faster',
   'release',
@@ -32,7 +37,16 @@ export const KEY_ROLES = [
 export type KeyRole = (typeof KEY_ROLES)[number];
 
 /** What a key does while it is held. */
-const HELD_ROLES = ['grip', 'forward', 'back', 'left', 'right', 'release', 'talk'] as const;
+const HELD_ROLES = [
+  'grip',
+  'forward',
+  'back',
+  'left',
+  'right',
+  ...SIDEWAYS_ROLES,
+  'release',
+  'talk',
+] as const;
 /** What a key does at once. */
 export type Action = Exclude<KeyRole, (typeof HELD_ROLES)[number]>;
 
@@ -56,6 +70,8 @@ export const DEFAULT_KEYS: KeyMap = {
   back: ['KeyS', 'ArrowDown'],
   left: ['KeyA', 'ArrowLeft'],
   right: ['KeyD', 'ArrowRight'],
+  'sideways-left': ['Comma'],
+  'sideways-right': ['Period'],
   slower: ['BracketLeft'],
   faster: ['BracketRight'],
   release: ['KeyR'],
@@ -91,6 +107,8 @@ export const KEY_PRESETS = {
     back: ['KeyS'],
     left: ['KeyA'],
     right: ['KeyD'],
+    'sideways-left': [],
+    'sideways-right': [],
     slower: ['Digit1'],
     faster: ['Digit2'],
     release: ['KeyR'],
@@ -119,6 +137,8 @@ export const KEY_PRESETS = {
     back: ['KeyK', 'Numpad5'],
     left: ['KeyJ', 'Numpad4'],
     right: ['KeyL', 'Numpad6'],
+    'sideways-left': ['ArrowLeft'],
+    'sideways-right': ['ArrowRight'],
     slower: ['Comma', 'NumpadSubtract'],
     faster: ['Period', 'NumpadAdd'],
     release: ['KeyP', 'NumpadMultiply'],
@@ -175,6 +195,8 @@ const DRIVING_ROLES: readonly KeyRole[] = [
   'back',
   'left',
   'right',
+  'sideways-left',
+  'sideways-right',
   'release',
   'talk',
 ];

@@ -61,3 +61,12 @@ test('that a stick is pushed without the grip is the device’s own word, or wha
   for (const pushed of [true, false])
     expect(new ScaledInput({ ...device, pushed }, choice).pushed).toBe(pushed);
 });
+
+test('what goes sideways is scaled as well', () => {
+  const device = { name: 'gamepad' as const, held: true, readMs: 3 };
+  const of = (sideways?: number) =>
+    new ScaledInput({ ...device, wish: { forward: 0, left: 0, sideways } }, new SpeedChoice(0.5)).wish;
+  expect(of(-1)).toEqual({ forward: 0, left: 0, sideways: -0.5 });
+  expect(of(Number.NaN)).toEqual({ forward: 0, left: 0, sideways: 0 });
+  expect(of()).toEqual({ forward: 0, left: 0 });
+});

@@ -75,6 +75,8 @@ export class ScaledInput implements DriveInput {
     const share = usableShare(this.#choice.share.peek());
     this.#wish.forward = scaled(this.#device.wish.forward, share);
     this.#wish.left = scaled(this.#device.wish.left, share);
+    const { sideways } = this.#device.wish;
+    this.#wish.sideways = sideways === undefined ? undefined : scaled(sideways, share);
     return this.#wish;
   }
 }

@@ -20,6 +20,7 @@ export const figures: Texts['figures'] = {
     viewAge: 'Bildalter',
     motionToPhoton: 'Latenz',
   },
+  sideways: (metresPerSecond, toLeft) => `${metresPerSecond} m/s nach ${toLeft ? 'links' : 'rechts'}`,
   stoppedBy: (state, who) => `${state} (durch ${who})`,
   stoppedAtRobot: (state, who) => `${state} (durch ${who}; nur am Roboter zu lösen)`,
   stoppers: { operator: 'eine Person', robot: 'den Roboter' },

@@ -7,6 +7,8 @@ const keyRoles: LaterTexts['inputsDialog']['keyRoles'] = {
   back: 'Rückwärts',
   left: 'Nach links drehen',
   right: 'Nach rechts drehen',
+  'sideways-left': 'Seitwärts nach links',
+  'sideways-right': 'Seitwärts nach rechts',
   slower: 'Kleinerer Gang',
   faster: 'Größerer Gang',
   release: 'STOP lösen (halten)',
@@ -48,11 +50,13 @@ export const inputsDialog: LaterTexts['inputsDialog'] = {
     forward: 'Vorwärts und rückwärts',
     back: 'Rückwärts, mit eigenem Pedal',
     left: 'Drehen',
+    sideways: 'Seitwärts',
   },
   axisPrompts: {
     forward: 'Ganz nach vorn drücken oder das Pedal durchtreten, dann loslassen.',
     back: 'Das Pedal für rückwärts durchtreten, dann loslassen.',
     left: 'Ganz nach links bewegen, dann loslassen.',
+    sideways: 'Was seitwärts fahren soll, ganz nach links bewegen, dann loslassen.',
   },
   gripPrompt:
     'Drücken Sie die Taste, die der Griff sein soll. Oder treten Sie das Pedal durch und lassen Sie los.',

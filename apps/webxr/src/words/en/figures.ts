@@ -22,6 +22,8 @@ export const figures = {
     viewAge: 'View age',
     motionToPhoton: 'Motion to photon',
   },
+  sideways: (metresPerSecond: string, toLeft: boolean) =>
+    `${metresPerSecond} m/s to the ${toLeft ? 'left' : 'right'}`,
   stoppedBy: (state: string, who: string) => `${state} (by ${who})`,
   stoppedAtRobot: (state: string, who: string) => `${state} (by ${who}; released at the robot only)`,
   stoppers: { operator: 'operator', robot: 'robot' },

@@ -9,6 +9,8 @@ const keyRoles = {
   back: 'Backward',
   left: 'Turn left',
   right: 'Turn right',
+  'sideways-left': 'Sideways to the left',
+  'sideways-right': 'Sideways to the right',
   slower: 'Lower gear',
   faster: 'Higher gear',
   release: 'Release STOP (hold)',
@@ -51,12 +53,14 @@ export const inputsDialog = {
     forward: 'Forward and backward',
     back: 'Backward, a pedal of its own',
     left: 'Turn',
+    sideways: 'Sideways',
   } satisfies Record<AxisRole, string>,
   /** What to do with an axis so that it is recognised. */
   axisPrompts: {
     forward: 'Push it forward all the way, or press the pedal, and let go.',
     back: 'Press the pedal for driving backward all the way, and let go.',
     left: 'Move it to the left all the way, and let go.',
+    sideways: 'Move what is to drive sideways to the left all the way, and let go.',
   } satisfies Record<AxisRole, string>,
   gripPrompt: 'Press the button that is to be the grip. Or press the pedal all the way, and let go.',
   buttonPrompt: (role: string) => `${role}: press the button.`,
