@@ -1,7 +1,7 @@
 /** The console in the headset: the menu, the labels on the controllers, STOP and the menu for hands that point. */
 import { STAGE_STATES, type StageStateName } from '@farpoint/webxr/stage-states';
 import { type Headset, headsetViewport } from '../src/headset.ts';
-import { consoleIn, enterVr, openInVr, shownIn } from '../src/stage/in-headset.ts';
+import { chooseBySteps, consoleIn, enterVr, openInVr, pinchAt, shownIn } from '../src/stage/in-headset.ts';
 import { expect, test } from '../src/stage/page-test.ts';
 import type { Stage } from '../src/stage/stage.ts';
 
@@ -10,8 +10,6 @@ test.use({ viewport: headsetViewport });
 type Shown = Awaited<ReturnType<typeof consoleIn>>;
 type Place = Shown['tab']['stop'];
 
-/** Height of the emulated eyes, m. */
-const EYES_M = 1.6;
 /** Where only places and words count, few pixels are drawn. */
 const SMALL = { width: 128, height: 72 };
 /** By then a sheet has wholly come or gone, ms. */
@@ -22,22 +20,6 @@ async function menuOf(stage: Stage): Promise<string | null> {
   return (await consoleIn(stage)).menu?.title ?? null;
 }
 
-/** Moves the mark to an entry by the stick, and pulls the trigger. */
-async function choose(stage: Stage, headset: Headset, entry: string | RegExp): Promise<void> {
-  const { menu } = await consoleIn(stage);
-  const to =
-    menu?.items.findIndex((text) => (typeof entry === 'string' ? text === entry : entry.test(text))) ?? -1;
-  expect(to, `${entry} in ${menu?.items.join(', ')}`).toBeGreaterThanOrEqual(0);
-  for (let tries = 0; (await consoleIn(stage)).menu?.marked !== to; tries++) {
-    expect(tries).toBeLessThan(20);
-    await headset.thumbstick('right', 0, 1);
-    await headset.frames(2);
-    await headset.thumbstick('right', 0, 0);
-    await headset.frames(2);
-  }
-  await headset.press('right', 'trigger');
-}
-
 test('the menu opens by A beside the way ahead, by stick and trigger goes through its pages, and closes by either hand', async ({
   stage,
 }) => {
@@ -45,21 +27,21 @@ test('the menu opens by A beside the way ahead, by stick and trigger goes throug
   await consoleIn(stage);
   await headset.press('right', 'a-button');
   expect(await menuOf(stage)).toBe('Menu');
-  await choose(stage, headset, /^View/);
-  await choose(stage, headset, 'tabletop');
+  await chooseBySteps(stage, headset, /^View/);
+  await chooseBySteps(stage, headset, 'tabletop');
   expect((await shownIn(stage)).view).toBe('tabletop');
   expect(await menuOf(stage)).toBeNull();
   await headset.press('right', 'a-button');
-  await choose(stage, headset, 'Cameras ›');
-  await choose(stage, headset, /^Front/);
-  await choose(stage, headset, 'Enlarge');
+  await chooseBySteps(stage, headset, 'Cameras ›');
+  await chooseBySteps(stage, headset, /^Front/);
+  await chooseBySteps(stage, headset, 'Enlarge');
   expect((await consoleIn(stage)).menu?.items).toContain('Back to the wrist');
   await headset.press('left', 'x-button');
   expect(await menuOf(stage)).toBeNull();
   // The view has not changed with it, and nothing was turned.
   expect((await shownIn(stage)).view).toBe('tabletop');
   await headset.press('right', 'a-button');
-  await choose(stage, headset, 'Leave VR');
+  await chooseBySteps(stage, headset, 'Leave VR');
   await stage.frames(5);
   expect((await stage.state()).vr).toBe(false);
 });
@@ -92,11 +74,11 @@ test('a request is told of on the sign and answered in the menu, and the drive i
   await stage.run(600);
   expect((await shownIn(stage)).notice?.rows.join(' ')).toContain('“Bo” asks to drive. Answer in the menu.');
   await headset.press('right', 'a-button');
-  await choose(stage, headset, 'Give the drive');
+  await chooseBySteps(stage, headset, 'Give the drive');
   await stage.run(400);
   expect((await stage.state()).holder).toBe('other');
   await headset.press('right', 'a-button');
-  await choose(stage, headset, 'Take over');
+  await chooseBySteps(stage, headset, 'Take over');
   await stage.run(400);
   expect((await stage.state()).holder).toBe('you');
 });
@@ -110,18 +92,13 @@ test('a bare hand points at the wrist: the menu opens, an entry is pinched, and 
   await headset.bareHand('left', [-0.2, 1.3, -0.45], 0);
   await headset.bareHand('right', [0.2, 1.3, -0.3], 0);
   await stage.frames(5);
-  const pinchAt = async (place: (shown: Shown) => Place | undefined) => {
-    const at = place(await consoleIn(stage));
-    if (at === undefined) throw new Error('there is nothing to pinch');
-    // What is tracked begins at the eyes. A little before it, the hand points straight at it.
-    const [x, y, z] = at;
-    for (const pinches of [0, 1, 0]) await headset.bareHand('right', [x, y + EYES_M, z + 0.15], pinches);
-  };
-  await pinchAt(({ tab }) => tab.menu);
+  const pinch = async (place: (shown: Shown) => Place | undefined) =>
+    pinchAt(headset, place(await consoleIn(stage)));
+  await pinch(({ tab }) => tab.menu);
   expect(await menuOf(stage)).toBe('Menu');
-  await pinchAt(({ menu }) => menu?.places[menu.items.indexOf('Readings ›')]);
+  await pinch(({ menu }) => menu?.places[menu.items.indexOf('Readings ›')]);
   expect(await menuOf(stage)).toBe('Readings');
-  await pinchAt(({ tab }) => tab.stop);
+  await pinch(({ tab }) => tab.stop);
   expect((await stage.state()).estop).toBe(true);
   // Pinched for longer than a trigger is held to release it.
   await headset.bareHand('right', [0.2, 1.3, -0.3], 1);

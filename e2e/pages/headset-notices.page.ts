@@ -1,6 +1,6 @@
 /** The sign before the eyes in the headset: what it says, when it comes and goes, and that the hands feel it. */
 import { type Headset, headsetViewport } from '../src/headset.ts';
-import { enterVr, shownIn, wristOf } from '../src/stage/in-headset.ts';
+import { countPulses, enterVr, shownIn, wristOf } from '../src/stage/in-headset.ts';
 import { expect, test } from '../src/stage/page-test.ts';
 import type { Stage } from '../src/stage/stage.ts';
 
@@ -30,21 +30,6 @@ async function signOf(stage: Stage): Promise<string | null> {
   expect(notice.bottomDegrees).toBeGreaterThan(-45);
   expect(notice.widthDegrees).toBeLessThan(40);
   return notice.rows.join(' ');
-}
-
-/** Counts what the right controller feels from now on. */
-async function countPulses({ page }: Stage): Promise<() => Promise<number>> {
-  const counted = await page.evaluateHandle(() => {
-    const pulses = { count: 0 };
-    const actuator = window.emulatedHeadset.controllers.right?.inputSource.gamepad?.hapticActuators[0];
-    if (actuator === undefined) throw new Error('the controller has nothing that vibrates');
-    actuator.pulse = async () => {
-      pulses.count++;
-      return true;
-    };
-    return pulses;
-  });
-  return () => counted.evaluate(({ count }) => count);
 }
 
 async function drive(stage: Stage, headset: Headset): Promise<void> {

@@ -154,6 +154,8 @@ function headsetActions({ client, state, vr, choose, act }: HeadsetOptions): Hea
     offerDrive: (operator) => people.offerDrive(operator),
     withdraw: (id) => people.withdraw(id),
     answer: (id, accept) => people.answer(id, accept),
+    pressCommand: (id) => state.commands.press(id),
+    cancelCommand: (id) => state.commands.cancel(id),
     ...cameraActions(state),
   };
 }

@@ -36,6 +36,11 @@ export interface ShownRecording {
   readonly bookmark: ShownCommand | null;
 }
 
+/** Whether there is anything to offer. */
+export function hasCommands(groups: readonly unknown[], recording: ShownRecording | null): boolean {
+  return groups.length > 0 || recording !== null;
+}
+
 export interface CommandsParts {
   readonly client: Pick<RobotClient, 'on' | 'commands'>;
   readonly samples: Sampler;

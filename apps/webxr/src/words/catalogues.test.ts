@@ -42,6 +42,7 @@ const ALIKE = new Set([
   'Clip',
   'JSON Lines',
   '95 %',
+  'N %, N',
   'max.',
   'N ×',
   'N, N, N',

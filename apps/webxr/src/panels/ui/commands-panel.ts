@@ -1,6 +1,11 @@
 /** The panel with the robot's commands, by group, and its recording. */
 import { computed, effect } from '@preact/signals-core';
-import type { CommandsState, ShownCommand, ShownRecording } from '../../state/commands-state.ts';
+import {
+  type CommandsState,
+  hasCommands,
+  type ShownCommand,
+  type ShownRecording,
+} from '../../state/commands-state.ts';
 import { steady } from '../../state/sampler.ts';
 import { texts } from '../../words/language.ts';
 import { elements } from './elements.ts';
@@ -41,7 +46,7 @@ export function showCommands(commands: CommandsState): void {
   });
   effect(() => recorder.show(commands.recording.value));
   effect(() => {
-    panel.hidden = layout.value.length === 0 && commands.recording.value === null;
+    panel.hidden = !hasCommands(layout.value, commands.recording.value);
   });
 }
 

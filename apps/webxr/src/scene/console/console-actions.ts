@@ -22,6 +22,9 @@ export interface ConsoleActions {
   withdraw(handover: number): void;
   /** Answers another operator's request for the drive or offer of it. */
   answer(handover: number, accept: boolean): void;
+  /** A command's entry was chosen, as its button on the page is pressed. */
+  pressCommand(id: string): void;
+  cancelCommand(id: string): void;
   /** @param camera its place in the page's list of cameras */
   toggleCamera(camera: number): void;
   enlarge(camera: number): void;

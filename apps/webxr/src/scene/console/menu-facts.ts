@@ -29,7 +29,7 @@ export function menuFacts({
   passthrough,
   stages,
 }: ConsoleSources): ReadonlySignal<MenuFacts> {
-  const { link, driving, robot } = state;
+  const { link, driving, robot, commands: offered } = state;
   const people = peopleShown(state);
   // Samples are taken all the time; the menu is drawn when something has changed.
   return steady(
@@ -52,6 +52,7 @@ export function menuFacts({
         heirs: persons.filter(({ mayOffer }) => mayOffer).map(({ number, text }) => ({ number, text })),
         view: headset.view.value,
         cameras: state.views.value.map((view) => cameraOf(view, state)),
+        commands: { groups: offered.groups.value, recording: offered.recording.value },
         readings: [
           ...robot.alarms.value,
           ...robot.readings.value.map(({ label, text, tone }) => ({

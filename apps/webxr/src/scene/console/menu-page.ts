@@ -1,27 +1,13 @@
 /** The pages of the headset's menu: what can be chosen now, and what each entry does. Pure. */
 import type { LeaseState, RobotListing } from '@farpoint/operator';
 import { HEADSET_VIEWS, type HeadsetView } from '../../ground/headset-settings.ts';
+import { hasCommands } from '../../state/commands-state.ts';
 import { viewName } from '../../words/headset-words.ts';
-import { laterTexts } from '../../words/language.ts';
+import { laterTexts, texts } from '../../words/language.ts';
 import type { Words } from '../../words/words.ts';
 import type { ConsoleActions } from './console-actions.ts';
-
-export type MenuPageName =
-  | 'main'
-  | 'robots'
-  | 'people'
-  | 'views'
-  | 'cameras'
-  | 'camera'
-  | 'readings'
-  | 'times';
-
-/** Which page is open. */
-export interface MenuPlace {
-  readonly page: MenuPageName;
-  /** The entry of its list that comes first; of a camera's page, that camera; of times, 0: clouds, 1: commands. */
-  readonly first: number;
-}
+import { commandPages, type MenuCommands } from './menu-commands.ts';
+import type { MenuItem, MenuPageName, MenuPlace } from './menu-item.ts';
 
 export interface MenuCamera {
   readonly name: string;
@@ -50,6 +36,7 @@ export interface MenuFacts {
   readonly heirs: readonly { readonly number: number; readonly text: string }[];
   readonly view: HeadsetView;
   readonly cameras: readonly MenuCamera[];
+  readonly commands: MenuCommands;
   /** Alarms, then what the robot reports. */
   readonly readings: readonly Words[];
   /** Where the time goes, line by line. */
@@ -65,15 +52,6 @@ export interface MenuRequest {
   readonly accept: string;
   readonly refuse: string;
 }
-
-export interface MenuItem {
-  readonly text: string;
-  /** `null`: it only says something. */
-  readonly choice: Choice | null;
-  readonly tone?: Words['tone'] | 'chosen';
-}
-
-type Choice = { readonly act: (actions: ConsoleActions) => void; readonly closes: boolean } | MenuPlace;
 
 export interface MenuPage {
   readonly title: string;
@@ -98,6 +76,8 @@ export function menuPage(facts: MenuFacts, { page, first }: MenuPlace): MenuPage
       return { title: said.cameras, items: [...cameraList(facts, first), back()] };
     case 'camera':
       return cameraPage(facts, first);
+    case 'commands':
+      return { title: texts().commands.title, items: [...commandItems(facts, first), back()] };
     case 'readings': {
       const lines = paged(facts.readings.map(line), 'readings', first);
       const none: MenuItem[] = lines.length === 0 ? [{ text: said.noReadings, choice: null }] : [];
@@ -134,19 +114,23 @@ function paged(all: readonly MenuItem[], page: MenuPageName, first: number): Men
 
 function mainItems(facts: MenuFacts): MenuItem[] {
   const said = laterTexts().headsetMenu;
-  const { chosenRobotId, live, view, cameras, passthrough } = facts;
+  const { chosenRobotId, live, view, cameras, passthrough, asked, own } = facts;
   return [
     ...(live ? [stopItem(facts)] : []),
     ...(live ? requestItems(facts) : []),
     open(said.robots, 'robots'),
     ...(live ? driveItems(facts) : []),
+    ...(live && hasCommands(facts.commands.groups, facts.commands.recording)
+      ? [open(texts().commands.title, 'commands')]
+      : []),
     open(said.viewNow(viewName(view)), 'views'),
     ...(cameras.length === 0 ? [] : [open(said.cameras, 'cameras')]),
     ...(live ? [open(said.readings, 'readings'), open(said.times, 'times')] : []),
     act(said.recentre, (actions) => actions.recentre()),
     ...(chosenRobotId === null ? [] : [act(said.disconnect, (actions) => actions.disconnect())]),
     act(passthrough ? said.leave.ar : said.leave.vr, (actions) => actions.leave()),
-    act(said.close, () => undefined),
+    // With both questions there is no room for it; A and X close the menu, too.
+    ...(asked !== null && own !== null ? [] : [act(said.close, () => undefined)]),
   ];
 }
 
@@ -205,6 +189,13 @@ function robotItems({ robots, chosenRobotId, noRobots }: MenuFacts, first: numbe
   });
   const none: MenuItem[] = robots.length === 0 ? [{ text: noRobots, choice: null }] : [];
   return [...paged([...away, ...listed], 'robots', first), ...none];
+}
+
+function commandItems({ commands }: MenuFacts, page: number): MenuItem[] {
+  const pages = commandPages(commands);
+  const shown = pages[page] ?? pages[0] ?? [];
+  const next = page + 1 < pages.length ? page + 1 : 0;
+  return [...shown, ...(pages.length > 1 ? [open(laterTexts().headsetMenu.more, 'commands', next)] : [])];
 }
 
 function cloudTimes({ live, times }: MenuFacts): MenuItem[] {

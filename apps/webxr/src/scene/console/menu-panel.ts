@@ -2,11 +2,13 @@
 import { effect } from '@preact/signals-core';
 import { Group, Mesh, MeshBasicMaterial, type Object3D, PlaneGeometry } from 'three';
 import type { Tone } from '../../words/words.ts';
+import { shortened } from '../fitted-text.ts';
 import { Fade } from '../headset/fade.ts';
 import { headYaw } from '../headset/operator-origin.ts';
 import { PLATE_ORDER, TextPlate } from '../headset/text-plate.ts';
 import { wrapText } from '../headset/wrapped-text.ts';
-import type { MenuItem, MenuPage } from './menu-page.ts';
+import type { MenuItem } from './menu-item.ts';
+import type { MenuPage } from './menu-page.ts';
 import type { MenuState } from './menu-state.ts';
 import { menuYaw } from './view-box.ts';
 
@@ -18,24 +20,28 @@ const WIDTH = 690;
 /** From one row to the next, and of the font, pixels. Chosen: capitals of 0.9°, which every headset shows sharply. */
 const ROW = 52;
 const SIZE = 32;
-/** Chosen: an entry for all that there can be at once, and a request of two rows. */
-const MOST_ROWS = 17;
+/** Chosen: an entry for all that there can be at once, and a request of two rows; menu-state.test.ts counts them. */
+const MOST_ROWS = 20;
 /** From the edge to the text, pixels. Chosen by eye. */
 const EDGE = 24;
 /** Of the upper edge above the eyes, m. Chosen: as far up as down, for a menu of the usual length. */
 const ABOVE_M = 0.16;
+/** The lower edge is no farther below the eyes than this, m: capitals of 0.8° there. A longer menu hangs higher. */
+const LOWEST_M = 0.26;
 /** A text has so many rows at most. Chosen: menu-state.test.ts counts pages with it. */
 const ROWS_OF_TEXT = 2;
 /** Of the mark on an entry, whose text stays readable below it. */
 const MARK_OPACITY = 0.3;
 /** Height of capital letters, share of a font's size: of the least that system fonts have. */
 const CAPITAL = 0.7;
-const COLOURS: Readonly<Record<Tone | 'chosen', string>> = {
+const QUIET = '#9fb2c1';
+const COLOURS: Readonly<Record<Tone | 'chosen' | 'quiet', string>> = {
   good: '#35c9b5',
   neutral: '#e6edf3',
   warning: '#f0b429',
   bad: '#ffffff',
   chosen: '#35c9b5',
+  quiet: QUIET,
 };
 
 interface DrawnItem {
@@ -59,6 +65,8 @@ export class MenuPanel {
   #items: readonly DrawnItem[] = [];
   #drawn = '';
   #rows = 1;
+  /** Height of the eyes when it was placed, m. */
+  #eyesY = 0;
 
   constructor(menu: MenuState) {
     const colour = {
@@ -106,9 +114,10 @@ export class MenuPanel {
 
   /** Height of a capital letter in the row that is farthest from the eyes, degrees. */
   get letterDegrees(): number {
-    const low = (this.#rows * ROW) / PIXELS_PER_METRE - ABOVE_M;
+    const above = this.#aboveM;
+    const low = (this.#rows * ROW) / PIXELS_PER_METRE - above;
     const high = (SIZE * CAPITAL) / PIXELS_PER_METRE;
-    const from = Math.max(low, ABOVE_M);
+    const from = Math.max(low, above);
     return ((Math.atan(from / DISTANCE_M) - Math.atan((from - high) / DISTANCE_M)) * 180) / Math.PI;
   }
 
@@ -116,8 +125,18 @@ export class MenuPanel {
   place(head: Object3D, ahead: number): void {
     const yaw = menuYaw(headYaw(head.quaternion), ahead);
     const { x, y, z } = head.position;
+    this.#eyesY = y;
     this.object.rotation.y = yaw;
-    this.object.position.set(x - Math.sin(yaw) * DISTANCE_M, y + ABOVE_M, z - Math.cos(yaw) * DISTANCE_M);
+    this.object.position.set(
+      x - Math.sin(yaw) * DISTANCE_M,
+      y + this.#aboveM,
+      z - Math.cos(yaw) * DISTANCE_M,
+    );
+  }
+
+  /** Of the upper edge above the eyes, m. */
+  get #aboveM(): number {
+    return Math.max(ABOVE_M, (this.#rows * ROW) / PIXELS_PER_METRE - LOWEST_M);
   }
 
   /** The entry that was hit; −1: none. @param v of the hit, 1 at the upper edge */
@@ -148,13 +167,14 @@ export class MenuPanel {
     let top = 1;
     this.#items = page.items.map((item) => {
       const measure = (text: string) => this.#plate.measure(text, fontOf(item));
-      const rows = rowsOf(item.text, measure);
+      const rows = item.note === undefined ? rowsOf(item.text, measure) : twoRows(item, measure);
       const drawn = { item, rows, top };
       top += rows.length;
       return drawn;
     });
     this.#rows = Math.min(top, MOST_ROWS);
     const height = this.#rows * ROW;
+    this.object.position.y = this.#eyesY + this.#aboveM;
     this.#plate.draw(height, (context) => {
       context.fillStyle = '#0d141b';
       context.beginPath();
@@ -163,14 +183,17 @@ export class MenuPanel {
       context.textBaseline = 'middle';
       context.textAlign = 'left';
       context.font = `700 ${SIZE}px system-ui, sans-serif`;
-      context.fillStyle = '#9fb2c1';
+      context.fillStyle = QUIET;
       context.fillText(page.title, EDGE, ROW / 2, WIDTH - 2 * EDGE);
       for (const drawn of this.#items) paintItem(context, drawn);
     });
+    // A ray finds it where it is now, not one frame later.
+    this.object.updateMatrixWorld(true);
   }
 }
 
 function paintItem(context: CanvasRenderingContext2D, { item, rows, top }: DrawnItem): void {
+  const { note } = item;
   if (item.choice !== null) {
     context.fillStyle = item.tone === 'bad' ? '#7a1a1f' : '#1b2833';
     context.beginPath();
@@ -180,13 +203,21 @@ function paintItem(context: CanvasRenderingContext2D, { item, rows, top }: Drawn
   context.font = fontOf(item);
   const isAlarm = item.choice === null && item.tone === 'bad';
   context.fillStyle = isAlarm ? '#ff8080' : COLOURS[item.tone ?? 'neutral'];
-  for (const [row, text] of rows.entries())
+  for (const [row, text] of rows.entries()) {
+    if (row > 0 && note !== undefined) context.fillStyle = QUIET;
     context.fillText(text, EDGE, (top + row + 0.5) * ROW + 2, WIDTH - 2 * EDGE);
+  }
 }
 
 function fontOf({ choice, tone }: MenuItem): string {
   const isBold = choice !== null && tone === 'bad';
   return `${isBold ? 700 : 500} ${SIZE}px system-ui, sans-serif`;
+}
+
+/** Its text and its note, each as long as one row. */
+function twoRows({ text, note = '' }: MenuItem, measure: (text: string) => number): string[] {
+  const fits = (part: string) => measure(part) <= WIDTH - 2 * EDGE;
+  return [shortened(text, fits), shortened(note, fits)];
 }
 
 /** A robot's name has any length. */

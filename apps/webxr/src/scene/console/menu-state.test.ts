@@ -21,6 +21,7 @@ const live: MenuFacts = {
   heirs: [],
   view: 'first-person',
   cameras: [{ name: 'Front', shown: 'shown' }],
+  commands: { groups: [], recording: null },
   readings: [],
   times: { clouds: [{ text: 'Clouds: 90 ms', tone: 'neutral' }], commands: [] },
   passthrough: false,
@@ -226,6 +227,32 @@ test('the stick moves the mark over what can be chosen, and the trigger chooses 
   expect(done.at(-1)).toBe('choose r2');
 });
 
+test('the robot’s commands are a page of the menu that stays open, where the robot has any', () => {
+  expect(texts()).not.toContain('Commands ›');
+  const dock = { id: 'dock', text: 'Dock', note: '', state: 'free', progress: null, cancel: null } as const;
+  const lights = { ...dock, id: 'lights', text: 'Lights' };
+  const offer = (shown: object) => {
+    const groups = [{ name: '', commands: [{ ...dock, ...shown }, lights] }];
+    facts.value = { ...live, commands: { groups, recording: null } };
+  };
+  offer({});
+  choose('Commands ›');
+  expect([menu.page.value?.title, texts()]).toEqual(['Commands', ['Dock', 'Lights', '‹ Back']]);
+  choose('Dock');
+  expect([done, menu.isOpen.value]).toEqual([['pressCommand dock'], true]);
+  offer({ text: 'Press again: Dock', state: 'armed' });
+  choose('Press again: Dock');
+  offer({ state: 'running', cancel: 'Cancel: Dock' });
+  menu.update(nowMs);
+  // A trigger that is pulled twice does not cancel what it has begun.
+  menu.choose(0, nowMs + 499);
+  expect(done).toEqual(['pressCommand dock', 'pressCommand dock']);
+  // What the robot says of it moves nothing.
+  offer({ state: 'running', cancel: 'Cancel: Dock', note: 'turning' });
+  menu.choose(0, nowMs + 500);
+  expect(done.at(-1)).toBe('cancelCommand dock');
+});
+
 test('no page has more rows than the menu shows, with two rows of each text', () => {
   const many = Array.from({ length: 30 }, (_, n) => robot(n));
   facts.value = {
@@ -235,9 +262,15 @@ test('no page has more rows than the menu shows, with two rows of each text', ()
     readings: many.map(({ name }) => ({ text: name, tone: 'neutral' as const })),
     heirs: many.map(({ name }, number) => ({ number, text: name })),
     hasHeirs: true,
+    commands: { groups: [{ name: 'A', commands: [] }], recording: null },
   };
   for (const page of ['robots', 'cameras', 'readings', 'people'] as const) {
     menu.show({ page, first: 0 });
     expect(2 * 6 + (texts()?.length ?? 0) - 6).toBeLessThanOrEqual(15);
   }
+  const asked = { id: 7, text: 'Bo asks to drive (9 s)', accept: 'Give the drive', refuse: 'Refuse' };
+  facts.value = { ...facts.value, asked, own: { id: 8, text: 'You have offered Cy the drive' } };
+  menu.open();
+  // The title, and two rows of each question.
+  expect(1 + (texts()?.length ?? 0) + 2).toBeLessThanOrEqual(20);
 });

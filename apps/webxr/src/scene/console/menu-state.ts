@@ -1,7 +1,8 @@
 /** The headset's menu: whether it is open, on which page, and which entry is marked. By ray, by stick or by hand. */
 import { computed, type ReadonlySignal, signal } from '@preact/signals-core';
 import type { ConsoleActions } from './console-actions.ts';
-import { type MenuFacts, type MenuItem, type MenuPage, type MenuPlace, menuPage } from './menu-page.ts';
+import type { MenuItem, MenuPlace } from './menu-item.ts';
+import { type MenuFacts, type MenuPage, menuPage } from './menu-page.ts';
 
 /** No entry. */
 const NONE = -1;
@@ -65,6 +66,11 @@ export class MenuState {
   close(): void {
     this.#place.value = null;
     this.#bySteps = false;
+  }
+
+  /** Whether the stick has marked what a trigger chooses. */
+  get isBySteps(): boolean {
+    return this.#bySteps;
   }
 
   get #items(): readonly MenuItem[] {

@@ -14,6 +14,7 @@ import type { WristPanel } from '../view/wrist-panel.ts';
 import type { ConsoleActions } from './console-actions.ts';
 import { ControllerLabels, type LabelView } from './controller-labels.ts';
 import { type ConsoleSources, labelFacts, menuFacts } from './menu-facts.ts';
+import type { MenuPage } from './menu-page.ts';
 import { MenuPanel } from './menu-panel.ts';
 import { MenuState } from './menu-state.ts';
 import { MenuStick } from './menu-stick.ts';
@@ -49,6 +50,8 @@ export interface ShownConsole {
   menu: {
     title: string;
     items: string[];
+    /** Below each entry; empty where there is none. */
+    notes: string[];
     marked: number;
     letterDegrees: number;
     box: Box;
@@ -76,8 +79,9 @@ export class VrConsole {
   readonly #menuBox = new ViewBox();
   readonly #signBox = new ViewBox();
   readonly #view: LabelView;
-  /** The entry that each ray is at. */
+  /** The entry that each ray is at, and the page on which it is. */
   readonly #pointed = [-1, -1];
+  readonly #pointedOn: (MenuPage | null)[] = [null, null];
   /** When the headset was put on, and the last frame; `null` before the first one. */
   #beganMs: number | null = null;
   #lastMs = 0;
@@ -132,8 +136,13 @@ export class VrConsole {
   /** A ray is at one of the targets, or not. One that rests leaves the mark to the stick. */
   point(hit: RayHit | null, ray: number): void {
     const entry = this.#entryOf(hit) ?? -1;
+    const page = this.menu.page.peek();
+    const isNewPage = page !== this.#pointedOn[ray];
+    this.#pointedOn[ray] = page;
     if (entry === this.#pointed[ray]) return;
     this.#pointed[ray] = entry;
+    // Not the ray has moved, but what it is at.
+    if (isNewPage && this.menu.isBySteps) return;
     this.menu.mark(entry);
   }
 
@@ -198,6 +207,7 @@ export class VrConsole {
       menu: page && {
         title: page.title,
         items: page.items.map(({ text }) => text),
+        notes: page.items.map(({ note = '' }) => note),
         marked: this.menu.marked.peek(),
         letterDegrees: this.#panel.letterDegrees,
         box: boxOf(this.#menuBox),

@@ -29,6 +29,7 @@ export const headsetMenu: LaterTexts['headsetMenu'] = {
   clouds: 'Punktwolken',
   commands: 'Befehle',
   stage: (name, median, p95) => `${name}: ${median}, 95 % in ${p95}`,
+  progress: (percent, note) => (note === '' ? `${percent} %` : `${percent} %, ${note}`),
   latency: 'Latenz messen',
   takeOver: 'Übernehmen',
   ask: 'Um Steuerung bitten',

@@ -31,6 +31,8 @@ export const headsetMenu = {
   clouds: 'Clouds',
   commands: 'Commands',
   stage: (name: string, median: string, p95: string) => `${name}: ${median}, 95 % within ${p95}`,
+  /** Below a command that runs. @param note what else is said of it; may be empty */
+  progress: (percent: number, note: string) => (note === '' ? `${percent} %` : `${percent} %, ${note}`),
   latency: 'Latency test',
   takeOver: 'Take over',
   ask: 'Ask to drive',
