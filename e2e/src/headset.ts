@@ -31,6 +31,18 @@ export class Headset {
     );
   }
 
+  /** Points a hand down, straight ahead. @param down radians below level */
+  async tilt(hand: Hand, down: number): Promise<void> {
+    await this.#page.evaluate(
+      ([hand, down]) => {
+        const { controllers, hands } = window.emulatedHeadset;
+        for (const each of [controllers[hand], hands[hand]])
+          each?.quaternion.set(-Math.sin(down / 2), 0, 0, Math.cos(down / 2));
+      },
+      [hand, down] as const,
+    );
+  }
+
   /** @param at right, up, back, metres; the eyes are at a height of 1.6 m */
   async place(hand: Hand, at: [x: number, y: number, z: number]): Promise<void> {
     await this.#page.evaluate(([hand, at]) => window.emulatedHeadset.controllers[hand]?.position.set(...at), [

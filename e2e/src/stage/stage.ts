@@ -158,6 +158,16 @@ export class Stage {
     await (await this.#devtools).send('Emulation.setTouchEmulationEnabled', { enabled });
   }
 
+  /** What fingers do on the screen. @param fingers those that are down, pixels of the page; none: the last one is let go */
+  async fingers(
+    type: 'touchStart' | 'touchMove' | 'touchEnd',
+    ...fingers: { x: number; y: number }[]
+  ): Promise<void> {
+    this.#devtools ??= this.page.context().newCDPSession(this.page);
+    const touchPoints = fingers.map(({ x, y }, id) => ({ x, y, id }));
+    await (await this.#devtools).send('Input.dispatchTouchEvent', { type, touchPoints });
+  }
+
   /** Changes the size of the window, and lets the page find its new layout. */
   async resize(width: number, height: number): Promise<void> {
     await this.page.setViewportSize({ width, height });

@@ -23,12 +23,14 @@ export interface EmulatedController {
     gamepad?: { hapticActuators: { pulse(strength: number, ms: number): Promise<boolean> }[] };
   };
   position: { set(x: number, y: number, z: number): void };
+  quaternion: { set(x: number, y: number, z: number, w: number): void };
 }
 
 export interface EmulatedHand {
   /** @param value 0 open … 1 pinched */
   updatePinchValue(value: number): void;
   position: { set(x: number, y: number, z: number): void };
+  quaternion: { set(x: number, y: number, z: number, w: number): void };
 }
 
 declare global {

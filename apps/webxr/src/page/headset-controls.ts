@@ -16,8 +16,9 @@ import type { PageState } from '../state/page-state.ts';
 import { viewNotice } from '../words/headset-words.ts';
 import { loadLaterTexts, texts } from '../words/language.ts';
 
-export interface HeadsetParts extends Pick<ConsoleParts, 'sources' | 'settings' | 'gripLost' | 'menuOpen'> {
-  readonly stage: Pick<Stage, 'renderer' | 'rig' | 'camera' | 'headset'>;
+export interface HeadsetParts
+  extends Pick<ConsoleParts, 'sources' | 'settings' | 'gripLost' | 'menuOpen' | 'floor' | 'feel'> {
+  readonly stage: Pick<Stage, 'renderer' | 'rig' | 'camera' | 'headset' | 'world'>;
   readonly vr: VrSession;
   readonly inputs: OperatorInputs;
   readonly state: Pick<PageState, 'robot' | 'notices'>;
@@ -25,7 +26,7 @@ export interface HeadsetParts extends Pick<ConsoleParts, 'sources' | 'settings' 
   readonly pictures: PicturesInVr;
   /** Before the operator's eyes. */
   readonly sign: NoticeSign;
-  readonly actions: Omit<ConsoleActions, 'show'>;
+  readonly actions: Omit<ConsoleActions, 'show' | 'pointAtFloor'>;
 }
 
 export class HeadsetControls {
@@ -48,6 +49,7 @@ export class HeadsetControls {
     vr.onHidden = () => {
       inputs.releaseAll();
       this.#hands.letGo();
+      this.console?.letGo();
     };
     vr.onRecentre = ({ position, orientation }) => headset.recentre(position, orientation);
     vr.onReset = () => headset.begin();
@@ -89,7 +91,9 @@ export class HeadsetControls {
     panel.update(stage.camera);
     this.#pointer.update();
     const nowMs = performance.now();
-    console?.update(vr.hidden ? 0 : inputs.menuStick, nowMs);
+    const { menuStick, otherGrip } = inputs;
+    const stick = vr.hidden ? 0 : menuStick;
+    console?.update({ stick, grip: otherGrip, barred: vr.hidden || hands.hold }, nowMs);
     sign.update(nowMs - this.#readMs);
     this.#readMs = nowMs;
   }
@@ -117,6 +121,7 @@ export class HeadsetControls {
       !inputs.isHeadsetGripped &&
       !state.robot.estopLatched.peek() &&
       this.console?.menu.isOpen.peek() !== true &&
+      this.console?.isArmed !== true &&
       !this.#pointer.points(index)
     );
   }
@@ -129,32 +134,29 @@ export class HeadsetControls {
       onPressed: (hit) => {
         if (!vr.hidden && this.console?.press(hit) === true) inputs.claimTrigger(true);
       },
-      onChosen: (hit, bare) => {
-        if (!vr.hidden) this.#choose(hit, bare);
+      onChosen: (hit, bare, ray) => {
+        if (!vr.hidden) this.#choose(hit, bare, ray);
       },
       onOpened: () => inputs.claimTrigger(false),
     });
   }
 
-  #choose(hit: RayHit | null, bare: boolean): void {
-    if (this.console?.choose(hit, bare, performance.now()) === true) return;
+  #choose(hit: RayHit | null, bare: boolean, ray: number): void {
+    if (this.console?.choose(hit, bare, ray, performance.now()) === true) return;
     if (hit !== null) this.#parts.pictures.choose(hit.object);
   }
 
   async #loadConsole(): Promise<void> {
-    const { stage, vr, inputs, state, sources, settings, gripLost, menuOpen, panel, sign, actions } =
-      this.#parts;
+    const { stage, vr, inputs, state, actions, ...parts } = this.#parts;
     try {
       const [{ VrConsole }] = await Promise.all([import('../scene/console/vr-console.ts'), loadLaterTexts()]);
       this.console ??= new VrConsole({
-        sources,
-        settings,
-        gripLost,
-        menuOpen,
-        panel,
-        sign,
+        ...parts,
         rig: stage.rig,
         head: stage.camera,
+        world: stage.world,
+        pointer: this.#pointer,
+        tell: (text) => state.notices.tell(text),
         origin: stage.headset.origin,
         hands: this.#held,
         active: vr.active,

@@ -10,6 +10,7 @@ import type { LastPictures } from '../ground/pictures/last-pictures.ts';
 import type { SessionReports } from '../ground/report/session-reports.ts';
 import type { TelemetryRecorder } from '../ground/telemetry/recorder.ts';
 import { CaptureUi } from '../panels/capture/capture-ui.ts';
+import { feelDone } from '../panels/cues/cues.ts';
 import { DashboardOpener } from '../panels/dashboard/dashboard-opener.ts';
 import { EventsOpener } from '../panels/events/events-opener.ts';
 import { Guide } from '../panels/help/guide.ts';
@@ -99,7 +100,12 @@ export class PagePanels {
       tell,
     });
     this.estop = new EstopUi(client, state, parts.release);
-    this.pointing = new PointingUi({ client, stage, notices: state.notices });
+    this.pointing = new PointingUi({
+      client,
+      stage,
+      notices: state.notices,
+      feel: () => feelDone(settings, null),
+    });
     const { recorder } = parts;
     const { presented, predicted, clouds, remembered } = views;
     const dashboard = new DashboardOpener({ client, state, settings, recorder, presented, inVr: vr.active });

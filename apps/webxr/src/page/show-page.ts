@@ -4,7 +4,7 @@ import { computed, effect, type ReadonlySignal, signal, untracked } from '@preac
 import { type HeadsetSettings, otherHand } from '../ground/headset-settings.ts';
 import type { Settings } from '../ground/settings.ts';
 import type { Switches } from '../ground/switches.ts';
-import { giveCues } from '../panels/cues/cues.ts';
+import { feelDone, giveCues } from '../panels/cues/cues.ts';
 import type { OperatorInputs } from '../panels/ui/operator-inputs.ts';
 import type { RememberedWorld } from '../panels/ui/remembered-world.ts';
 import { cameraActions } from '../scene/console/console-actions.ts';
@@ -222,6 +222,8 @@ export function showPage(parts: ShownParts): OpenedHeadset {
     act: (action) => panels.controls.act(action, performance.now()),
     isGripped: () => client.driver.isGripped,
     gripLost: () => client.driver.lost,
+    floor: panels.pointing,
+    feel: (hand) => feelDone(settings, vr, hand),
   });
   effect(() => {
     cloud.sizeScale = state.pointScale.value;

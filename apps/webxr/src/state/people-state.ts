@@ -1,6 +1,7 @@
 /** What the people at the robot ask of each other. */
 import type { OpenHandover, RobotClient } from '@farpoint/operator';
 import type { ReadonlySignal } from '@preact/signals-core';
+import { pointingBar } from './pointers.ts';
 import { type Sampler, steady } from './sampler.ts';
 
 /** A request or an offer that can be answered or taken back. */
@@ -17,6 +18,9 @@ export class PeopleState {
   /** For how long the one who drives has driven, whole minutes; `null` if nobody knows. */
   readonly drivesMinutes: ReadonlySignal<number | null>;
 
+  /** Whether others see where this operator points. */
+  readonly mayPoint: ReadonlySignal<boolean>;
+
   constructor({ link }: Pick<RobotClient, 'link'>, samples: Sampler) {
     const open = (yours: boolean) =>
       steady(
@@ -30,6 +34,7 @@ export class PeopleState {
       );
     this.asked = open(false);
     this.own = open(true);
+    this.mayPoint = samples.of(() => link.phase === 'live' && pointingBar(link.session) === null);
     this.drivesMinutes = samples.of((atMs) => {
       if (link.phase !== 'live') return null;
       const sinceMs = link.session.people.drivesSinceMs;

@@ -1,6 +1,6 @@
 import type { Operators } from '@farpoint/protocol';
 import { expect, test } from 'vitest';
-import { Pointers } from './pointers.ts';
+import { Pointers, pointingBar } from './pointers.ts';
 
 const at = { x: 1, y: 2, z: 0 };
 const operators: Operators = {
@@ -21,6 +21,15 @@ test('shows for five seconds who points, by the name in the list', () => {
   expect(names(pointers, 4999)).toEqual(['Bob', 'Somebody', 'You']);
   expect(names(pointers, 5000)).toEqual(['Somebody', 'You']);
   expect(names(pointers, 7000)).toEqual([]);
+});
+
+test('says why nobody sees it: the robot, the grant, or that nobody else is there', () => {
+  const alone = { ...operators, operators: operators.operators.filter(({ you }) => you) };
+  expect(pointingBar({ mayPoint: null, operators })).toBe('notPassedOn');
+  expect(pointingBar({ mayPoint: false, operators })).toBe('notPermitted');
+  expect(pointingBar({ mayPoint: true, operators: alone })).toBe('alone');
+  expect(pointingBar({ mayPoint: true, operators })).toBeNull();
+  expect(pointingBar({ mayPoint: true, operators: null })).toBeNull();
 });
 
 test('has one spot of each operator, the last', () => {

@@ -16,6 +16,27 @@ interface Pointer {
   readonly untilMs: number;
 }
 
+/**
+ * Why nobody sees where this operator points: the robot does not pass it on, the grant does not let this operator point, or nobody
+ * else is there.
+ */
+export type PointingBar = 'notPassedOn' | 'notPermitted' | 'alone';
+
+/** @returns `null` if others see it */
+export function pointingBar({ mayPoint, operators }: PointingSession): PointingBar | null {
+  if (mayPoint === null) return 'notPassedOn';
+  if (!mayPoint) return 'notPermitted';
+  // A robot that lists nobody may have others.
+  return operators === null || operators.operators.some(({ you }) => !you) ? null : 'alone';
+}
+
+export interface PointingSession {
+  /** Whether the robot passes it on; `null`: it has not said so. */
+  readonly mayPoint: boolean | null;
+  /** As the robot lists them. */
+  readonly operators: Operators | null;
+}
+
 /** A spot, and who points at it. */
 export interface ShownPointer {
   /** The same for as long as it is the same operator. */

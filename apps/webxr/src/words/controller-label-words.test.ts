@@ -12,6 +12,8 @@ const idle: LabelFacts = {
   gripped: false,
   mustLetGo: false,
   menu: false,
+  mayPoint: false,
+  aims: null,
   view: 'first-person',
   pictures: false,
   speaks: false,
@@ -71,6 +73,15 @@ test('a trigger enlarges, holds the model or speaks', () => {
   expect(viewer({ view: 'tabletop' }).trigger).toBe('Trigger: hold the model');
   expect(viewer({ gripped: true, speaks: true }).trigger).toBe('Trigger: speak');
   expect(driver({ gripped: true, pictures: true }).trigger).toBeNull();
+});
+
+test('the other hand’s grip aims at the floor where others see it, also while the first one drives; a trigger after the menu', () => {
+  expect(viewer({ mayPoint: true }).grip).toBe('Squeeze: point at floor');
+  expect(viewer({ mayPoint: true, gripped: true, aims: 'grip' }).grip).toBe('Let go: point there');
+  expect(viewer({ mayPoint: true, menu: true }).grip).toBeNull();
+  expect(driver({ mayPoint: true }).grip).toBe('Squeeze: drive');
+  for (const wordsOf of [driver, viewer])
+    expect(wordsOf({ mayPoint: true, aims: 'trigger', latched: true }).trigger).toBe('Trigger: point there');
 });
 
 test('in the menu both hands choose, the grip drives on, and STOP stays STOP', () => {

@@ -21,6 +21,10 @@ export interface LabelFacts {
   readonly mustLetGo: boolean;
   /** The menu is open. */
   readonly menu: boolean;
+  /** Others see where this operator points. */
+  readonly mayPoint: boolean;
+  /** What points once it is opened or pulled; `null`: no hand aims. */
+  readonly aims: 'grip' | 'trigger' | null;
   readonly view: HeadsetView;
   /** A camera's picture is shown that a trigger can enlarge. */
   readonly pictures: boolean;
@@ -93,15 +97,16 @@ function gripWords({ live, latched, watches, otherDrives, mustLetGo, gripped }: 
 function viewWords(facts: LabelFacts): HandWords {
   const said = laterTexts().controllerLabels;
   return {
-    grip: null,
+    grip: facts.mayPoint ? (facts.aims === 'grip' ? said.pointHere : said.point) : null,
     stick: facts.turns ? said.turn : null,
     stickPress: said.recentre,
     trigger: facts.gripped ? (facts.speaks ? said.speak : null) : triggerWords(facts),
   };
 }
 
-function triggerWords({ latched, mayRelease, view, pictures }: LabelFacts): string | null {
+function triggerWords({ aims, latched, mayRelease, view, pictures }: LabelFacts): string | null {
   const said = laterTexts().controllerLabels;
+  if (aims === 'trigger') return said.pointByTrigger;
   if (latched) return mayRelease ? said.release : null;
   if (view === 'tabletop') return said.holdModel;
   return pictures ? said.enlarge : null;

@@ -4,6 +4,7 @@
  */
 import type { RobotClient } from '@farpoint/operator';
 import { effect } from '@preact/signals-core';
+import type { Hand } from '../../ground/headset-settings.ts';
 import type { Settings } from '../../ground/settings.ts';
 import type { VrSession } from '../../scene/view/vr-session.ts';
 import type { PageState } from '../../state/page-state.ts';
@@ -24,6 +25,9 @@ const cuePulses: Readonly<Record<Cue, Pulse>> = {
 };
 /** Chosen: told from a robot that is only slower, and weaker than one that is held. */
 const NOTICE_PULSE: Pulse = { strength: 0.6, ms: 100 };
+
+/** Chosen: a tick, weaker than any warning. */
+const DONE_PULSE: Pulse = { strength: 0.3, ms: 40 };
 
 /** What browsers know to vibrate: headset controllers, gamepads, phones. */
 interface Vibrating {
@@ -110,6 +114,17 @@ export function giveCues({ client, vr, settings, state, now }: CueParts): void {
     const { banner, obstacle } = state.link;
     if (notices.onStanding((banner.value ?? obstacle.value) !== null, now())) feel();
   });
+}
+
+/** A hand feels that what it did is done. @param vr whose controller it holds; `null`: a finger on the screen */
+export function feelDone(
+  settings: Pick<Settings, 'cues'>,
+  vr: Pick<VrSession, 'inputSources'> | null,
+  hand?: Hand,
+): void {
+  if (!settings.cues) return;
+  const sources = [...(vr?.inputSources ?? [])].filter(({ handedness }) => handedness === hand);
+  if (vr === null || sources.length > 0) vibrate(DONE_PULSE, gamepadsOf(sources));
 }
 
 function gamepadsOf(sources: Iterable<XRInputSource>): (Gamepad | undefined)[] {

@@ -143,6 +143,11 @@ export class OperatorInputs {
     return this.#headset.turnStick;
   }
 
+  /** The grip of the headset's hand that does not drive. */
+  get otherGrip(): HeadsetInput['otherGrip'] {
+    return this.#headset.otherGrip;
+  }
+
   /** Deflection backwards of the stick that moves the headset's menu, −1…1. */
   get menuStick(): number {
     return this.#headset.menuStick;

@@ -1,17 +1,20 @@
 /** Lets an operator point at a spot on the floor, and shows where others point. */
 import type { RobotClient } from '@farpoint/operator';
 import type { Spot } from '@farpoint/protocol';
-import { Raycaster, Vector2 } from 'three';
+import { type Ray, Raycaster, Vector2 } from 'three';
 import { floorSpot } from '../../scene/view/floor-spot.ts';
 import type { Stage } from '../../scene/view/stage.ts';
 import type { Notices } from '../../state/notices.ts';
-import { Pointers } from '../../state/pointers.ts';
+import { Pointers, pointingBar } from '../../state/pointers.ts';
 import { texts } from '../../words/language.ts';
+import { LONG_PRESS_MS, LongPress } from './long-press.ts';
 
 export interface PointingUiParts {
   readonly client: Pick<RobotClient, 'link' | 'on' | 'people'>;
   readonly stage: Pick<Stage, 'viewCamera' | 'world' | 'pointers'>;
   readonly notices: Pick<Notices, 'tell'>;
+  /** The finger feels that it has pointed. */
+  feel(): void;
 }
 
 export class PointingUi {
@@ -36,26 +39,54 @@ export class PointingUi {
       this.#mouse = null;
     });
     canvas.addEventListener('pointerdown', (event) => {
-      if (!event.altKey || event.button !== 0) return;
       this.#mouse = placeOn(canvas, event);
-      this.point();
+      if (event.altKey && event.button === 0) this.point();
     });
+    this.#listenToFingers(canvas);
+  }
+
+  #listenToFingers(canvas: HTMLCanvasElement): void {
+    const press = new LongPress();
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    const on = (type: 'pointerdown' | 'pointermove' | 'pointerup' | 'pointercancel', act: FingerAct) =>
+      canvas.addEventListener(type, ({ pointerType, pointerId, clientX, clientY }) => {
+        if (pointerType !== 'touch') return;
+        act(pointerId, clientX, clientY);
+        if (!press.waits) clearTimeout(timer);
+      });
+    on('pointerdown', (id, x, y) => {
+      press.down(id, x, y);
+      clearTimeout(timer);
+      timer = setTimeout(() => {
+        const pointerId = press.take();
+        if (pointerId === null) return;
+        if (this.#tellMouse(texts().fleet.pointing.aimFinger)) this.#parts.feel();
+        // What the finger does until it is let go turns nothing.
+        canvas.dispatchEvent(new PointerEvent('pointercancel', { pointerId }));
+      }, LONG_PRESS_MS);
+    });
+    on('pointermove', (id, x, y) => press.move(id, x, y));
+    for (const end of ['pointerup', 'pointercancel'] as const) on(end, (id) => press.up(id));
   }
 
   /** Points at the floor under the mouse. */
   point(): void {
+    this.#tellMouse(texts().fleet.pointing.aim);
+  }
+
+  /** Tells the others of a spot. @param missed what to say where there is none @returns whether they are told */
+  tell(spot: Spot | null, missed: string): boolean {
     const { client, notices } = this.#parts;
     const { link } = client;
-    if (link.phase !== 'live') return;
-    const said = texts().fleet.pointing;
-    const spot = this.#spot();
-    const { mayPoint, operators } = link.session;
-    const others = operators === null || operators.operators.some(({ you }) => !you);
-    if (mayPoint === null) notices.tell(said.notPassedOn, 'warning');
-    else if (!mayPoint) notices.tell(said.notPermitted, 'warning');
-    else if (!others) notices.tell(said.alone);
-    else if (spot === null) notices.tell(said.aim);
-    else if (client.people.point(spot)) this.#pointers.own(spot, performance.now());
+    if (link.phase !== 'live') return false;
+    const bar = pointingBar(link.session);
+    if (bar !== null) notices.tell(texts().fleet.pointing[bar], bar === 'alone' ? 'neutral' : 'warning');
+    else if (spot === null) notices.tell(missed);
+    else if (client.people.point(spot)) {
+      this.#pointers.own(spot, performance.now());
+      return true;
+    }
+    return false;
   }
 
   /** Call this as often as the scene is brought up to date. @param nowMs page's clock */
@@ -65,17 +96,31 @@ export class PointingUi {
     stage.pointers.show(phase === 'live' ? this.#pointers.shown(session.operators, nowMs) : []);
   }
 
-  #spot(): Spot | null {
+  /**
+   * Where a ray meets the floor; `null`: nowhere, or too far away.
+   *
+   * @param ray in the scene's axes
+   * @param scale as {@link floorSpot} has it
+   */
+  spotAlong(ray: Ray, scale = 1): Spot | null {
     const { client, stage } = this.#parts;
     const { telemetry } = client.link.session;
-    if (this.#mouse === null || telemetry === null) return null;
-    this.#raycaster.setFromCamera(this.#mouse, stage.viewCamera);
-    const { ray } = this.#raycaster;
-    // From the scene's axes to the robot's world.
-    ray.applyMatrix4(stage.world.matrixWorld.clone().invert());
-    return floorSpot(ray, telemetry.pose.position.z);
+    if (telemetry === null) return null;
+    const inWorld = ray.clone().applyMatrix4(stage.world.matrixWorld.clone().invert());
+    return floorSpot(inWorld, telemetry.pose.position.z, scale);
+  }
+
+  #tellMouse(missed: string): boolean {
+    if (this.#mouse === null) return this.tell(null, missed);
+    const { viewCamera } = this.#parts.stage;
+    this.#raycaster.setFromCamera(this.#mouse, viewCamera);
+    // From above, the floor is as far away as the camera hangs high, and the screen's edge bounds what is in view.
+    const scale = 'isOrthographicCamera' in viewCamera ? Number.POSITIVE_INFINITY : 1;
+    return this.tell(this.spotAlong(this.#raycaster.ray, scale), missed);
   }
 }
+
+type FingerAct = (id: number, x: number, y: number) => void;
 
 function placeOn(canvas: HTMLCanvasElement, { clientX, clientY }: PointerEvent): Vector2 {
   const { left, top, width, height } = canvas.getBoundingClientRect();

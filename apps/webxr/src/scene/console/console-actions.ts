@@ -7,6 +7,8 @@ export interface ConsoleActions {
   stop(): void;
   testLatency(): void;
   recentre(): void;
+  /** The next trigger or pinch points at the floor. */
+  pointAtFloor(): void;
   /** Ends the headset's session. */
   leave(): void;
   show(view: HeadsetView): void;

@@ -53,6 +53,7 @@ export function menuFacts({
         view: headset.view.value,
         cameras: state.views.value.map((view) => cameraOf(view, state)),
         commands: { groups: offered.groups.value, recording: offered.recording.value },
+        mayPoint: state.people.mayPoint.value,
         readings: [
           ...robot.alarms.value,
           ...robot.readings.value.map(({ label, text, tone }) => ({
@@ -87,11 +88,12 @@ function cameraOf(view: CameraView, { staged, enlarged }: PageState): MenuCamera
   return { name, shown: enlarged.view.value === view ? 'enlarged' : 'shown' };
 }
 
-/** Call this within an effect. @param gripped whether a hand drives @param menu whether the menu is open */
+/** Call this within an effect. @param gripped whether a hand drives @param menu whether the menu is open @param aims what points */
 export function labelFacts(
   { state, headset, settings }: ConsoleSources,
   gripped: { readonly drives: boolean; readonly mustLetGo: boolean },
   menu: boolean,
+  aims: LabelFacts['aims'],
 ): LabelFacts {
   const { link, driving, robot, views, sound } = state;
   return {
@@ -104,6 +106,8 @@ export function labelFacts(
     gripped: gripped.drives,
     mustLetGo: gripped.mustLetGo,
     menu,
+    mayPoint: state.people.mayPoint.value,
+    aims,
     view: headset.view.value,
     pictures: views.value.some(({ camera }) => camera.on.value),
     speaks: sound.hasLoudspeaker.value,

@@ -37,6 +37,8 @@ export interface MenuFacts {
   readonly view: HeadsetView;
   readonly cameras: readonly MenuCamera[];
   readonly commands: MenuCommands;
+  /** Others see where this operator points. */
+  readonly mayPoint: boolean;
   /** Alarms, then what the robot reports. */
   readonly readings: readonly Words[];
   /** Where the time goes, line by line. */
@@ -123,6 +125,7 @@ function mainItems(facts: MenuFacts): MenuItem[] {
     ...(live && hasCommands(facts.commands.groups, facts.commands.recording)
       ? [open(texts().commands.title, 'commands')]
       : []),
+    ...(facts.mayPoint ? [act(said.point, (actions) => actions.pointAtFloor())] : []),
     open(said.viewNow(viewName(view)), 'views'),
     ...(cameras.length === 0 ? [] : [open(said.cameras, 'cameras')]),
     ...(live ? [open(said.readings, 'readings'), open(said.times, 'times')] : []),

@@ -203,9 +203,11 @@ function paintItem(context: CanvasRenderingContext2D, { item, rows, top }: Drawn
   context.font = fontOf(item);
   const isAlarm = item.choice === null && item.tone === 'bad';
   context.fillStyle = isAlarm ? '#ff8080' : COLOURS[item.tone ?? 'neutral'];
+  // A text without a note stands in the middle.
+  const from = note === '' ? top + 0.5 : top;
   for (const [row, text] of rows.entries()) {
     if (row > 0 && note !== undefined) context.fillStyle = QUIET;
-    context.fillText(text, EDGE, (top + row + 0.5) * ROW + 2, WIDTH - 2 * EDGE);
+    context.fillText(text, EDGE, (from + row + 0.5) * ROW + 2, WIDTH - 2 * EDGE);
   }
 }
 

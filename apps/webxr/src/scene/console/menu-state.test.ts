@@ -22,6 +22,7 @@ const live: MenuFacts = {
   view: 'first-person',
   cameras: [{ name: 'Front', shown: 'shown' }],
   commands: { groups: [], recording: null },
+  mayPoint: false,
   readings: [],
   times: { clouds: [{ text: 'Clouds: 90 ms', tone: 'neutral' }], commands: [] },
   passthrough: false,
@@ -87,6 +88,10 @@ test('an entry does what it says and closes the menu; one whose work is seen bes
     choose(entry);
     expect([done.at(-1), menu.isOpen.value]).toEqual([does, false]);
   }
+  facts.value = { ...live, mayPoint: true };
+  menu.open();
+  choose('Point at the floor');
+  expect([done.at(-1), menu.isOpen.value]).toEqual(['pointAtFloor', false]);
   menu.open();
   choose('View: first person ›');
   choose('tabletop');
@@ -263,6 +268,7 @@ test('no page has more rows than the menu shows, with two rows of each text', ()
     heirs: many.map(({ name }, number) => ({ number, text: name })),
     hasHeirs: true,
     commands: { groups: [{ name: 'A', commands: [] }], recording: null },
+    mayPoint: true,
   };
   for (const page of ['robots', 'cameras', 'readings', 'people'] as const) {
     menu.show({ page, first: 0 });

@@ -3,16 +3,20 @@
  * loaded when VR is entered.
  */
 import type { GripLoss } from '@farpoint/operator';
-import { computed, effect, type ReadonlySignal, type Signal, untracked } from '@preact/signals-core';
+import type { Spot } from '@farpoint/protocol';
+import { computed, effect, type ReadonlySignal, type Signal, signal, untracked } from '@preact/signals-core';
 import { type Group, type Object3D, Vector3 } from 'three';
-import { HANDS, type HeadsetSettings } from '../../ground/headset-settings.ts';
+import { HANDS, type Hand, type HeadsetSettings, otherHand } from '../../ground/headset-settings.ts';
 import { controlWords } from '../../words/controller-label-words.ts';
+import { laterTexts } from '../../words/language.ts';
 import type { HandsHeld } from '../headset/hands-held.ts';
 import type { NoticeSign } from '../headset/notice-sign.ts';
 import type { RayHit } from '../view/ray-pointer.ts';
 import type { WristPanel } from '../view/wrist-panel.ts';
 import type { ConsoleActions } from './console-actions.ts';
 import { ControllerLabels, type LabelView } from './controller-labels.ts';
+import type { AimBy, AimReading } from './floor-aim.ts';
+import { type Floor, FloorPointer, type FloorPointerParts } from './floor-pointer.ts';
 import { type ConsoleSources, labelFacts, menuFacts } from './menu-facts.ts';
 import type { MenuPage } from './menu-page.ts';
 import { MenuPanel } from './menu-panel.ts';
@@ -38,11 +42,28 @@ export interface ConsoleParts {
   readonly menuOpen: Signal<boolean>;
   /** Whether VR is active. */
   readonly active: ReadonlySignal<boolean>;
-  readonly actions: ConsoleActions;
+  readonly actions: Omit<ConsoleActions, 'pointAtFloor'>;
+  /** The robot's world. */
+  readonly world: Object3D;
+  readonly pointer: FloorPointerParts['pointer'];
+  readonly floor: Floor;
+  /** A hand feels that what it did is done. */
+  feel(hand: Hand): void;
+  /** Says what there is to do. */
+  tell(text: string): void;
   /** Whether the grip is held, whether or not it drives. */
   isGripped(): boolean;
   /** Why a grip that is held does not drive; `null` if it does, or if none is. */
   gripLost(): GripLoss | null;
+}
+
+/** What {@link VrConsole.update} goes by. */
+export interface ConsoleReading {
+  /** Deflection backwards of the stick that moves the mark, −1…1. */
+  readonly stick: number;
+  readonly grip: AimReading['grip'];
+  /** A hand holds the model, or the headset is away. */
+  readonly barred: boolean;
 }
 
 /** What it shows, for tests: places in the view are degrees right of and above the way ahead. */
@@ -61,6 +82,8 @@ export interface ShownConsole {
   labels: { hand: string; texts: string[]; letterDegrees: number; box: Box }[];
   sign: Box | null;
   wrist: Box | null;
+  /** Where hands that aim are at the floor, by ray. */
+  aim: readonly (Spot | null)[];
   /** The middles of STOP and of the menu on the wrist, in the tracked space, m. */
   tab: { stop: Place; menu: Place };
 }
@@ -82,6 +105,11 @@ export class VrConsole {
   /** The entry that each ray is at, and the page on which it is. */
   readonly #pointed = [-1, -1];
   readonly #pointedOn: (MenuPage | null)[] = [null, null];
+  readonly #floor: FloorPointer;
+  /** What points at the floor. */
+  readonly #aims = signal<AimBy>(null);
+  /** Whether each ray is at something that is before the floor. */
+  readonly #covered = [false, false];
   /** When the headset was put on, and the last frame; `null` before the first one. */
   #beganMs: number | null = null;
   #lastMs = 0;
@@ -89,7 +117,8 @@ export class VrConsole {
   constructor(parts: ConsoleParts) {
     this.#parts = parts;
     const { sources, rig, head, panel, active } = parts;
-    this.menu = new MenuState(menuFacts(sources), parts.actions);
+    this.#floor = new FloorPointer(parts);
+    this.menu = new MenuState(menuFacts(sources), { ...parts.actions, pointAtFloor: () => this.#arm() });
     this.#panel = new MenuPanel(this.menu);
     this.#view = {
       head,
@@ -135,6 +164,7 @@ export class VrConsole {
 
   /** A ray is at one of the targets, or not. One that rests leaves the mark to the stick. */
   point(hit: RayHit | null, ray: number): void {
+    this.#covered[ray] = hit !== null;
     const entry = this.#entryOf(hit) ?? -1;
     const page = this.menu.page.peek();
     const isNewPage = page !== this.#pointedOn[ray];
@@ -146,9 +176,14 @@ export class VrConsole {
     this.menu.mark(entry);
   }
 
-  /** A trigger is pulled, or a hand pinches. @returns whether it is at something of the console */
+  /** Whether the next trigger points at the floor. */
+  get isArmed(): boolean {
+    return this.#aims.peek() === 'trigger';
+  }
+
+  /** A trigger is pulled, or a hand pinches. @returns whether it is the console's */
   press(hit: RayHit | null): boolean {
-    if (hit === null) return false;
+    if (hit === null) return this.isArmed;
     if (hit.object === this.#tab.sheet) {
       if (this.#tab.partAt(hit.uv?.x ?? 0) === 'stop') this.#parts.actions.stop();
       return true;
@@ -162,7 +197,8 @@ export class VrConsole {
    * @param bare whether it is a bare hand: that has no stick, so it chooses only what it points at
    * @returns whether it was the console's
    */
-  choose(hit: RayHit | null, bare: boolean, nowMs: number): boolean {
+  choose(hit: RayHit | null, bare: boolean, ray: number, nowMs: number): boolean {
+    if (hit === null && this.#floor.take(ray)) return true;
     if (hit?.object === this.#tab.sheet) {
       if (this.#tab.partAt(hit.uv?.x ?? 0) === 'menu') this.toggle();
       return true;
@@ -173,8 +209,8 @@ export class VrConsole {
     return isOpen;
   }
 
-  /** Call this before each display frame in VR. @param stick deflection backwards of the stick that moves the mark, −1…1 */
-  update(stick: number, nowMs: number): void {
+  /** Call this before each display frame in VR. */
+  update({ stick, grip, barred }: ConsoleReading, nowMs: number): void {
     const { rig, head, origin, isGripped } = this.#parts;
     const view = this.#view;
     const gripped = isGripped();
@@ -183,6 +219,7 @@ export class VrConsole {
     const by = this.#stick.read(stick);
     if (by !== 0 && this.menu.isOpen.peek()) this.menu.step(by);
     this.menu.update(nowMs);
+    this.#aim(grip, barred, gripped, nowMs);
     view.frame.update(rig, head, origin.yaw);
     this.#beganMs ??= nowMs;
     view.sinceMs = nowMs - this.#beganMs;
@@ -223,6 +260,7 @@ export class VrConsole {
           letterDegrees,
           box: boxOf(box),
         })),
+      aim: this.#floor.spots,
       sign: sign.shown === null ? null : boxOf(this.#signBox),
       wrist: wrist.isEmpty ? null : boxOf(wrist),
       tab: {
@@ -230,6 +268,19 @@ export class VrConsole {
         menu: this.#placeOf(this.#tab.sheet, this.#tab.quarterM, 0.5),
       },
     };
+  }
+
+  #arm(): void {
+    this.#floor.arm(performance.now());
+    this.#parts.tell(laterTexts().headsetMenu.pointNow);
+  }
+
+  #aim(grip: ConsoleReading['grip'], isAway: boolean, drives: boolean, nowMs: number): void {
+    const { sources, settings } = this.#parts;
+    const isUnseen = !sources.state.people.mayPoint.peek();
+    const barred = isAway || isUnseen || this.menu.isOpen.peek();
+    this.#floor.update({ grip, barred, drives }, otherHand(settings.driveHand), this.#covered, nowMs);
+    this.#aims.value = this.#floor.by;
   }
 
   /** @param below in the object's own measure */
@@ -251,8 +302,14 @@ export class VrConsole {
     if (this.#parts.sign.sheet.visible) frame.add(this.#parts.sign.sheet, this.#signBox);
   }
 
+  /** Hands that aim aim no more: the headset is away. */
+  letGo(): void {
+    this.#aim('away', true, false, this.#lastMs);
+  }
+
   #leave(): void {
     this.menu.close();
+    this.letGo();
     this.#panel.clear();
     this.#beganMs = null;
     for (const labels of this.#labels) labels.hide();
@@ -276,7 +333,7 @@ export class VrConsole {
     effect(() => {
       if (!active.value) return;
       const grip = { drives: gripped.value && !mustLetGo.value, mustLetGo: mustLetGo.value };
-      const facts = labelFacts(sources, grip, this.menu.isOpen.value);
+      const facts = labelFacts(sources, grip, this.menu.isOpen.value, this.#aims.value);
       for (const labels of this.#labels) {
         const drives = labels.hand === settings.driveHand;
         labels.say(controlWords(facts, labels.hand, drives), !drives);

@@ -15,7 +15,11 @@ test('does not end on the floor above the horizon, along it, behind, or too far 
   expect(floorSpot(ray(1, -1), 0)).toBeNull();
   expect(floorSpot(ray(1, 0), 0)).toBeNull();
   expect(floorSpot(ray(-1, 1), 0)).toBeNull();
-  const steep = (metres: number) => floorSpot(new Ray(new Vector3(0, 0, metres), new Vector3(0, 0, -1)), 0);
+  const steep = (metres: number, scale = 1) =>
+    floorSpot(new Ray(new Vector3(0, 0, metres), new Vector3(0, 0, -1)), 0, scale);
   expect(steep(FARTHEST_SPOT_M)).toEqual({ x: 0, y: 0, z: 0 });
   expect(steep(FARTHEST_SPOT_M + 0.01)).toBeNull();
+  // In a model of the world, as far in the room.
+  expect(steep(FARTHEST_SPOT_M * 20, 20)).toEqual({ x: 0, y: 0, z: 0 });
+  expect(steep(FARTHEST_SPOT_M * 20 + 0.1, 20)).toBeNull();
 });

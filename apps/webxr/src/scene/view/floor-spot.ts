@@ -8,10 +8,11 @@ export const FARTHEST_SPOT_M = 50;
 /**
  * @param ray in the robot's world (REP-103), metres, with a direction of length 1
  * @param floorM the floor's height in that world
+ * @param scale how much farther it may end: where the world is a model, metres of it in a metre of the room
  * @returns `null` if the ray does not end on the floor, or too far away
  */
-export function floorSpot({ origin, direction }: Ray, floorM: number): Spot | null {
+export function floorSpot({ origin, direction }: Ray, floorM: number, scale = 1): Spot | null {
   const distance = (floorM - origin.z) / direction.z;
-  if (!(distance > 0 && distance <= FARTHEST_SPOT_M)) return null;
+  if (!(distance > 0 && distance <= FARTHEST_SPOT_M * scale)) return null;
   return { x: origin.x + direction.x * distance, y: origin.y + direction.y * distance, z: floorM };
 }

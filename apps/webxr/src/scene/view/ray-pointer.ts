@@ -30,14 +30,17 @@ export interface Pointed {
   /** The trigger is pulled at it, or the hand pinches. @param bare whether it is a bare hand */
   onPressed(hit: RayHit | null): void;
   /** The trigger was pulled and let go, or the hand has pinched. */
-  onChosen(hit: RayHit | null, bare: boolean): void;
+  onChosen(hit: RayHit | null, bare: boolean, ray: number): void;
   /** The trigger or the hand has opened. */
   onOpened(): void;
 }
 
 export class RayPointer {
   readonly #pointed: Pointed;
-  readonly #rays: readonly Object3D[];
+  /** Children of the rig. */
+  readonly rays: readonly Object3D[];
+  /** The hand whose ray it is, with a controller or bare; `none` while nobody knows. */
+  readonly hands: XRHandedness[] = ['none', 'none'];
   readonly #raycaster = new Raycaster();
   readonly #rig: Group;
   readonly #turn = new Quaternion();
@@ -47,8 +50,8 @@ export class RayPointer {
   constructor(renderer: WebGLRenderer, rig: Group, pointed: Pointed) {
     this.#pointed = pointed;
     this.#rig = rig;
-    this.#rays = [0, 1].map((index) => renderer.xr.getController(index));
-    this.#rings = this.#rays.map(() => {
+    this.rays = [0, 1].map((index) => renderer.xr.getController(index));
+    this.#rings = this.rays.map(() => {
       const material = new MeshBasicMaterial({ color: 0x35c9b5, transparent: true, depthTest: false });
       const ring = new Mesh(new RingGeometry(RING_M / 2, RING_M), material);
       ring.visible = false;
@@ -56,23 +59,29 @@ export class RayPointer {
       rig.add(ring);
       return ring;
     });
-    for (const ray of this.#rays) this.#listen(ray);
+    for (const [index, ray] of this.rays.entries()) this.#listen(ray, index);
   }
 
-  #listen(ray: Object3D): void {
+  #listen(ray: Object3D, index: number): void {
     const pointed = this.#pointed;
     this.#rig.add(ray);
     const on = (type: string, act: (event: { data?: XRInputSource }) => void) =>
       ray.addEventListener(type as never, act as never);
     on('selectstart', () => pointed.onPressed(this.#hit(ray)));
-    on('select', ({ data }) => pointed.onChosen(this.#hit(ray), data?.hand != null));
+    on('select', ({ data }) => pointed.onChosen(this.#hit(ray), data?.hand != null, index));
     on('selectend', () => pointed.onOpened());
-    on('disconnected', () => pointed.onOpened());
+    on('connected', ({ data }) => {
+      this.hands[index] = data?.handedness ?? 'none';
+    });
+    on('disconnected', () => {
+      this.hands[index] = 'none';
+      pointed.onOpened();
+    });
   }
 
   /** Shows what is pointed at. Call this before each display frame in VR. */
   update(): void {
-    for (const [index, ray] of this.#rays.entries()) {
+    for (const [index, ray] of this.rays.entries()) {
       const ring = this.#rings[index] as Mesh;
       const hit = ray.visible ? this.#hit(ray) : null;
       this.#pointed.onPointed(hit, index);
@@ -86,7 +95,7 @@ export class RayPointer {
 
   /** Whether this controller points at anything that can be chosen. */
   points(index: number): boolean {
-    const ray = this.#rays[index];
+    const ray = this.rays[index];
     return ray !== undefined && this.#hit(ray) !== null;
   }
 

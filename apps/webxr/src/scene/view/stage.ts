@@ -259,6 +259,7 @@ export class Stage {
       else this.#placeRig();
       this.grid.centreOn(-follower.y, -follower.x);
     }
+    this.pointers.fit(inVr ? this.camera : null, inVr ? this.rig.scale.x : 1);
     this.#vignette.show(inVr ? this.headset.darkness : 0);
     this.#front.show(inVr ? this.headset.frontSide : 0);
     const inTabletop = inVr && this.headset.view.peek() === 'tabletop';

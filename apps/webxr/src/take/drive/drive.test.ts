@@ -230,6 +230,24 @@ describe('HeadsetInput', () => {
     expect(input.turnStick).toBe(0);
   });
 
+  test('the other hand’s grip is read while it is tracked; while it is held, no trigger releases the emergency stop', () => {
+    const input = new HeadsetInput();
+    const read = (...sources: ReturnType<typeof controller>[]) => input.read(sources, 0, tracked);
+    expect(input.otherGrip).toBe('away');
+    expect(read(controller('left', 1, 0, 0, 0)).releaseHeld).toBe(false);
+    expect([input.otherGrip, input.held]).toEqual(['held', false]);
+    expect(read(controller('left', 1, 0, 0), controller('right', 0, 0, 0, 0)).releaseHeld).toBe(false);
+    expect(read(controller('left', 0, 0, 0, 0)).releaseHeld).toBe(true);
+    expect(input.otherGrip).toBe('open');
+    read(controller('right', 1, 0, 0));
+    expect(input.otherGrip).toBe('away');
+    input.read([controller('left', 1, 0, 0)], 0, () => false);
+    expect(input.otherGrip).toBe('away');
+    read(controller('left', 1, 0, 0));
+    input.release();
+    expect(input.otherGrip).toBe('away');
+  });
+
   test('while a hand holds the model nothing drives, nor a grip squeezed meanwhile before it has been opened', () => {
     const input = new HeadsetInput();
     const fist = [controller('right', 1, 0, -1)];

@@ -77,6 +77,8 @@ export class HeadsetInput implements DriveInput {
   talks = false;
   /** Deflection to the right of the other hand's stick, −1…1; 0 while that hand is not tracked. */
   turnStick = 0;
+  /** The grip of the hand that does not drive; `away` while that hand holds no controller that is tracked. */
+  otherGrip: 'held' | 'open' | 'away' = 'away';
   /** Deflection backwards of the stick that is pushed most, −1…1, of hands that are tracked. */
   menuStick = 0;
   readMs = Number.NEGATIVE_INFINITY;
@@ -115,6 +117,7 @@ export class HeadsetInput implements DriveInput {
   ): HeadsetButtons {
     const held = { ...NOTHING_HELD };
     this.turnStick = 0;
+    this.otherGrip = 'away';
     this.menuStick = 0;
     const { driveHand } = this.#settings;
     // A grip that is held already was not meant to drive.
@@ -161,9 +164,8 @@ export class HeadsetInput implements DriveInput {
       if (source.handedness === this.#otherHand) {
         held.nextView ||= isAx;
         held.recentre ||= isStickPressed;
-        const deflection = source.gamepad?.axes[2];
         // The last state of a controller that fell asleep would turn the view for ever.
-        if (typeof deflection === 'number' && tracks(source)) this.turnStick = deflection;
+        if (tracks(source)) this.#readOther(source, buttons);
         continue;
       }
       held.menu ||= isAx;
@@ -172,6 +174,12 @@ export class HeadsetInput implements DriveInput {
       if (driving === null || source.handedness === this.#hand) driving = source;
     }
     return driving;
+  }
+
+  #readOther({ gamepad }: XrController, buttons: GamepadState['buttons']): void {
+    const deflection = gamepad?.axes[2];
+    if (typeof deflection === 'number') this.turnStick = deflection;
+    this.otherGrip = (buttons[SQUEEZE]?.value ?? 0) > 0.5 ? 'held' : 'open';
   }
 
   #readMenuStick<Source extends XrController>(source: Source, tracks: Tracks<Source>): void {
@@ -203,7 +211,7 @@ export class HeadsetInput implements DriveInput {
       nextView: held.nextView && !before.nextView && !inMenu,
       recentre: held.recentre && !before.recentre && !inMenu,
       // A fist clenched in fright presses both the grip and the trigger.
-      releaseHeld: held.trigger && !this.held && !this.#triggerMustOpen,
+      releaseHeld: held.trigger && !this.held && this.otherGrip !== 'held' && !this.#triggerMustOpen,
     };
   }
 
@@ -216,6 +224,7 @@ export class HeadsetInput implements DriveInput {
     this.wish.forward = 0;
     this.wish.left = 0;
     this.turnStick = 0;
+    this.otherGrip = 'away';
     this.#hand = null;
   }
 }

@@ -21,6 +21,9 @@ export const controllerLabels: LaterTexts['controllerLabels'] = {
   recentre: 'Stickdruck: zentrieren',
   speak: 'Abzug: sprechen',
   release: '1 s halten: STOP lösen',
+  point: 'Griff: auf Boden zeigen',
+  pointHere: 'Loslassen: zeigen',
+  pointByTrigger: 'Abzug: dorthin zeigen',
   holdModel: 'Abzug: Modell halten',
   enlarge: 'Abzug: Bild vergrößern',
 };

@@ -25,6 +25,8 @@ export const fleet: Texts['fleet'] = {
     you: 'Sie',
     somebody: 'Jemand',
     aim: 'Zeigen Sie auf den Boden: Bewegen Sie die Maus dorthin und drücken Sie G, oder klicken Sie mit gedrückter Alt-Taste.',
+    aimFinger: 'Zeigen Sie auf den Boden: Halten Sie einen Finger darauf.',
+    aimRay: 'Richten Sie den Strahl auf den Boden.',
     notPermitted: 'Ihre Berechtigung erlaubt Ihnen, diesem Roboter zuzusehen, aber nicht zu zeigen.',
     notPassedOn: 'Dieser Roboter zeigt anderen Bedienern nicht, worauf Sie zeigen.',
     alone: 'Es ist niemand sonst verbunden, der sehen könnte, worauf Sie zeigen.',

@@ -38,6 +38,9 @@ export const headsetMenu: LaterTexts['headsetMenu'] = {
   offerTo: (person) => `Anbieten: ${person}`,
   takeBack: 'Zurücknehmen',
   left: (text, seconds) => `${text} (${seconds} s)`,
+  point: 'Auf den Boden zeigen',
+  pointNow:
+    'Zielen Sie auf den Boden. Führen Sie dann Daumen und Zeigefinger zusammen oder ziehen Sie den Abzug.',
   recentre: 'Neu zentrieren',
   disconnect: 'Trennen',
   leave: { vr: 'VR verlassen', ar: 'AR verlassen' },

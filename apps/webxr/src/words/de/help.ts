@@ -46,7 +46,7 @@ export const help: LaterTexts['help'] = {
     latencyTest: 'Latenz messen, unter dem Bild',
     talk: 'die Schaltfläche zum Sprechen halten',
     nextRobot: 'die Liste der Roboter, in der Leiste',
-    point: 'Alt und Klick auf den Boden',
+    point: 'Alt und Klick auf den Boden, oder Finger darauf halten',
     bookmark: 'Lesezeichen, unter Befehle',
     events: 'Ereignisse, in der Leiste',
     picture: 'Bild, im Ereignisprotokoll',

@@ -20,6 +20,9 @@ export const controllerLabels = {
   recentre: 'Press stick: recentre',
   speak: 'Trigger: speak',
   release: 'Hold 1 s: release STOP',
+  point: 'Squeeze: point at floor',
+  pointHere: 'Let go: point there',
+  pointByTrigger: 'Trigger: point there',
   holdModel: 'Trigger: hold the model',
   enlarge: 'Trigger: enlarge picture',
 };

@@ -31,6 +31,8 @@ export const fleet = {
     somebody: 'Somebody',
     /** What there is to do. */
     aim: 'Point at the floor: move the mouse over it and press G, or click it with Alt held.',
+    aimFinger: 'Point at the floor: hold a finger on it.',
+    aimRay: 'Point the ray at the floor.',
     /** Why nothing is shown to the others. */
     notPermitted: 'Your grant lets you watch this robot, but not point.',
     notPassedOn: 'This robot does not show other operators where you point.',

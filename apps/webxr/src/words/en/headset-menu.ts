@@ -42,6 +42,9 @@ export const headsetMenu = {
   takeBack: 'Take it back',
   /** @param seconds until it ends by itself */
   left: (text: string, seconds: number) => `${text} (${seconds} s)`,
+  point: 'Point at the floor',
+  /** What there is to do then. */
+  pointNow: 'Aim at the floor, then pinch or pull the trigger.',
   recentre: 'Recentre',
   disconnect: 'Disconnect',
   leave: { vr: 'Leave VR', ar: 'Leave AR' },

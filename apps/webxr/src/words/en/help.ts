@@ -47,7 +47,7 @@ export const help = {
     latencyTest: 'Latency test, below the picture',
     talk: 'hold the button Hold to talk',
     nextRobot: 'the list of robots, in the bar',
-    point: 'Alt and a click on the floor',
+    point: 'Alt and a click on the floor, or a finger held on it',
     bookmark: 'Bookmark, under Commands',
     events: 'Events, in the bar',
     picture: 'Picture, in the event log',
