@@ -115,10 +115,15 @@ test.describe('in the headset', () => {
     await stage.run(200);
     await headset.press('right', 'a-button');
     await aim(stage, headset);
-    // No frame is drawn meanwhile.
     await headset.worn(false);
+    await stage.run(200);
     await headset.button('left', 'squeeze', 0);
     await headset.worn(true);
+    await stage.run(300);
+    await aim(stage, headset);
+    // A headset need not draw a frame while it is put down.
+    await stage.script(({ app }) => app.vr.onHidden?.());
+    await headset.button('left', 'squeeze', 0);
     await stage.run(300);
     expect(await sentOf(stage)).toEqual([]);
   });
@@ -135,6 +140,24 @@ test.describe('in the headset', () => {
     expect([(await sentOf(stage)).length, await pulses()]).toEqual([1, 1]);
     await headset.press('right', 'trigger');
     await stage.run(200);
+    expect(await sentOf(stage)).toHaveLength(1);
+  });
+
+  test('a trigger that points takes no hold of the model on the table', async ({ stage }) => {
+    const headset = await enter(stage);
+    for (let view = 0; view < 2; view++) await headset.press('left', 'x-button');
+    await headset.press('right', 'a-button');
+    await chooseBySteps(stage, headset, 'Point at the floor');
+    await headset.tilt('right', 0.9);
+    await stage.run(200);
+    const { model } = await shownIn(stage);
+    await headset.button('right', 'trigger', 1);
+    await headset.frames(2);
+    await headset.place('right', [0.3, 1.35, -0.45]);
+    await headset.frames(2);
+    expect((await shownIn(stage)).model).toEqual(model);
+    await headset.button('right', 'trigger', 0);
+    await stage.run(100);
     expect(await sentOf(stage)).toHaveLength(1);
   });
 

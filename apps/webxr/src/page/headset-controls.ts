@@ -137,7 +137,10 @@ export class HeadsetControls {
       onChosen: (hit, bare, ray) => {
         if (!vr.hidden) this.#choose(hit, bare, ray);
       },
-      onOpened: () => inputs.claimTrigger(false),
+      onOpened: () => {
+        inputs.claimTrigger(false);
+        this.console?.opened();
+      },
     });
   }
 

@@ -106,6 +106,7 @@ export class VrConsole {
   readonly #pointed = [-1, -1];
   readonly #pointedOn: (MenuPage | null)[] = [null, null];
   readonly #floor: FloorPointer;
+  #hasPointed = false;
   /** What points at the floor. */
   readonly #aims = signal<AimBy>(null);
   /** Whether each ray is at something that is before the floor. */
@@ -176,9 +177,14 @@ export class VrConsole {
     this.menu.mark(entry);
   }
 
-  /** Whether the next trigger points at the floor. */
+  /** Whether the next trigger points at the floor, or one that is still pulled has done so. */
   get isArmed(): boolean {
-    return this.#aims.peek() === 'trigger';
+    return this.#floor.by === 'trigger' || this.#hasPointed;
+  }
+
+  /** A trigger or a hand has opened. */
+  opened(): void {
+    this.#hasPointed = false;
   }
 
   /** A trigger is pulled, or a hand pinches. @returns whether it is the console's */
@@ -198,7 +204,10 @@ export class VrConsole {
    * @returns whether it was the console's
    */
   choose(hit: RayHit | null, bare: boolean, ray: number, nowMs: number): boolean {
-    if (hit === null && this.#floor.take(ray)) return true;
+    if (hit === null && this.#floor.take(ray)) {
+      this.#hasPointed = true;
+      return true;
+    }
     if (hit?.object === this.#tab.sheet) {
       if (this.#tab.partAt(hit.uv?.x ?? 0) === 'menu') this.toggle();
       return true;
