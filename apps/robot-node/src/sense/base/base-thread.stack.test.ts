@@ -23,6 +23,19 @@ it('drives on a velocity, and stops by itself when it is not refreshed', async (
   expect(base.watchdogStops).toBe(1);
 });
 
+it.each([
+  [0.4, 0.3],
+  [undefined, 0],
+])('a base that goes sideways at %s m/s does as it is told', async (maxLateral, expected) => {
+  base = new BaseThread({ watchdogMs: 1000, maxLateral, charge: 0.95, origin: null });
+  base.apply({ ...zeroTwist(), linear: { x: 0.1, y: 0.3, z: 0 } });
+  const { twist } = await stateWhere((state) => {
+    const { x = 0, y = 0 } = state.twist?.linear ?? {};
+    return x === 0.1 && y >= expected;
+  });
+  expect(twist?.linear).toEqual({ x: 0.1, y: expected, z: 0 });
+});
+
 it('shows its world to sensors', async () => {
   base = new BaseThread({ watchdogMs: 150, charge: 0.95, origin: null });
   const world = new SnapshotReader(base.snapshot);

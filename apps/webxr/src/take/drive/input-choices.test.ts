@@ -42,6 +42,20 @@ test('what is chosen is read back as it was', () => {
   expect(parseChoices(choicesText(DEFAULT_CHOICES))).toEqual(DEFAULT_CHOICES);
 });
 
+test('an axis for sideways is read back; as the grip it would drive, and is none', () => {
+  const aside = { ...wheel, sticks: [{ ...wheel.sticks[0], sideways: { ...axis, axis: 3, centre: 0 } }] };
+  const stored = (map: typeof aside) =>
+    parseChoices(JSON.stringify({ controllers: [{ key: 'raw:wheel', ...map }] })).controllers.get(
+      'raw:wheel',
+    );
+  expect(stored(aside)).toEqual(aside);
+  expect(stored({ ...aside, gripAxis: { ...axis, axis: 3 } })?.gripAxis).toBe(null);
+  const broken = { ...axis, deadZone: 7 };
+  expect(stored({ ...aside, sticks: [{ ...wheel.sticks[0], sideways: broken }] } as typeof aside)).toBe(
+    undefined,
+  );
+});
+
 test('what cannot be read is replaced by what is usual, and nothing else with it', () => {
   for (const text of [null, '', '{', '[]', '7', 'null', '{"keys":1}', JSON.stringify({ keys: {}, speed: 1 })])
     expect(parseChoices(text)).toEqual(DEFAULT_CHOICES);
