@@ -6,7 +6,7 @@ export const help: LaterTexts['help'] = {
     'Kein Gerät ist angeschlossen. Ein Gamepad tut, was hier steht, solange Sie nichts anderes festlegen.',
   gamepad: 'Gamepad (Standard)',
   headset:
-    'Im Headset: Drücken Sie den Griff der fahrenden Hand und fahren Sie mit deren Stick. B oder Y stoppt. Um STOP zu lösen, öffnen Sie beide Hände und halten Sie einen Trigger eine Sekunde lang.',
+    'Im Headset: Drücken Sie den Griff der fahrenden Hand und fahren Sie mit deren Stick. B oder Y stoppt. Um STOP zu lösen, öffnen Sie beide Hände und halten Sie einen Abzug eine Sekunde lang. Der Griff der anderen Hand zeigt auf den Boden.',
   none: 'nicht belegt',
   close: 'Schließen',
   groups: {
@@ -46,7 +46,7 @@ export const help: LaterTexts['help'] = {
     latencyTest: 'Latenz messen, unter dem Bild',
     talk: 'die Schaltfläche zum Sprechen halten',
     nextRobot: 'die Liste der Roboter, in der Leiste',
-    point: 'Alt und Klick auf den Boden, oder Finger darauf halten',
+    point: 'Alt und Klick auf den Boden oder Finger darauf halten',
     bookmark: 'Lesezeichen, unter Befehle',
     events: 'Ereignisse, in der Leiste',
     picture: 'Bild, im Ereignisprotokoll',

@@ -5,7 +5,7 @@ export const help = {
   noController: 'No controller is connected. A gamepad does what stands here unless you change it.',
   gamepad: 'Gamepad',
   headset:
-    'In a headset: squeeze the grip of the driving hand and drive with its stick. B or Y stops. To release STOP, open both hands and hold a trigger for one second.',
+    'In a headset: squeeze the grip of the driving hand and drive with its stick. B or Y stops. To release STOP, open both hands and hold a trigger for one second. The other hand’s grip points at the floor.',
   none: 'not set',
   close: 'Close',
   groups: {
