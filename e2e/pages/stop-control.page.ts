@@ -104,7 +104,7 @@ test('X is a letter where text is typed, and F9 stops even there; a box to be ti
   // What is behind the dialog takes no focus.
   for (let i = 0; i < 40; i++) {
     await page.keyboard.press('Tab');
-    const behind = () => document.activeElement?.closest('#bar, #hud, #stage, #drive')?.id ?? null;
+    const behind = () => document.activeElement?.closest('#bar, #hud, #side, #stage, #drive')?.id ?? null;
     expect(await page.evaluate(behind)).toBeNull();
   }
 });

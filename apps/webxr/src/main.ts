@@ -14,6 +14,7 @@ import './panels/ui/people.css';
 import './panels/ui/inputs.css';
 import './panels/ui/commands.css';
 import './panels/ui/robots.css';
+import './panels/ui/layout.css';
 import { isSoftwareRenderer } from '@farpoint/cloud-view';
 import { transformSupport } from '@farpoint/operator';
 import { readBenchSettings } from './ground/bench-settings.ts';

@@ -2,6 +2,7 @@ import '../../panels/ui/theme.css';
 import '../../panels/ui/style.css';
 import '../../panels/ui/picture-panels.css';
 import './watch.css';
+import '../../panels/ui/layout.css';
 import { transformSupport } from '@farpoint/operator';
 import { applyDisplay } from '../../ground/display/stored-display.ts';
 import { startLanguage } from '../../panels/ui/fill-texts.ts';

@@ -10,7 +10,6 @@ import {
   type PointFileFormat,
 } from '@farpoint/operator';
 import { effect, type ReadonlySignal, type Signal, signal, untracked } from '@preact/signals-core';
-import { roomAbove } from '../../ground/panels/room-above.ts';
 import type { Switches } from '../../ground/switches.ts';
 import { type CloudAppearance, UNNAMED } from '../../state/cloud-appearance.ts';
 import type { RobotState } from '../../state/robot-state.ts';
@@ -131,38 +130,18 @@ function heightText(height: number | null): string {
   return height === null ? texts().measures.nothing : `${fixed(height, 1)} m`;
 }
 
-/** Keeps the left column above the row for driving, and `controls`, a list in it, too. */
-function boundLeftColumn(controls: HTMLElement): void {
-  const { hud, drive, stopBand, facts, noGpu, people, clouds } = elements;
-  const giving = [facts, noGpu, people];
-  const parts = [...drive.children];
+/** What gives way in the column of figures takes the mouse and the keys only while there is something in it to be scrolled to. */
+function markCut(): void {
+  const { facts, noGpu, people } = elements;
   const update = () => {
-    const below = parts
-      .map((part) => part.getBoundingClientRect())
-      .filter(({ width, height }) => width > 0 && height > 0);
-    const roomOf = (box: Element, higher: number) => {
-      const { left, right, top } = box.getBoundingClientRect();
-      return roomAbove({ left, right, top: top + higher }, below, window.innerHeight);
-    };
-    hud.style.maxHeight = `${roomOf(hud, 0)}px`;
-    const given = giving.map((part) => Math.max(0, part.scrollHeight - part.clientHeight));
-    // A box over the picture takes the mouse only while there is something in it to be scrolled to.
-    for (const [i, part] of giving.entries()) {
-      const isCut = (given[i] ?? 0) > 1;
+    for (const part of [facts, noGpu, people]) {
+      const isCut = part.scrollHeight > part.clientHeight + 1;
       part.classList.toggle('cut', isCut);
-      // By keys, too.
-      if (part === elements.facts) part.tabIndex = isCut ? 0 : -1;
+      if (part === facts) part.tabIndex = isCut ? 0 : -1;
     }
-    if (controls.hidden) return;
-    // Controls are measured from where they would begin, had nothing above them given way.
-    const inColumn = getComputedStyle(clouds).position !== 'fixed';
-    const higher = inColumn ? given.reduce((sum, height) => sum + height, 0) : 0;
-    controls.style.maxHeight = `${roomOf(controls, higher)}px`;
   };
   const observer = new ResizeObserver(update);
-  // Whatever is above the controls moves them, and the column grows with it.
-  for (const watched of [controls, hud, drive, stopBand, ...giving, ...parts]) observer.observe(watched);
-  window.addEventListener('resize', update);
+  for (const watched of [elements.hud, facts, noGpu, people]) observer.observe(watched);
 }
 
 export interface CloudPanelParts {
@@ -197,7 +176,7 @@ export class CloudPanel {
     const heads = element('heads');
     heads.append(fromAbove, colours);
     elements.clouds.append(heads, legends, controls);
-    boundLeftColumn(controls);
+    markCut();
     effect(() => {
       fromAbove.ariaPressed = String(appearance.fromAbove.value);
     });

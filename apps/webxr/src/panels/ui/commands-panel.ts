@@ -11,8 +11,8 @@ import { texts } from '../../words/language.ts';
 import { elements } from './elements.ts';
 import { followKey } from './key-title.ts';
 
-/** Where there is less room, the panel is closed until it is wanted. */
-const ROOMY = '(min-width: 60rem) and (min-height: 45rem)';
+/** Where there is less room, the panel is closed until it is wanted: beside cameras, it lies over the picture. */
+const ROOMY = '(min-width: 90rem) and (min-height: 45rem)';
 
 export function showCommands(commands: CommandsState): void {
   const { commands: panel } = elements;

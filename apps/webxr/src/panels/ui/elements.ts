@@ -79,6 +79,7 @@ export const elements = {
   robotList: byId('robot-list', HTMLUListElement),
   robotsEmpty: byId('robots-empty', HTMLElement),
   hud: byId('hud', HTMLElement),
+  side: byId('side', HTMLElement),
   factsFold: byId('facts-fold', HTMLButtonElement),
   facts: byId('facts', HTMLElement),
   noGpu: byId('no-gpu', HTMLDetailsElement),

@@ -12,7 +12,6 @@ import type { LatchedStop } from '../../words/estop-words.ts';
 import { texts } from '../../words/language.ts';
 import { stopWords } from '../../words/words.ts';
 import { elements } from './elements.ts';
-import { followHeight } from './panel-parts.ts';
 
 export class EstopUi {
   readonly #client: RobotClient;
@@ -29,8 +28,6 @@ export class EstopUi {
     this.#notices = notices;
     this.#stopNews = stopNews;
     this.#hold = hold;
-    // What is below the band makes room for it. Observers are told in the order in which they were made: this one comes first.
-    followHeight(elements.stopBand, '--stop-band');
   }
 
   start(): void {

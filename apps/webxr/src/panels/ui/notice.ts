@@ -2,10 +2,8 @@
 import { effect } from '@preact/signals-core';
 import type { Notices } from '../../state/notices.ts';
 import { elements } from './elements.ts';
-import { followHeight } from './panel-parts.ts';
 
 export function showNotices({ shown, failure }: Notices): void {
-  followHeight(elements.drive, '--drive-row');
   effect(() => {
     const { notice } = elements;
     notice.hidden = shown.value === null;

@@ -42,9 +42,9 @@ function onClosed(dialog: HTMLDialogElement): void {
 
 /** Whatever is behind the dialog that was opened last takes neither focus nor clicks. */
 function setBehind(): void {
-  const { stage, bar, robots, hud, dashboard, drive, obstacle } = elements;
+  const { stage, bar, robots, hud, side, dashboard, drive, obstacle } = elements;
   const top = topDialog();
-  for (const behind of [stage, bar, robots, hud, dashboard, drive, obstacle])
+  for (const behind of [stage, bar, robots, hud, side, dashboard, drive, obstacle])
     behind.inert = top !== undefined;
   for (const dialog of opened) dialog.inert = dialog !== top;
 }

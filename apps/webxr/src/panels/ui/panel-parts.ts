@@ -65,15 +65,3 @@ export function rowOf(text: string, ...controls: readonly HTMLElement[]): HTMLEl
   row.append(name, ...controls);
   return row;
 }
-
-/**
- * Keeps a property of the page's root at the height of the element, in pixels; 0 while it is hidden.
- *
- * @param property a custom property, `--name`
- */
-export function followHeight(element: HTMLElement, property: `--${string}`): void {
-  const observer = new ResizeObserver(() => {
-    document.documentElement.style.setProperty(property, `${element.offsetHeight}px`);
-  });
-  observer.observe(element);
-}

@@ -1,7 +1,6 @@
 /** The panels with the cameras' pictures and videos: name, age, and buttons that hide the camera or let it fill the screen. */
 import { computed, effect, type ReadonlySignal, signal } from '@preact/signals-core';
 import type { Box } from '../../ground/panels/panel-layout.ts';
-import { MARGIN } from '../../ground/panels/room-above.ts';
 import type { CameraView } from '../../ground/pictures/camera-view.ts';
 import { PRIORITIES } from '../../state/link-priority.ts';
 import type { PageState } from '../../state/page-state.ts';
@@ -105,8 +104,11 @@ function showStagedCamera(
   });
 }
 
-/** On a smaller screen panels stay in their strip: there is no room to move them to, pixels. As in the style sheet. */
-const NARROW = '(max-width: 640px) and (min-height: 481px)';
+/** On a smaller screen panels stay in their strip: there is no room to move them to. As in layout.css. */
+const NARROW = '(max-width: 40em) and (min-height: 30.0625em)';
+
+/** Room around panels that were moved, CSS pixels. Chosen by eye. */
+const MARGIN = 8;
 
 /** @returns `null` while panels cannot be moved; follows the window's size */
 function panelArea(): ReadonlySignal<Box | null> {

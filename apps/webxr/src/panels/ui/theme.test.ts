@@ -116,13 +116,17 @@ const OTHERS = [
   'stop-scale',
   'scale',
   'text-scale',
-  'under-bar',
   'dashboard',
   'x',
   'y',
   'stop-size',
   'stop-room',
   'stop-beside',
+  'stop-edge',
+  'edge-left',
+  'edge-right',
+  'pictures',
+  'joystick-size',
 ];
 
 test('all colours of the style sheets are the themes’', () => {
