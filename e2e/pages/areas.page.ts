@@ -35,7 +35,7 @@ const STATES: readonly { state: StageStateName; open?: string }[] = [
   { state: 'commands', open: '#commands summary' },
   { state: 'videos' },
   { state: 'link-lost' },
-  { state: 'everything' },
+  { state: 'everything', open: '#commands summary' },
 ];
 /** Parts in order, so that one does not reach into the next: above or left of it. */
 const APART = [
@@ -103,6 +103,16 @@ function emptyHits(page: Page): Promise<string[]> {
   });
 }
 
+/** What reaches beyond the end of the column at the right, instead of giving way. */
+function overflowing(page: Page): Promise<string[]> {
+  return page.evaluate(() => {
+    const end = document.getElementById('side')?.getBoundingClientRect().bottom ?? 0;
+    return [...document.querySelectorAll('#side > *')]
+      .filter((part) => part.checkVisibility() && part.getBoundingClientRect().bottom > end + 0.5)
+      .map(({ id }) => id);
+  });
+}
+
 for (const { state, open } of STATES)
   test(`each part stands in its area: ${state}${open === undefined ? '' : ` with ${open}`}`, async ({
     stage,
@@ -130,6 +140,7 @@ for (const { state, open } of STATES)
         expect(isApart, `${one} and ${other}: ${on}`).toBe(true);
       }
       expect(await emptyHits(page), on).toEqual([]);
+      expect(await overflowing(page), on).toEqual([]);
     }
   });
 
