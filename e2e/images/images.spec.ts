@@ -6,11 +6,8 @@ import { Headset } from '../src/headset.ts';
 import { expectStanding, OperatorPage, poseOf } from '../src/operator-page.ts';
 import { robotLike } from '../src/robots.ts';
 import { expect, test } from '../src/smoke-test.ts';
-import { keep, SURFACES } from '../src/stored.ts';
 
 const simulatedRobot = robotLike('sim-1');
-
-const WHOLE_CLOUD = { ...simulatedRobot, args: ['--source', 'sim', '--sim-seed', '1', '--fps', '5'] };
 
 /** Two eyes, or a dashboard, are more than the software renderer of a small machine draws beside the whole cloud. */
 const SAMPLE = {
@@ -25,16 +22,6 @@ const save = (page: Page, name: string) =>
 async function expectQuiet(page: Page): Promise<void> {
   await expect(page.locator('#notice')).toBeHidden();
 }
-
-test('operator-view', async ({ page, startStack }) => {
-  await page.setViewportSize({ width: 1280, height: 720 });
-  const stack = await startStack({ robots: [WHOLE_CLOUD] });
-  await keep(page, SURFACES);
-  const operator = await OperatorPage.open(page, stack.webUrl, { robot: WHOLE_CLOUD.id, every: '1' });
-  await operator.expectPoints(100_000);
-  await expectQuiet(page);
-  await save(page, 'operator-view');
-});
 
 test('pictures', async ({ page, startStack }) => {
   await page.setViewportSize({ width: 960, height: 540 });

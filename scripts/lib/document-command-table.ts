@@ -214,6 +214,7 @@ export const TREATMENTS: Readonly<Record<string, Treatment>> = {
   'pnpm release --help': { help: true },
   'pnpm docs:images': { because: 'writes into the working tree' },
   'pnpm docs:images -g dashboard': { because: 'writes into the working tree' },
+  'pnpm docs:images -g screens': { because: 'writes into the working tree' },
   'pnpm run sbom': { because: 'writes into the working tree' },
   'pnpm docs:api': { because: 'writes into the working tree' },
   'pnpm format': { because: 'writes into the working tree' },

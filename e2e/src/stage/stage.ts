@@ -28,7 +28,7 @@ export interface StageOptions {
   /** How long to wait, ms. */
   forMs?: number;
   /** From one display frame to the next, ms; counts from the page's first opening on. */
-  frameMs?: typeof FRAME_MS | typeof RARE_FRAME_MS;
+  frameMs?: number;
 }
 
 export interface Rect {
@@ -97,6 +97,8 @@ export class Stage {
     const url = new URL('/wall.html', this.#origin);
     for (const [name, value] of Object.entries(query)) url.searchParams.set(name, value);
     await this.page.goto(url.href);
+    // They are there once the wall has its texts.
+    await this.page.locator('iframe').first().waitFor({ state: 'attached' });
     for (const frame of this.page.frames())
       if (frame !== this.page.mainFrame()) await frame.evaluate(() => window.stageOpened);
     await this.run(BEGIN_MS + 500);

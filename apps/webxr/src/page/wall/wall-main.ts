@@ -1,4 +1,5 @@
 import '../../panels/ui/theme.css';
+import '../../panels/ui/ground.css';
 import './wall.css';
 import { applyDisplay } from '../../ground/display/stored-display.ts';
 import { readWallSettings } from '../../ground/wall/wall-settings.ts';

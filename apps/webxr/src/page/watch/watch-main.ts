@@ -1,4 +1,5 @@
 import '../../panels/ui/theme.css';
+import '../../panels/ui/ground.css';
 import '../../panels/ui/style.css';
 import '../../panels/ui/picture-panels.css';
 import './watch.css';
