@@ -61,6 +61,11 @@ export function textAt(place: string): string {
   return text;
 }
 
+/** Begins to load a catalogue, which {@link speak} then finds loaded. Does nothing if it cannot be loaded. */
+export function fetchTexts(wanted: Language): void {
+  catalogues[wanted].texts().catch(() => undefined);
+}
+
 /** Loads a catalogue and speaks that language from now on. @throws {Error} if it cannot be loaded */
 export async function speak(wanted: Language): Promise<void> {
   const hadLater = (spoken.peek()?.later ?? null) !== null;

@@ -1,3 +1,4 @@
+import '../../panels/ui/wanted-language.ts';
 import '../../panels/ui/theme.css';
 import '../../panels/ui/ground.css';
 import '../../panels/ui/style.css';

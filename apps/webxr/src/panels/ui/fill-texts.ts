@@ -3,10 +3,9 @@
  * its content, `data-keys` content in which brackets make a key, `data-title`, `data-label` what is read aloud of it, and
  * `data-placeholder`.
  */
-import { languageFor } from '../../ground/display/languages.ts';
-import { displaySettings } from '../../ground/display/stored-display.ts';
 import { language, speak, textAt } from '../../words/language.ts';
 import { splitKeys } from './split-keys.ts';
+import { wantedLanguage } from './wanted-language.ts';
 
 const WAYS: Readonly<Record<string, (element: HTMLElement, text: string) => void>> = {
   text(element, text) {
@@ -49,9 +48,4 @@ export async function startLanguage(): Promise<void> {
   for (const [name, write] of Object.entries(WAYS))
     for (const element of document.querySelectorAll<HTMLElement>(`[data-${name}]`))
       write(element, textAt(element.dataset[name] ?? ''));
-}
-
-/** By the present settings: another than is spoken, once they have changed. */
-export function wantedLanguage(): ReturnType<typeof language> {
-  return languageFor(displaySettings.peek().language, navigator.languages);
 }

@@ -13,8 +13,8 @@ import { type SaveEffect, saveWords, sliderWords, tileFaultWords } from '../../w
 import { addClipField } from './clip-field.ts';
 import { initDisplayFields } from './display-fields.ts';
 import { elements } from './elements.ts';
-import { wantedLanguage } from './fill-texts.ts';
 import { openDialog } from './open-dialog.ts';
+import { wantedLanguage } from './wanted-language.ts';
 
 /**
  * Sets up the dialog.
